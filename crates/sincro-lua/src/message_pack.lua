@@ -1,5 +1,5 @@
 -- MessagePack (the published format) for scripts: pack(value, ...) and unpack(text). Whole numbers in the shortest form, other
--- numbers with 64 bits, tables 1 .. n as arrays, others as maps in the order of `pairs`.
+-- numbers with 64 bits, tables whose keys are 1 .. n as arrays, others as maps in the order of `pairs`.
 local pack_text, unpack_text = string.pack, string.unpack
 local MAX_DEPTH = 64
 
@@ -30,9 +30,10 @@ end
 
 local function of_table(t, depth)
   if depth > MAX_DEPTH then error('messagePack: tables are nested too deeply', 0) end
-  local n, list, parts = 0, #t, {}
+  local n, is_array, parts = 0, true, {}
   for _ in pairs(t) do n = n + 1 end
-  if n == list then
+  for k in pairs(t) do is_array = is_array and math.type(k) == 'integer' and k >= 1 and k <= n end
+  if is_array then
     parts[1] = head(n, 0x90, 15, { false, 0xdc, 0xdd })
     for i = 1, n do parts[i + 1] = encode(t[i], depth + 1) end
   else

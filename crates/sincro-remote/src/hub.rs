@@ -11,7 +11,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use sincro_access::{ConnectionLimits, Connections};
-use sincro_coppelia::api::{ApiError, Phase};
+use sincro_coppelia::api::{ApiError, LegacyPorts, Phase};
 use sincro_coppelia::session::{Finished, Session};
 
 use crate::limits::{self, Deadlines};
@@ -413,9 +413,9 @@ impl SessionGuard {
         self.publish = Some(publish);
     }
 
-    /// Sets the function that opens ports of the legacy API for scripts.
-    pub fn on_port(&mut self, open: OpenPort) {
-        self.session.set_served();
+    /// Sets the function that opens ports of the legacy API for scripts, beside those that are open.
+    pub fn on_port(&mut self, ports: LegacyPorts, open: OpenPort) {
+        self.session.set_served(ports);
         self.open_port = Some(open);
     }
 
@@ -423,7 +423,9 @@ impl SessionGuard {
     fn open_ports(&mut self) {
         for port in self.session.registry().take_port_requests() {
             let Some(open) = &mut self.open_port else { continue };
-            let (level, line) = match open(port) {
+            let opened = open(port);
+            self.session.note_port(port, opened.is_ok());
+            let (level, line) = match opened {
                 Ok(line) => (450, line),
                 Err(line) => (300, line),
             };

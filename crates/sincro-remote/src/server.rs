@@ -9,14 +9,12 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use sincro_access::Guard;
+use sincro_coppelia::api::LegacyPorts;
 use sincro_coppelia::session::Session;
 
-use crate::hub::{Event, Hub, HubOptions};
+use crate::hub::{Event, Hub, HubOptions, OpenPort};
 use crate::limits::Deadlines;
 use crate::{legacy, listen, ws, zmq};
-
-/// Ports that scripts may have opened beside those of the command line.
-const MAX_SCRIPT_PORTS: usize = 8;
 
 /// Events that wait to be taken.
 const EVENTS: usize = 1_024;
@@ -239,7 +237,8 @@ impl Drop for Server {
 /// Lets scripts open ports of the legacy API (`simRemoteApi.start`), where that is served at all.
 fn open_for_scripts(hub: &Arc<Hub>, ports: &Ports, bind: IpAddr, opened: &ScriptPorts) {
     let (legacy, weak, opened) = (ports.legacy.clone(), Arc::downgrade(hub), opened.clone());
-    hub.enter().on_port(Box::new(move |port| {
+    let known = LegacyPorts::new(legacy.iter().map(SocketAddr::port));
+    let open_port: OpenPort = Box::new(move |port| {
         let mut opened = opened.lock().unwrap_or_else(PoisonError::into_inner);
         let is_open = legacy.iter().chain(opened.iter().map(|(address, _)| address)).any(|a| a.port() == port);
         if is_open {
@@ -247,13 +246,10 @@ fn open_for_scripts(hub: &Arc<Hub>, ports: &Ports, bind: IpAddr, opened: &Script
         }
         let refused =
             |why: &str| Err(format!("port {port} of the legacy remote API is not opened for a script: {why}"));
-        if legacy.is_empty() {
-            return refused("the server runs without the legacy API");
-        }
-        if port < 1_024 || opened.len() >= MAX_SCRIPT_PORTS {
-            return refused(&format!("expected up to {MAX_SCRIPT_PORTS} ports above 1023"));
-        }
-        let Some(hub) = weak.upgrade() else { return refused("the server is being closed") };
+        // seen under the lock of `opened`: what is pushed then is joined when the server is dropped
+        let Some(hub) = weak.upgrade().filter(|hub| !hub.is_closing()) else {
+            return refused("the server is being closed");
+        };
         let listener = match open(bind, port, "--legacy-port") {
             Ok(listener) => listener,
             Err(error) => return refused(&error.message),
@@ -264,7 +260,8 @@ fn open_for_scripts(hub: &Arc<Hub>, ports: &Ports, bind: IpAddr, opened: &Script
             Err(error) => return refused(&error.to_string()),
         }
         Ok(format!("port {port} of the legacy remote API was opened for a script"))
-    }));
+    });
+    hub.enter().on_port(known, open_port);
 }
 
 /// A listener; the standard library sets `SO_REUSEADDR` where a port would else stay taken after the last server has

@@ -6,6 +6,7 @@ interpreters that have CoppeliaSim's client 2.0.4 and 0.0.5; without one, its pr
 """
 
 import argparse
+import collections
 import json
 import pathlib
 import re
@@ -13,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -39,7 +41,10 @@ def serve(sincro, scene, out):
             if match:
                 found[key] = match.groups()
         if len(found) == 2 and 'ends' in line:
+            # what the server says later is read and dropped: a full pipe would stop it
+            threading.Thread(target=collections.deque, args=(server.stdout, 0), daemon=True).start()
             return server, found
+    server.wait()
     raise SystemExit('the server has ended: ' + ''.join(lines))
 
 
@@ -75,7 +80,10 @@ def run_script(sincro, path):
             text = text.split('\n[[script]]')[0] + '\n'
         (scene / 'scene.toml').write_text(text + '\n[[script]]\n' + '\n'.join(more) + '\n')
         command = [sincro, 'run', scene, '--set', f'duration={keys["duration"]}', '--quiet', '--out', f'{folder}/out']
-        done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT)
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            return f'not done after {TIME_LIMIT} s'
         results = pathlib.Path(folder) / 'out' / 'run.json'
         if done.returncode != 0 or not results.exists():
             return (done.stderr + done.stdout).strip()[-600:]
@@ -97,6 +105,9 @@ def main():
         ('zmq1', options.v1 and [options.v1], '*.py', 'zmq'),
         ('scripts', None, '*.lua', None),
     ]
+    known = {path.stem for folder, _, pattern, _ in groups for path in (HERE / folder).glob(pattern)}
+    if unknown := sorted(set(options.names) - known):
+        parser.error(f'there is no program or script {", ".join(unknown)}: {", ".join(sorted(known))}')
     table, start = [], time.monotonic()
     for folder, command, pattern, api in groups:
         for path in sorted((HERE / folder).glob(pattern)):

@@ -14,8 +14,10 @@ use super::graphs::Graphs;
 use super::motions::{JointMotion, Motions};
 use super::note::Notes;
 use super::pairs::{self, Pair};
+use super::ports::LegacyPorts;
 use super::senses::Senses;
 use super::signals::Signals;
+use super::stored::Stored;
 use super::tubes::Tubes;
 use super::value::Value;
 use super::vision::Vision;
@@ -161,7 +163,7 @@ pub struct ObjectRegistry {
     /// Parameters of the scripts of objects, as text.
     pub script_parameters: BTreeMap<(Handle, String), String>,
     /// Data that clients and scripts stored with objects.
-    pub data: BTreeMap<(Handle, String), Vec<u8>>,
+    pub data: BTreeMap<(Handle, String), Stored>,
     /// Parameters by name.
     pub named: BTreeMap<String, Vec<u8>>,
     log: VecDeque<LogLine>,
@@ -200,12 +202,14 @@ pub struct ObjectRegistry {
     pub(super) tubes: Tubes,
     /// Values of widgets: interface, widget, what it is a value of.
     pub(super) widgets: BTreeMap<(String, i64, &'static str), Value>,
-    /// Interfaces that were made.
+    /// Interfaces that were made and not destroyed.
+    pub(super) interfaces: BTreeSet<String>,
+    /// Number of interfaces that were made.
     pub(super) n_interfaces: usize,
     /// Frames of the scene that recorded signals are about.
     pub(super) recorded_frames: BTreeSet<Handle>,
-    /// True if clients are served: ports can be opened.
-    pub is_served: bool,
+    /// Ports of the legacy API; none if clients are not served.
+    pub legacy_ports: Option<LegacyPorts>,
     /// Ports of the legacy API that scripts want to be open.
     port_requests: Vec<u16>,
 }
@@ -254,9 +258,10 @@ impl ObjectRegistry {
             senses: Senses::new(scene),
             tubes: Tubes::default(),
             widgets: BTreeMap::new(),
+            interfaces: BTreeSet::new(),
             n_interfaces: 0,
             recorded_frames: BTreeSet::new(),
-            is_served: false,
+            legacy_ports: None,
             port_requests: Vec::new(),
         };
         for object in &scene.objects {
@@ -511,15 +516,20 @@ impl ObjectRegistry {
         self.has_stepped.then(|| self.impulse[motor])
     }
 
-    /// Refuses bytes that would be too many together with those that clients and scripts have stored already.
+    /// Refuses bytes that would be too many together with those that clients and scripts have stored already, names
+    /// included.
     ///
     /// # Errors
     ///
     /// They would.
     pub fn check_stored_size(&self, n: usize) -> Result<(), ApiError> {
-        let stored = self.strings.total()
-            + self.tubes.total()
-            + self.data.values().chain(self.named.values()).map(Vec::len).sum::<usize>();
+        let signals = self.integers.names_size() + self.floats.names_size() + self.strings.names_size();
+        let data = self.data.iter().map(|((_, tag), data)| tag.len() + data.bytes.len()).sum::<usize>();
+        let named = self.named.iter().map(|(name, bytes)| name.len() + bytes.len()).sum::<usize>();
+        let of_widget =
+            |((own, ..), value): (&(String, i64, &str), &Value)| own.len() + value.as_text().map_or(0, str::len);
+        let widgets = self.widgets.iter().map(of_widget).sum::<usize>();
+        let stored = self.strings.total() + signals + self.tubes.total() + data + named + widgets;
         if stored + n > MAX_BYTES {
             let mib = MAX_BYTES >> 20;
             return Err(ApiError(format!("signals and data of clients would take more than {mib} MiB: clear some")));
@@ -567,12 +577,18 @@ impl ObjectRegistry {
         std::mem::take(&mut self.requests)
     }
 
-    /// Asks for a port of the legacy API; false if clients are not served.
-    pub fn ask_port(&mut self, port: u16) -> bool {
-        if self.is_served && !self.port_requests.contains(&port) {
+    /// Asks for a port of the legacy API, which is opened between two steps.
+    ///
+    /// # Errors
+    ///
+    /// Clients are not served, or it may not be opened.
+    pub fn ask_port(&mut self, port: u16) -> Result<(), ApiError> {
+        let served = self.legacy_ports.as_mut();
+        let ports = served.ok_or_else(|| ApiError::new("nothing is served in this run (`sincro serve` opens it)"))?;
+        if ports.add(port)? {
             self.port_requests.push(port);
         }
-        self.is_served
+        Ok(())
     }
 
     /// Takes the ports that were asked for.
@@ -607,6 +623,8 @@ impl ObjectRegistry {
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
         self.has_stepped = false;
+        (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
+        self.recorded_frames = before.recorded_frames;
         let n_before = before.entries.len();
         for (now, then) in self.entries.iter_mut().zip(before.entries) {
             if let (Some(now), Some(then)) = (now.as_mut(), then) {

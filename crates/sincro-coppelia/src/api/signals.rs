@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ApiError;
+use super::stored::check_name;
 
 /// Names of one kind that may exist at once.
 const MAX_NAMES: usize = 10_000;
@@ -39,8 +40,9 @@ impl<T> Signals<T> {
     ///
     /// # Errors
     ///
-    /// There are too many names.
+    /// There are too many names, or the name is too long.
     pub fn set(&mut self, name: &str, value: T, of_run: bool) -> Result<(), ApiError> {
+        check_name("signal", name)?;
         if self.by_name.len() >= MAX_NAMES && !self.by_name.contains_key(name) {
             return Err(ApiError(format!("there are {MAX_NAMES} signals already: clear some")));
         }
@@ -63,6 +65,12 @@ impl<T> Signals<T> {
         self.by_name.keys().map(String::as_str)
     }
 
+    /// Bytes of all names.
+    #[must_use]
+    pub fn names_size(&self) -> usize {
+        self.by_name.keys().map(String::len).sum()
+    }
+
     /// Forgets what the last run made.
     pub(super) fn forget_run(&mut self) {
         self.by_name.retain(|_, held| !held.of_run);
@@ -80,7 +88,7 @@ impl Signals<Vec<u8>> {
     ///
     /// # Errors
     ///
-    /// It becomes too long, or there are too many names.
+    /// It becomes too long, there are too many names, or the name is too long.
     pub fn append(&mut self, name: &str, bytes: &[u8], of_run: bool) -> Result<(), ApiError> {
         let Some(held) = self.by_name.get_mut(name) else { return self.set(name, bytes.to_vec(), of_run) };
         if held.value.len() + bytes.len() > MAX_BYTES {

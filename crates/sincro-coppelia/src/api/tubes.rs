@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use super::ApiError;
+use super::stored::check_name;
 
 /// Ends that may be open at once.
 const MAX_ENDS: usize = 1_000;
@@ -27,6 +28,7 @@ struct End {
 impl Tubes {
     /// Opens an end; the first open one of the same name without a partner becomes its partner.
     pub fn open(&mut self, (header, name): (i64, &str), capacity: usize) -> Result<usize, ApiError> {
+        check_name("tube", name)?;
         let free = self.ends.iter().position(Option::is_none).unwrap_or(self.ends.len());
         if free >= MAX_ENDS {
             return Err(ApiError(format!("{MAX_ENDS} tubes are open already: close some")));
@@ -86,9 +88,10 @@ impl Tubes {
         Ok((partner.is_some(), to_read, written))
     }
 
-    /// Bytes that wait to be read.
+    /// Bytes that wait to be read, and those of names.
     pub fn total(&self) -> usize {
-        self.ends.iter().flatten().flat_map(|end| &end.received).map(Vec::len).sum()
+        let of_end = |end: &End| end.key.1.len() + end.received.iter().map(Vec::len).sum::<usize>();
+        self.ends.iter().flatten().map(of_end).sum()
     }
 }
 

@@ -18,7 +18,7 @@ use sincro_dynamics::world::MethodKind;
 
 pub use files::Files;
 
-use crate::api::{ApiError, Handle, Kind, ObjectRegistry, Phase, Request, SimApi, Value, functions};
+use crate::api::{ApiError, Handle, Kind, LegacyPorts, ObjectRegistry, Phase, Request, SimApi, Value, functions};
 use crate::api_controller::ApiController;
 use crate::host;
 use sincro_scene::diagnostic::Diagnostics;
@@ -54,8 +54,8 @@ pub struct Session {
     /// Folders that may be loaded by clients, besides the first one's own.
     root: PathBuf,
     grants: Grants,
-    /// True if clients are served.
-    is_served: bool,
+    /// Ports of the legacy API; none if clients are not served.
+    legacy_ports: Option<LegacyPorts>,
 }
 
 /// Permissions of clients beyond the simulation; none by default.
@@ -132,7 +132,7 @@ impl Session {
             steps: 0,
             root,
             grants: Grants::default(),
-            is_served: false,
+            legacy_ports: None,
         })
     }
 
@@ -224,9 +224,23 @@ impl Session {
         Ok(results)
     }
 
-    /// Says that clients are served: scripts can have ports opened.
-    pub fn set_served(&mut self) {
-        self.is_served = true;
+    /// Says that clients are served: scripts can have ports opened beside those that are.
+    pub fn set_served(&mut self, ports: LegacyPorts) {
+        self.legacy_ports = Some(ports);
+    }
+
+    /// Notes whether a port that a script asked for could be opened.
+    pub fn note_port(&mut self, port: u16, is_open: bool) {
+        let note = |ports: &mut LegacyPorts| {
+            if is_open {
+                // it is there already, or was allowed when the script asked
+                let _ = ports.add(port);
+            } else {
+                ports.remove(port);
+            }
+        };
+        self.legacy_ports.iter_mut().for_each(note);
+        self.registry().legacy_ports.iter_mut().for_each(note);
     }
 
     /// Lets clients do more than they may by themselves.
@@ -304,7 +318,7 @@ impl Session {
         if std::mem::take(&mut self.registry().is_model_changed) {
             self.adopt();
         }
-        self.registry().is_served = self.is_served;
+        self.registry().legacy_ports = self.legacy_ports.clone();
         let before = self.registry().clone();
         self.registry().begin_run();
         let start = self.lockstep.state().clone();

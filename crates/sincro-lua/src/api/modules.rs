@@ -5,9 +5,6 @@ use sincro_coppelia::api::functions;
 
 use super::ApiContext;
 
-/// Ports of the legacy API; V-REP takes negative numbers for shared memory.
-const PORTS: std::ops::RangeInclusive<i64> = 1..=65_535;
-
 pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let lua = context.lua;
     let modules = lua.create_table()?;
@@ -60,32 +57,54 @@ fn interfaces(context: &ApiContext<'_>) -> mlua::Result<Table> {
     Ok(module)
 }
 
-/// The table `simRemoteApi`: `start(port)` has a port of the legacy API opened, where clients are served.
+/// A port of the legacy API, as an argument of one of the functions of `simRemoteApi`.
+fn port_of(port: i64, function: &str) -> mlua::Result<u16> {
+    u16::try_from(port).ok().filter(|port| *port != 0).ok_or_else(|| {
+        let message = format!("port {port}: expected 1 to 65535; there is no shared memory");
+        Error::RuntimeError(format!("{message} (in function 'simRemoteApi.{function}')"))
+    })
+}
+
+/// The table `simRemoteApi`: `start(port)` has a port of the legacy API opened, where clients are served. A port is
+/// closed when the server ends, not before.
 fn remote_api(context: &ApiContext<'_>) -> mlua::Result<Table> {
     let (lua, globals) = (context.lua, context.lua.globals());
     let module = lua.create_table()?;
     let (shared, own, index) = (context.shared.clone(), context.own, context.index);
     let start = lua.create_function(move |_, (port, _): (i64, MultiValue)| {
-        let Some(port) = Some(port).filter(|port| PORTS.contains(port)).and_then(|port| u16::try_from(port).ok())
-        else {
-            let message = format!("port {port}: expected 1 to 65535; there is no shared memory");
-            return Err(Error::RuntimeError(format!("{message} (in function 'simRemoteApi.start')")));
-        };
+        let port = port_of(port, "start")?;
         let asked = shared.with_sim(own, |sim| Ok(sim.registry.ask_port(port)));
-        if asked.map_err(|error| super::refused("simRemoteApi.start", &error))? {
-            return Ok(1);
+        match asked.map_err(|error| super::refused("simRemoteApi.start", &error))? {
+            Ok(()) => Ok(1),
+            Err(why) => {
+                shared.say(index, format!("port {port} is not opened: {why}"));
+                Ok(-1)
+            }
         }
-        shared
-            .say(index, format!("port {port} is not opened: nothing is served in this run (`sincro serve` opens it)"));
-        Ok(-1)
     })?;
-    let known = lua.create_function(|_, _: MultiValue| Ok(1))?;
-    // no client is known here: nothing is told but that the service is there
-    let status = lua.create_function(|_, _: LuaValue| Ok((1, LuaValue::Nil, LuaValue::Nil, 11)))?;
+    let left = |name: &'static str| {
+        let shared = context.shared.clone();
+        lua.create_function(move |_, (port, _): (i64, MultiValue)| {
+            let port = port_of(port, name)?;
+            let why = "ports stay as they are until the server ends";
+            shared.say(index, format!("simRemoteApi.{name} does nothing to port {port}: {why}"));
+            Ok(-1)
+        })
+    };
+    let (stop, reset) = (left("stop")?, left("reset")?);
+    let shared = context.shared.clone();
+    // clients are not told apart by their ports: whether it is open is all that is known
+    let status = lua.create_function(move |_, (port, _): (i64, MultiValue)| {
+        let port = port_of(port, "status")?;
+        let is_open =
+            shared.with_sim(own, |sim| Ok(sim.registry.legacy_ports.as_ref().is_some_and(|all| all.contains(port))));
+        let is_open = is_open.map_err(|error| super::refused("simRemoteApi.status", &error))?;
+        Ok((if is_open { 1 } else { -1 }, LuaValue::Nil, LuaValue::Nil, 11))
+    })?;
     for (name, old, function) in [
         ("start", "simExtRemoteApiStart", start),
-        ("stop", "simExtRemoteApiStop", known.clone()),
-        ("reset", "simExtRemoteApiReset", known),
+        ("stop", "simExtRemoteApiStop", stop),
+        ("reset", "simExtRemoteApiReset", reset),
         ("status", "simExtRemoteApiStatus", status),
     ] {
         module.set(name, &function)?;

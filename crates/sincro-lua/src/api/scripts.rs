@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mlua::{Error, Value as LuaValue};
-use sincro_coppelia::api::{ApiError, Handle};
+use sincro_coppelia::api::{ApiError, Handle, check_name};
 use sincro_scene::script::{Kind, Script};
 
 use super::ApiContext;
@@ -124,6 +124,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 if parameters.len() >= MAX_PARAMETERS && !is_known {
                     return Err(ApiError(format!("there are {MAX_PARAMETERS} parameters already")));
                 }
+                check_name("parameter", &name)?;
                 parameters.insert(key, text.clone());
                 n_set += 1;
             }

@@ -12,6 +12,15 @@ fn message_pack_gives_back_what_was_packed_in_the_published_format() {
             -- examples of the format's specification
             print(hex(mp.pack({ compact = true, schema = 0 })))
             print(hex(mp.pack(-1)), hex(mp.pack(128)), hex(mp.pack(-32768)), hex(mp.pack(1.5)), hex(mp.pack('abc')), hex(mp.pack({ 1, 2 })))
+            -- tables with holes or other keys are maps: nothing of them is lost
+            for _, t in ipairs { { 1, 2, nil, 4, x = 5 }, { 1, nil, 3 }, { [1.5] = 2, [1] = 3 }, { [0] = 1, 2 }, { x = 1, y = 2, 3, 4 }, {}, { 1, 2, 3 } } do
+                local back, n, m = mp.unpack(mp.pack(t)), 0, 0
+                for k, v in pairs(t) do n = n + (back[k] == v and 1 or 1000) end
+                for _ in pairs(back) do m = m + 1 end
+                if n ~= m then print('lost', n, m) end
+            end
+            local mixed = mp.unpack(mp.pack { 1, 2, nil, 4, x = 5 })
+            print(mixed[1], mixed[2], mixed[3], mixed[4], mixed.x)
             local long = string.rep('x', 70000)
             local t = mp.unpack(mp.pack { a = { 1, -2, 3.25, 'text', false }, b = long, n = 1 << 40, [7] = true })
             print(t.a[1], t.a[2], t.a[3], t.a[4], t.a[5], t.b == long, t.n, t[7])
@@ -27,6 +36,7 @@ fn message_pack_gives_back_what_was_packed_in_the_published_format() {
         [
             "82a7636f6d70616374c3a6736368656d6100",
             "ff\tcc80\td18000\tcb3ff8000000000000\ta3616263\t920102",
+            "1\t2\tnil\t4\t5",
             "1\t-2\t3.25\ttext\tfalse\ttrue\t1099511627776\ttrue",
         ]
     );
@@ -53,10 +63,15 @@ fn a_run_without_a_server_says_that_no_port_is_opened() {
     let code = "
         function sysCall_init()
             print(simRemoteApi.start(19999, 1300, false, true), simExtRemoteApiStart(20000))
+            print(simRemoteApi.stop(19999), simRemoteApi.reset(19999), (simRemoteApi.status(19999)))
             print(pcall(simRemoteApi.start, -1))
         end";
     let said = said(code);
-    assert!(said.contains(&"-1\t-1".to_owned()), "{said:?}");
+    assert!(said.contains(&"-1\t-1".to_owned()) && said.contains(&"-1\t-1\t-1".to_owned()), "{said:?}");
+    for name in ["stop", "reset"] {
+        let line = format!("simRemoteApi.{name} does nothing to port 19999");
+        assert!(said.iter().any(|said| said.contains(&line)), "{said:?}");
+    }
     assert_eq!(said.iter().filter(|line| line.contains("is not opened: nothing is served")).count(), 2);
     assert!(said.last().unwrap().starts_with("false\t") && said.last().unwrap().contains("expected 1 to 65535"));
 }

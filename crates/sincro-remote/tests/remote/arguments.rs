@@ -98,6 +98,13 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "getObjectChild" => vec![joint.clone(), int(0)],
         "readCustomDataBlock" => vec![joint.clone(), text()],
         "writeCustomDataBlock" => vec![joint.clone(), text(), Value::Bytes(vec![1])],
+        "setStringSignal"
+        | "setBufferSignal"
+        | "setNamedStringParam"
+        | "setStringNamedParam"
+        | "persistentDataWrite" => {
+            vec![text(), Value::Bytes(vec![1])]
+        }
         "getScriptSimulationParameter" => vec![joint.clone(), text()],
         "setScriptSimulationParameter" => vec![joint.clone(), text(), text()],
         "setObjectParent" => vec![point.clone(), int(-1), Value::Bool(true)],

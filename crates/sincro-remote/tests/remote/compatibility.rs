@@ -114,7 +114,7 @@ fn a_script_has_a_port_of_the_legacy_api_opened() {
     let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
     let folder = scenes::two_link_arm("");
     let script = format!(
-        "[[script]]\nobject = \"/joint1\"\ncode = '''\nfunction sysCall_init()\n  print(simRemoteApi.start({port}), simExtRemoteApiStart(80))\nend\n'''\n"
+        "[[script]]\nobject = \"/joint1\"\ncode = '''\nfunction sysCall_init()\n  print('answers', simRemoteApi.start({port}), simExtRemoteApiStart(80), (simRemoteApi.status({port})), (simRemoteApi.status(80)), simRemoteApi.stop({port}))\nend\n'''\n"
     );
     folder.write("scene.toml", &format!("{}\n{script}", scenes::TWO_LINK_ARM));
     let server = folder.session(with_scripts(), None).serve(&options());
@@ -138,5 +138,6 @@ fn a_script_has_a_port_of_the_legacy_api_opened() {
         lines.iter().any(|line| line.contains(&format!("port {port}")) && line.contains("was opened")),
         "{lines:?}"
     );
+    assert!(lines.iter().any(|line| line.contains("answers\t1\t-1\t1\t-1\t-1")), "{lines:?}");
     assert!(lines.iter().any(|line| line.contains("port 80") && line.contains("is not opened")), "{lines:?}");
 }

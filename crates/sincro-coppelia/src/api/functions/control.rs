@@ -1,6 +1,7 @@
 //! Functions: the simulation itself, its parameters, messages.
 
 use super::{Function, Outcome, done, one};
+use crate::api::stored::check_name;
 use crate::api::{Arguments, Phase, Request, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -165,10 +166,11 @@ fn set_named(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn keep_named(sim: &mut SimApi<'_>, a: Arguments<'_>, bytes: impl AsRef<[u8]>) -> Outcome {
     let (name, bytes) = (a.text(0)?, bytes.as_ref());
+    check_name("parameter", name)?;
     if sim.registry.named.len() >= 1_000 && !sim.registry.named.contains_key(name) {
         return Err(crate::api::ApiError::new("there are 1000 named parameters already"));
     }
-    sim.registry.check_stored_size(bytes.len())?;
+    sim.registry.check_stored_size(name.len() + bytes.len())?;
     sim.registry.named.insert(name.to_owned(), bytes.to_vec());
     done()
 }

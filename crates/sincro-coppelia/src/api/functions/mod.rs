@@ -45,7 +45,7 @@ use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 pub use absent::{absent, why_absent};
 pub use names::{old_names, present_name};
-pub use partly::missing_part;
+pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
 pub use waiting::{MOVES, Move};
 pub use windows::is_display_only;
 
@@ -102,7 +102,7 @@ pub fn ik_functions() -> impl Iterator<Item = &'static Function> {
 
 /// Every function of `simUI`, without it.
 pub fn ui_functions() -> impl Iterator<Item = &'static Function> {
-    ui::FUNCTIONS.iter().chain(ui::KEPT)
+    ui::FUNCTIONS.iter().chain(ui::SHOWN).chain(ui::KEPT)
 }
 
 /// Older names of functions of `simIK`, with their present ones.

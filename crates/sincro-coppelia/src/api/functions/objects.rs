@@ -3,7 +3,8 @@
 use sincro_dynamics::joint::JointKind;
 
 use super::{Function, Outcome, done, handle, one, plain};
-use crate::api::{ApiError, Arguments, Entry, Handle, Kind, Search, SimApi, Value, cbor, unpack};
+use crate::api::stored::{Form, Stored, check_tag};
+use crate::api::{ApiError, Arguments, Entry, Handle, Kind, Search, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "getObject", tip: "int objectHandle=sim.getObject(string path,map options={})", run: get_object },
@@ -131,7 +132,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "writeCustomStringData",
         tip: "sim.writeCustomStringData(int objectHandle,string tagName,string data)",
-        run: write_data,
+        run: write_text,
     },
     Function {
         name: "readCustomStringData",
@@ -393,63 +394,77 @@ pub(super) fn owner(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Hand
     }
 }
 
-/// Stores data under a key; none removes it.
-pub(super) fn store(sim: &mut SimApi<'_>, key: (Handle, String), bytes: Vec<u8>) -> Outcome {
-    if bytes.is_empty() {
-        sim.registry.data.remove(&key);
-    } else if sim.registry.data.len() >= 10_000 && !sim.registry.data.contains_key(&key) {
+/// Stores data under a tag of an object, the scene or the application.
+pub(super) fn store(sim: &mut SimApi<'_>, (own, tag): (Handle, &str), data: Stored) -> Outcome {
+    check_tag(tag)?;
+    let key = (own, tag.to_owned());
+    if sim.registry.data.len() >= 10_000 && !sim.registry.data.contains_key(&key) {
         return Err(ApiError::new("there are 10000 blocks of data already"));
-    } else {
-        sim.registry.check_stored_size(bytes.len())?;
-        sim.registry.data.insert(key, bytes);
     }
+    sim.registry.check_stored_size(tag.len() + data.bytes.len())?;
+    sim.registry.data.insert(key, data);
+    done()
+}
+
+/// The data under the tag that is argument 2.
+fn stored<'s>(sim: &'s SimApi<'_>, a: Arguments<'_>) -> Result<Option<&'s Stored>, ApiError> {
+    let own = owner(sim, a, 0)?;
+    let tag = a.text(1)?;
+    check_tag(tag)?;
+    Ok(sim.registry.data.get(&(own, tag.to_owned())))
+}
+
+/// Stores data under the tag that is argument 2; no bytes remove what is there.
+fn write(sim: &mut SimApi<'_>, a: Arguments<'_>, data: Stored) -> Outcome {
+    let (own, tag) = (owner(sim, a, 0)?, a.text(1)?);
+    if !data.bytes.is_empty() {
+        return store(sim, (own, tag), data);
+    }
+    check_tag(tag)?;
+    sim.registry.data.remove(&(own, tag.to_owned()));
     done()
 }
 
 fn read_text(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let own = owner(sim, a, 0)?;
-    let Some(bytes) = sim.registry.data.get(&(own, a.text(1)?.to_owned())) else { return Ok(vec![Value::Nil]) };
-    let text =
-        String::from_utf8(bytes.clone()).map_err(|_| ApiError::new("these data are no text: read them as a buffer"))?;
-    one(text)
+    stored(sim, a)?.map_or(Ok(vec![Value::Nil]), |data| one(data.text()?))
+}
+
+/// Text, or what a script has as one and is none.
+fn write_text(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    match a.get(2) {
+        text @ Value::Text(_) => write(sim, a, Stored::from_value(text)),
+        _ => write_data(sim, a),
+    }
 }
 
 fn write_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let key = (owner(sim, a, 0)?, a.text(1)?.to_owned());
-    let mut bytes = Vec::new();
-    match a.get(2) {
-        Value::Nil => {}
-        table @ (Value::List(_) | Value::Map(_)) => cbor::encode(table, &mut bytes),
+    let data = match a.get(2) {
+        Value::Nil => Stored { form: Form::Packed, bytes: Vec::new() },
+        table @ (Value::List(_) | Value::Map(_) | Value::Numbered(_)) => Stored::from_value(table),
         other => return Err(ApiError(format!("argument 3 is {}, expected a table", other.word()))),
-    }
-    store(sim, key, bytes)
+    };
+    write(sim, a, data)
 }
 
 /// An empty table if there is none.
 fn read_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let own = owner(sim, a, 0)?;
-    let Some(bytes) = sim.registry.data.get(&(own, a.text(1)?.to_owned())) else {
-        return Ok(vec![Value::Map(Vec::new())]);
-    };
-    one(unpack::read(bytes).map_err(ApiError)?)
+    stored(sim, a)?.map_or_else(|| one(Value::Map(Vec::new())), |data| one(data.table()?))
 }
 
 fn tags(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = owner(sim, a, 0)?;
-    let tags = sim.registry.data.keys().filter(|(h, tag)| *h == own && !tag.starts_with('\u{0}'));
+    let tags = sim.registry.data.keys().filter(|(h, _)| *h == own);
     Ok(vec![Value::List(tags.map(|(_, tag)| Value::from(tag.as_str())).collect())])
 }
 
+/// The bytes of data of any form.
 fn read_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let own = owner(sim, a, 0)?;
-    let data = sim.registry.data.get(&(own, a.text(1)?.to_owned()));
-    Ok(vec![data.map_or(Value::Nil, |bytes| Value::Bytes(bytes.clone()))])
+    Ok(vec![stored(sim, a)?.map_or(Value::Nil, |data| Value::Bytes(data.bytes.clone()))])
 }
 
 fn write_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let key = (owner(sim, a, 0)?, a.text(1)?.to_owned());
     let bytes = if a.has(2) { a.bytes(2)?.to_vec() } else { Vec::new() };
-    store(sim, key, bytes)
+    write(sim, a, Stored { form: Form::Bytes, bytes })
 }
 
 /// Scripts have the handles of their objects here.

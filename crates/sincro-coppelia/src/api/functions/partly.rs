@@ -1,5 +1,7 @@
 //! Functions that are offered with less than V-REP and CoppeliaSim have: what is missing. For `docs/compatibility.md`.
 
+use super::{Function, properties, ui};
+
 /// Names, and what of them is not offered.
 const PARTLY: &[(&[&str], &str)] = &[
     (&["setObjectParent"], "frames, cameras and runtime objects; bodies and joints hang as the scene file says"),
@@ -42,10 +44,6 @@ const PARTLY: &[(&[&str], &str)] = &[
     (&["saveImage"], "gives PNG bytes, writes no file"),
     (&["resetDynamicObject"], "taken: there is nothing to reset"),
     (
-        &["getProperty", "setProperty", "getPropertyName", "getFloatProperty", "getIntProperty", "getVector3Property"],
-        "the properties that correspond to functions, customData, signal",
-    ),
-    (
         &["simIK.findConfig", "simIK.findConfigs"],
         "seconds stand for a number of attempts; validation functions in Lua only",
     ),
@@ -64,16 +62,69 @@ const PARTLY: &[(&[&str], &str)] = &[
     (&["simIK.setJointMode"], "passive and ik"),
 ];
 
-/// Missing part of a function that is offered partly, by its present name; `simIK.…` with its module.
+/// Names of functions that only scripts have as told here, and what of them is not offered.
+const IN_SCRIPTS: &[(&[&str], &str)] = &[
+    (&["acquireLock", "releaseLock"], "in scripts taken without effect: they run one after the other"),
+    (
+        &["setThreadResumeLocation", "setThreadSwitchTiming", "setAutoYieldDelay", "setThreadIsFree"],
+        "taken without effect: a waiting script is resumed at the next step",
+    ),
+    (&["handleChildScript"], "taken without effect: every script is called at each step"),
+    (&["getThreadId"], "always 0"),
+    (&["getNameSuffix", "setNameSuffix"], "a script's suffix is that of its object: setting is without effect"),
+    (
+        &["simRemoteApi.start"],
+        "up to 8 ports above 1023, opened before the next step; what the system refuses is in the log",
+    ),
+    (&["simRemoteApi.stop", "simRemoteApi.reset"], "always −1: a port stays open until the server ends"),
+    (&["simRemoteApi.status"], "1 if the port is open, else −1; not whether a client is connected"),
+];
+
+/// Missing part of a function that is offered partly, by its present name; `simIK.…` and `simUI.…` with their modules.
 #[must_use]
 pub fn missing_part(name: &str) -> Option<&'static str> {
-    let display = super::is_display_only(name).then_some("taken without effect: nothing is drawn");
-    PARTLY.iter().find(|(names, _)| names.contains(&name)).map(|(_, what)| *what).or(display)
+    let is_in = |list: &[Function], name: &str| list.iter().any(|f| f.name == name);
+    let by_table = if let Some(name) = name.strip_prefix("simUI.") {
+        let is_shown = is_in(ui::SHOWN, name).then_some("taken without effect: nothing is shown");
+        is_shown.or_else(|| {
+            let what = "there is no window: values are kept and given back, nothing is pressed or called";
+            (is_in(ui::FUNCTIONS, name) || is_in(ui::KEPT, name)).then_some(what)
+        })
+    } else if super::is_display_only(name) {
+        Some("taken without effect: nothing is drawn")
+    } else {
+        let is_property = is_in(properties::TYPED, name) || is_in(properties::FUNCTIONS, name);
+        is_property.then_some("the properties that correspond to functions, customData, signal")
+    };
+    PARTLY.iter().find(|(names, _)| names.contains(&name)).map(|(_, what)| *what).or(by_table)
+}
+
+/// Missing part of a function in scripts, where clients have it whole or not at all.
+#[must_use]
+pub fn missing_in_scripts(name: &str) -> Option<&'static str> {
+    IN_SCRIPTS.iter().find(|(names, _)| names.contains(&name)).map(|(_, what)| *what)
+}
+
+/// Names that [`missing_in_scripts`] knows.
+pub fn partly_in_scripts() -> impl Iterator<Item = &'static str> {
+    IN_SCRIPTS.iter().flat_map(|(names, _)| names.iter().copied())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_parts_of_modules_and_properties_come_from_their_tables() {
+        let properties = super::super::functions().map(|f| f.name).filter(|name| {
+            let is_object = ["getObjectProperty", "setObjectProperty"].contains(name);
+            name.ends_with("Property") && !is_object
+        });
+        let of_ui = super::super::ui_functions().map(|f| format!("simUI.{}", f.name));
+        let whole: Vec<String> =
+            properties.map(str::to_owned).chain(of_ui).filter(|name| missing_part(name).is_none()).collect();
+        assert_eq!(whole, Vec::<String>::new());
+    }
 
     #[test]
     fn what_is_offered_partly_is_offered() {

@@ -5,7 +5,8 @@
 
 use super::objects::owner;
 use super::{Function, Outcome, done, function, one};
-use crate::api::{ApiError, Arguments, Handle, SimApi, Value, cbor, unpack};
+use crate::api::stored::{Stored, check_tag};
+use crate::api::{ApiError, Arguments, Handle, SimApi, Value};
 
 /// Kind of a property, as the functions name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -219,22 +220,14 @@ fn value(sim: &mut SimApi<'_>, target: Handle, name: &str) -> Result<Option<Valu
         return Ok(integer.or_else(float).or_else(text));
     }
     if let Some(tag) = name.strip_prefix("customData.") {
-        if let Some(bytes) = sim.registry.data.get(&(target, tag.to_owned())) {
-            return Ok(Some(Value::Bytes(bytes.clone())));
-        }
-        let packed = sim.registry.data.get(&(target, encoded(tag)));
-        return packed.map(|bytes| unpack::read(bytes).map_err(ApiError)).transpose();
+        check_tag(tag)?;
+        return sim.registry.data.get(&(target, tag.to_owned())).map(Stored::value).transpose();
     }
     let property = known(target, name)?;
     let own = (target != SCENE).then(|| Value::from(target));
     let arguments: Vec<Value> = own.into_iter().chain(property.get.1.iter().map(|x| Value::Int(*x))).collect();
     let mut results = call(sim, property.get.0, &arguments)?;
     Ok((!results.is_empty()).then(|| results.swap_remove(0)).filter(|value| *value != Value::Nil))
-}
-
-/// Key of a stored value that is not plain bytes; tags of clients cannot contain it.
-fn encoded(tag: &str) -> String {
-    format!("\u{0}{tag}")
 }
 
 /// Options: `noError`.
@@ -267,16 +260,7 @@ fn set(sim: &mut SimApi<'_>, a: Arguments<'_>, kind: Option<Type>) -> Outcome {
         return set_signal(sim, signal, value);
     }
     if let Some(tag) = name.strip_prefix("customData.") {
-        let bytes = if let Value::Bytes(bytes) = value {
-            sim.registry.data.remove(&(target, encoded(tag)));
-            return super::objects::store(sim, (target, tag.to_owned()), bytes);
-        } else {
-            let mut bytes = Vec::new();
-            cbor::encode(&value, &mut bytes);
-            bytes
-        };
-        sim.registry.data.remove(&(target, tag.to_owned()));
-        return super::objects::store(sim, (target, encoded(tag)), bytes);
+        return super::objects::store(sim, (target, tag), Stored::from_value(&value));
     }
     let property = known(target, name)?;
     let Some((setter, before, behind)) = property.set else {
@@ -291,19 +275,42 @@ fn set(sim: &mut SimApi<'_>, a: Arguments<'_>, kind: Option<Type>) -> Outcome {
 }
 
 fn set_signal(sim: &mut SimApi<'_>, signal: &str, value: Value) -> Outcome {
-    let of_run = sim.registry.phase.is_on();
-    remove_signal(sim, signal);
-    match value {
-        Value::Int(x) => sim.registry.integers.set(signal, x, of_run)?,
-        Value::Bool(x) => sim.registry.integers.set(signal, x.into(), of_run)?,
-        Value::Real(x) => sim.registry.floats.set(signal, x, of_run)?,
+    if signal.is_empty() {
+        return Err(ApiError::new("a signal has no name: write signal.NAME"));
+    }
+    let registry = &mut *sim.registry;
+    let of_run = registry.phase.is_on();
+    // set first: an error leaves what another kind of signal has under this name
+    let set = match value {
+        Value::Int(x) => {
+            registry.integers.set(signal, x, of_run)?;
+            0
+        }
+        Value::Bool(x) => {
+            registry.integers.set(signal, x.into(), of_run)?;
+            0
+        }
+        Value::Real(x) => {
+            registry.floats.set(signal, x, of_run)?;
+            1
+        }
         other => {
             let bytes = other.as_bytes().ok_or_else(|| {
                 ApiError::new("signals are numbers, texts and bytes here: pack tables with sim.packTable")
             })?;
-            sim.registry.check_stored_size(bytes.len())?;
-            sim.registry.strings.set(signal, bytes.to_vec(), of_run)?;
+            registry.check_stored_size(signal.len() + bytes.len())?;
+            registry.strings.set(signal, bytes.to_vec(), of_run)?;
+            2
         }
+    };
+    if set != 0 {
+        registry.integers.clear(signal);
+    }
+    if set != 1 {
+        registry.floats.clear(signal);
+    }
+    if set != 2 {
+        registry.strings.clear(signal);
     }
     done()
 }
@@ -324,8 +331,8 @@ fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     }
     let tag = name.strip_prefix("customData.");
     let tag = tag.ok_or_else(|| ApiError(format!("property `{name:.60}` is no stored data: it stays")))?;
+    check_tag(tag)?;
     sim.registry.data.remove(&(target, tag.to_owned()));
-    sim.registry.data.remove(&(target, encoded(tag)));
     done()
 }
 
@@ -338,8 +345,7 @@ fn name_at(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         _ => PROPERTIES,
     };
     let stored = sim.registry.data.keys().filter(|(h, _)| *h == target);
-    let stored: Vec<String> =
-        stored.map(|(_, tag)| format!("customData.{}", tag.trim_start_matches('\u{0}'))).collect();
+    let stored: Vec<String> = stored.map(|(_, tag)| format!("customData.{tag}")).collect();
     let mut names: Vec<String> = list.iter().map(|p| p.name.to_owned()).collect();
     names.retain(|name| value(&mut *sim, target, name).is_ok_and(|value| value.is_some()));
     names.extend(stored);

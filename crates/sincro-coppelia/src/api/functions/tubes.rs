@@ -25,7 +25,9 @@ pub(super) const FUNCTIONS: &[Function] = &[
 
 fn open(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let capacity = usize::try_from(a.int_or(2, 1)?).map_err(|_| ApiError::new("the size of the buffer is negative"))?;
-    one(sim.registry.tubes.open((a.int(0)?, a.text(1)?), capacity)? as i64)
+    let name = a.text(1)?;
+    sim.registry.check_stored_size(name.len())?;
+    one(sim.registry.tubes.open((a.int(0)?, name), capacity)? as i64)
 }
 
 fn close(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {

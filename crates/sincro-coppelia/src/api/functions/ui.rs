@@ -6,6 +6,8 @@ use crate::api::{ApiError, Arguments, SimApi, Value};
 
 /// Values that a client or script may keep in interfaces.
 const MAX_VALUES: usize = 10_000;
+/// Interfaces that may exist at once.
+const MAX_INTERFACES: usize = 1_000;
 
 /// A function that shows something.
 const fn shown(name: &'static str, tip: &'static str) -> Function {
@@ -63,6 +65,10 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "int width,int height=simUI.getSize(string handle)",
         run: |_, _| Ok(vec![Value::Int(0), Value::Int(0)]),
     },
+];
+
+/// Functions of `simUI` that only show something, named without it.
+pub(super) const SHOWN: &[Function] = &[
     shown("show", "simUI.show(string handle)"),
     shown("hide", "simUI.hide(string handle)"),
     shown("setPosition", "simUI.setPosition(string handle,int x,int y)"),
@@ -95,8 +101,14 @@ pub(super) const FUNCTIONS: &[Function] = &[
 
 fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     a.text(0)?;
-    sim.registry.n_interfaces += 1;
-    one(format!("ui{}", sim.registry.n_interfaces))
+    let registry = &mut *sim.registry;
+    if registry.interfaces.len() >= MAX_INTERFACES {
+        return Err(ApiError(format!("there are {MAX_INTERFACES} interfaces already: destroy some")));
+    }
+    registry.n_interfaces += 1;
+    let handle = format!("ui{}", registry.n_interfaces);
+    registry.interfaces.insert(handle.clone());
+    one(handle)
 }
 
 /// Key of a value of a widget.
@@ -105,6 +117,9 @@ fn key(a: Arguments<'_>, of: &'static str) -> Result<(String, i64, &'static str)
 }
 
 fn put(sim: &mut SimApi<'_>, key: (String, i64, &'static str), value: &Value) -> Outcome {
+    if !sim.registry.interfaces.contains(&key.0) {
+        return Err(ApiError(format!("there is no interface `{:.30}`: simUI.create gives the handle of one", key.0)));
+    }
     let values = &sim.registry.widgets;
     if values.len() >= MAX_VALUES && !values.contains_key(&key) {
         return Err(ApiError(format!("{MAX_VALUES} values of widgets are kept already: destroy an interface")));
@@ -113,6 +128,7 @@ fn put(sim: &mut SimApi<'_>, key: (String, i64, &'static str), value: &Value) ->
     if size > 10_000 || matches!(value, Value::List(_) | Value::Map(_) | Value::Bytes(_)) {
         return Err(ApiError::new("a widget holds a number or a text of up to 10000 bytes"));
     }
+    sim.registry.check_stored_size(key.0.len() + size)?;
     sim.registry.widgets.insert(key, value.clone());
     done()
 }
@@ -137,6 +153,7 @@ fn set_title(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn destroy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let handle = a.text(0)?.to_owned();
+    sim.registry.interfaces.remove(&handle);
     sim.registry.widgets.retain(|(own, _, _), _| *own != handle);
     done()
 }

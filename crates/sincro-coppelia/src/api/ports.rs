@@ -1,0 +1,75 @@
+//! Ports of the legacy API as scripts know them: which are open, and which may be opened for them.
+
+use std::collections::BTreeSet;
+
+use super::ApiError;
+
+/// Ports that scripts may have opened beside those of the command line.
+const MAX_SCRIPT_PORTS: usize = 8;
+/// The smallest port that is opened for a script.
+const MIN_PORT: u16 = 1_024;
+
+/// Ports of the legacy API of a server.
+#[derive(Clone, Debug, Default)]
+pub struct LegacyPorts {
+    of_server: BTreeSet<u16>,
+    of_scripts: BTreeSet<u16>,
+}
+
+impl LegacyPorts {
+    /// The ports that a server has opened by itself; none if it does not serve the legacy API.
+    #[must_use]
+    pub fn new(of_server: impl IntoIterator<Item = u16>) -> Self {
+        Self { of_server: of_server.into_iter().collect(), of_scripts: BTreeSet::new() }
+    }
+
+    /// Returns true if a port is open, or about to be opened for a script.
+    #[must_use]
+    pub fn contains(&self, port: u16) -> bool {
+        self.of_server.contains(&port) || self.of_scripts.contains(&port)
+    }
+
+    /// Adds a port for a script; false if it is open already.
+    ///
+    /// # Errors
+    ///
+    /// The legacy API is not served, or the port may not be opened.
+    pub fn add(&mut self, port: u16) -> Result<bool, ApiError> {
+        if self.contains(port) {
+            return Ok(false);
+        }
+        if self.of_server.is_empty() {
+            return Err(ApiError::new("the server runs without the legacy API"));
+        }
+        if port < MIN_PORT || self.of_scripts.len() >= MAX_SCRIPT_PORTS {
+            let below = MIN_PORT - 1;
+            return Err(ApiError(format!("scripts may have up to {MAX_SCRIPT_PORTS} ports above {below} opened")));
+        }
+        self.of_scripts.insert(port);
+        Ok(true)
+    }
+
+    /// Removes a port that could not be opened for a script.
+    pub fn remove(&mut self, port: u16) {
+        self.of_scripts.remove(&port);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scripts_have_a_few_ports_above_those_of_the_system() {
+        let mut ports = LegacyPorts::new([19_997]);
+        assert!(!ports.add(19_997).unwrap(), "it is open already");
+        assert!(ports.add(80).unwrap_err().0.contains("above 1023"));
+        for port in 0..8 {
+            assert!(ports.add(20_000 + port).unwrap());
+        }
+        assert!(ports.add(20_008).is_err() && !ports.contains(20_008));
+        ports.remove(20_000);
+        assert!(ports.add(20_008).unwrap() && ports.contains(20_008) && !ports.contains(20_000));
+        assert!(LegacyPorts::default().add(20_000).unwrap_err().0.contains("without the legacy API"));
+    }
+}
