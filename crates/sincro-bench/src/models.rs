@@ -21,7 +21,7 @@ impl Robot {
 }
 
 /// Every robot, in the order of the table.
-pub(super) const NAMES: [&str; 13] = [
+pub(super) const NAMES: [&str; 16] = [
     "pend_spring",
     "pend_free",
     "arm2",
@@ -35,6 +35,9 @@ pub(super) const NAMES: [&str; 13] = [
     "chain200",
     "humanoid",
     "humanoid_lying",
+    "heap10",
+    "heap20",
+    "heap40",
 ];
 
 /// Text of the scene of a robot.
@@ -49,6 +52,9 @@ fn text(name: &str) -> String {
         "panda" => include_str!("../models/panda/scene.toml").into(),
         "humanoid" => include_str!("../models/humanoid/scene.toml").into(),
         "humanoid_lying" => include_str!("../models/humanoid_lying/scene.toml").into(),
+        "heap10" => include_str!("../models/heap10/scene.toml").into(),
+        "heap20" => include_str!("../models/heap20/scene.toml").into(),
+        "heap40" => include_str!("../models/heap40/scene.toml").into(),
         chain => chain_text(chain["chain".len()..].parse().expect("a chain's name ends in its length")),
     }
 }

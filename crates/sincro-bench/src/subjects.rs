@@ -149,15 +149,15 @@ impl Stepper {
     /// that is timed.
     fn pressing(&mut self) -> String {
         self.restart();
-        let unsolved = |world: &World| world.solver_report().map_or(0, |r| r.not_converged);
+        let unsolved = |world: &World| world.solver_report().map_or(0, |r| r.not_converged + r.unconverged_islands);
         let (mut points, mut active_limits, before) = (0, 0, unsolved(&self.world));
         for _ in 0..STEPS_A_SECOND {
             self.advance();
             // the normal force that the step found for each slot, limits first
             let limits = self.world.model().constraints().limits.len();
-            let forces = self.world.state.contacts.iter().step_by(SLOT_LEN).enumerate();
-            for (slot, _) in forces.filter(|(_, force)| **force > 0.0) {
-                *(if slot < limits { &mut active_limits } else { &mut points }) += 1;
+            let records = self.world.state.contacts.get(1..).unwrap_or_default().chunks_exact(1 + SLOT_LEN);
+            for record in records.filter(|record| record[1] > 0.0) {
+                *(if (record[0] as usize) < limits { &mut active_limits } else { &mut points }) += 1;
             }
         }
         let unsolved = unsolved(&self.world) - before;
@@ -174,7 +174,7 @@ fn restore(state: &mut State<f64>, start: &State<f64>) {
     state.v.copy_from_slice(&start.v);
     state.commands.copy_from_slice(&start.commands);
     state.drives.copy_from_slice(&start.drives);
-    state.contacts.copy_from_slice(&start.contacts);
+    state.contacts.clone_from(&start.contacts);
     state.totals.copy_from_slice(&start.totals);
     state.rotors.copy_from_slice(&start.rotors);
     state.tick = start.tick;

@@ -1,9 +1,11 @@
 //! Consistency of an initial state: residuals of loop joints and gears, joint limits, penetrations, and the mobility of
 //! the mechanism.
 
+use crate::contact::candidate_list::SlotCandidate;
 use crate::integrate::System;
 use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::ActivationRule;
+use crate::mechanism::constraints::ProjectedRows;
 use crate::model::Model;
 use crate::state::State;
 
@@ -94,7 +96,7 @@ pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     mechanism.drives.fill(1.0);
     mechanism.mark_locked();
     for _ in 0..20 {
-        mechanism.project(&mut y, false);
+        mechanism.project(&mut y, ProjectedRows::Penetrating);
     }
     let mut closed = x.clone();
     closed.q.copy_from_slice(mechanism.base());
@@ -110,11 +112,11 @@ pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     mechanism.detect_contacts(&y[model.n_v()..], ActivationRule::All);
     let Some(c) = mechanism.constraints.as_deref() else { return Vec::new() };
     let mut found: Vec<Penetration> = Vec::new();
-    for pair in set.pairs.iter().filter(|p| p.material.stiffness.is_infinite()) {
-        let gaps = c.candidates[pair.first..pair.first + pair.slots].iter().flatten();
-        let depth =
-            gaps.map(|s| -s.kinematics(&c.motions.at(&mechanism.scratch)).distance).fold(f64::NEG_INFINITY, f64::max);
-        if depth > 0.0 {
+    for candidates in c.candidates.by_pair() {
+        let pair = &set.pairs[candidates[0].pair as usize];
+        let distance = |s: &SlotCandidate| s.candidate.kinematics(&c.motions.at(&mechanism.scratch)).distance;
+        let depth = candidates.iter().map(|s| -distance(s)).fold(f64::NEG_INFINITY, f64::max);
+        if pair.material.stiffness.is_infinite() && depth > 0.0 {
             let name = |k: usize| set.colliders[k].name.clone();
             found.push(Penetration { a: name(pair.a), b: name(pair.b), depth });
         }

@@ -5,6 +5,8 @@
 
 use sincro_math::Real;
 
+use crate::constraint::SLOT_LEN;
+use crate::constraint::warm_start::RESERVED;
 use crate::joint::StageKind;
 use crate::model::Model;
 use crate::spatial::{Quat, Vec3};
@@ -17,7 +19,7 @@ use crate::spatial::{Quat, Vec3};
 /// | `v` | joint velocities [rad/s], [m/s] | `n_v` |
 /// | `commands` | latched: of motors, six of each external force that takes them, of rotors | [`Model::n_commands`] |
 /// | `drives` | state of each drive: locked (0) or saturated upwards (+1) or downwards (−1) | drives |
-/// | `contacts` | warm start: multipliers, contact modes, fallback | 7 × slots + 1, 0 without slots |
+/// | `contacts` | warm start: fallback, then slot, multipliers and contact mode of each loaded slot | 1 + 8 × slots, or 0 |
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
 /// | `rotors` | speed of each rotor with a lag; of a stock propeller its mass flow this tick | rotors that have one |
 /// | `tick` | base steps done | |
@@ -59,7 +61,7 @@ impl<R: Real> State<R> {
             v: vec![R::zero(); model.n_v()],
             commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
-            contacts: vec![R::zero(); model.constraints().n_numbers()],
+            contacts: empty_contacts(model),
             totals: vec![R::zero(); 2 + model.motors().len()],
             rotors: model.rotors().iter().filter_map(|rotor| rotor.speed.initial()).collect(),
             tick: 0,
@@ -78,6 +80,14 @@ impl<R: Real> State<R> {
             + self.rotors.len();
         n * size_of::<R>()
     }
+}
+
+/// Warm start without any loaded slot, with memory for the usual number of them.
+fn empty_contacts<R: Real>(model: &Model<R>) -> Vec<R> {
+    let n_slots = model.constraints().n_slots();
+    let mut contacts = Vec::with_capacity(if n_slots > 0 { 1 + (1 + SLOT_LEN) * n_slots.min(RESERVED) } else { 0 });
+    contacts.extend((n_slots > 0).then(R::zero));
+    contacts
 }
 
 /// `out = q ⊕ step`: coordinates moved by `step` (`n_v`) in the tangent: added to plain coordinates; for a quaternion

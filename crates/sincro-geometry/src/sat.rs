@@ -18,6 +18,9 @@ use crate::spatial::{Pose, Vec3};
 /// Tolerance between the separations of two directions, and distance of points that are merged `[m]`.
 const ALIKE: f64 = 1e-6;
 
+/// Separation by which another kind of contact must be better to take the place of the former one `[m]`.
+const HYSTERESIS: f64 = 2e-5;
+
 /// Tolerance of points outside of an outline `[m]`.
 const ON_OUTLINE: f64 = 1e-9;
 
@@ -110,6 +113,64 @@ pub struct PointOnPlane {
     pub origin: Vec3<f64>,
     /// Normal of the plane, from its polytope to the point.
     pub normal: Vec3<f64>,
+    /// Features of the polytopes that the point comes from, the same as long as the same ones touch; not zero.
+    pub feature: u32,
+}
+
+/// Feature of a point that a face gave: which polytope has the reference face, the two faces, and the vertex or the
+/// crossing of two edges in the outline.
+fn face_feature(first_leads: bool, faces: [usize; 2], corner: u32) -> u32 {
+    let [reference, incident] = faces.map(|face| face as u32 % 64);
+    1 + u32::from(first_leads) + 4 * (reference + 64 * (incident + 64 * corner))
+}
+
+/// Feature of the point of two crossing edges.
+fn edge_feature(edges: [usize; 2]) -> u32 {
+    let [one, two] = edges.map(|edge| edge as u32 % 256);
+    3 + 4 * (one + 256 * two)
+}
+
+/// Kind of contact of two polytopes, which is kept while another one is better by less than [`HYSTERESIS`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactKind {
+    /// Nothing is kept.
+    #[default]
+    Unknown,
+    /// The reference face is one of the second polytope.
+    SecondFace,
+    /// The reference face is one of the first polytope.
+    FirstFace,
+    /// Two edges cross.
+    Edges,
+}
+
+impl ContactKind {
+    /// Kind of the contact that gave a point of this feature; unknown for 0.
+    #[must_use]
+    pub fn of(feature: u32) -> Self {
+        match feature {
+            0 => Self::Unknown,
+            feature => [Self::Unknown, Self::SecondFace, Self::FirstFace, Self::Edges][feature as usize % 4],
+        }
+    }
+}
+
+/// Corner of a clipped outline.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    point: Vec3<f64>,
+    /// Number of the corner: of a vertex, or of the crossing of an edge with a side plane.
+    id: u32,
+    /// Number of the edge that leads to the next corner: of the incident face, or of a side plane.
+    edge: u32,
+}
+
+/// Numbers of side planes start here, those of edges below.
+const SIDE: u32 = 64;
+
+/// Number of the crossing of an edge with a side plane; vertices have smaller ones.
+fn crossing(edge: u32, side: u32) -> u32 {
+    64 + (edge % 128) * 64 + side % 64
 }
 
 /// Working memory: the second polytope in the frame of the first one's link, and outlines.
@@ -117,8 +178,9 @@ pub struct PointOnPlane {
 pub struct FaceClipper {
     vertices: Vec<Vec3<f64>>,
     normals: Vec<Vec3<f64>>,
-    outline: Vec<Vec3<f64>>,
-    cut: Vec<Vec3<f64>>,
+    outline: Vec<Corner>,
+    cut: Vec<Corner>,
+    projections: [Vec<f64>; 2],
 }
 
 /// Vertices and normals of a polytope in a common frame.
@@ -139,6 +201,11 @@ impl Placed<'_> {
         self.shape.loops[first..first + len].iter().map(|k| self.vertices[*k])
     }
 
+    /// Vector along an edge.
+    fn edge(&self, edge: &Edge) -> Vec3<f64> {
+        self.vertices[edge.ends[1]] - self.vertices[edge.ends[0]]
+    }
+
     /// Face with the largest separation from another polytope, and that separation.
     fn best_face(&self, other: &[Vec3<f64>]) -> (usize, f64) {
         let mut best = (0, f64::NEG_INFINITY);
@@ -156,17 +223,19 @@ impl Placed<'_> {
 
 impl FaceClipper {
     /// Finds at most `max_points` contact points of two polytopes nearer than `margin` `[m]` and hands each to `emit`;
-    /// `x_ab` is the pose of b's link in a's.
+    /// `x_ab` is the pose of b's link in a's, `former` the kind of their contact so far.
+    #[allow(clippy::too_many_arguments)]
     pub fn find(
         &mut self,
         a: &Polytope,
         b: &Polytope,
         x_ab: &Pose<f64>,
+        former: ContactKind,
         margin: f64,
         max_points: usize,
         mut emit: impl FnMut(PointOnPlane),
     ) {
-        let Self { vertices, normals, outline, cut } = self;
+        let Self { vertices, normals, outline, cut, projections } = self;
         vertices.clear();
         vertices.extend(b.vertices.iter().map(|v| x_ab.point(*v)));
         normals.clear();
@@ -179,60 +248,79 @@ impl FaceClipper {
         if of_faces > margin {
             return;
         }
-        if let Some((edges, n, depth)) = best_edges(&one, &two)
-            && depth > of_faces + ALIKE
+        if let Some((edges, n, depth)) = best_edges(&one, &two, projections)
+            && depth > of_faces + edge_handicap(former)
         {
             if depth <= margin {
                 emit(edge_point(&one, &two, edges, n, x_ab));
             }
             return;
         }
-        let first_leads = depth_1 >= depth_2 - ALIKE;
+        let first_leads = match former {
+            ContactKind::FirstFace => depth_1 >= depth_2 - HYSTERESIS,
+            ContactKind::SecondFace => depth_1 > depth_2 + HYSTERESIS,
+            ContactKind::Unknown | ContactKind::Edges => depth_1 >= depth_2 - ALIKE,
+        };
         let (lead, face, other) = if first_leads { (&one, face_1, &two) } else { (&two, face_2, &one) };
-        cut_outline(lead, face, other, outline, cut);
+        let incident = cut_outline(lead, face, other, outline, cut);
         let n = lead.normal(face);
         let origin = lead.vertices[lead.shape.loops[lead.shape.faces[face].first]];
-        outline.retain(|p| n.dot(*p - origin) <= margin);
+        outline.retain(|corner| n.dot(corner.point - origin) <= margin);
         thin_out(outline, max_points);
-        for p in outline.iter() {
+        for Corner { point, id, .. } in outline.iter() {
             let own = |p: Vec3<f64>| x_ab.rot.tr_mul_vec(p - x_ab.pos);
+            let feature = face_feature(first_leads, [face, incident], *id);
             emit(if first_leads {
-                PointOnPlane { is_on_first: false, point: own(*p), origin, normal: n }
+                PointOnPlane { is_on_first: false, point: own(*point), origin, normal: n, feature }
             } else {
-                PointOnPlane { is_on_first: true, point: *p, origin: own(origin), normal: x_ab.rot.tr_mul_vec(n) }
+                let normal = x_ab.rot.tr_mul_vec(n);
+                PointOnPlane { is_on_first: true, point: *point, origin: own(origin), normal, feature }
             });
         }
     }
 }
 
+/// Separation by which edges must be better than faces `[m]`.
+fn edge_handicap(former: ContactKind) -> f64 {
+    match former {
+        ContactKind::Unknown => ALIKE,
+        ContactKind::FirstFace | ContactKind::SecondFace => HYSTERESIS,
+        ContactKind::Edges => -HYSTERESIS,
+    }
+}
+
 /// Clips the incident face, the face of `other` that opposes a face most, to the outline of that face; merges
-/// coincident points.
+/// coincident points. Returns the incident face.
 fn cut_outline(
     lead: &Placed<'_>,
     face: usize,
     other: &Placed<'_>,
-    outline: &mut Vec<Vec3<f64>>,
-    cut: &mut Vec<Vec3<f64>>,
-) {
+    outline: &mut Vec<Corner>,
+    cut: &mut Vec<Corner>,
+) -> usize {
     let n = lead.normal(face);
     let against = |k: usize| n.dot(other.normal(k));
     let facing = (1..other.shape.faces.len()).fold(0, |best, k| if against(k) < against(best) { k } else { best });
     outline.clear();
-    outline.extend(other.outline(facing));
+    let corners = (0..).zip(other.outline(facing));
+    outline.extend(corners.map(|(id, point)| Corner { point, id, edge: id }));
     let mut from = lead.outline(face).last().unwrap_or_default();
-    for to in lead.outline(face) {
+    for (side, to) in (SIDE..).zip(lead.outline(face)) {
         let inwards = n.cross(to - from);
         let inwards = inwards.scale(1.0 / inwards.norm());
         let inside = |p: &Vec3<f64>| inwards.dot(*p - from);
         cut.clear();
         for k in 0..outline.len() {
             let (p, q) = (outline[k], outline[(k + 1) % outline.len()]);
-            let (at_p, at_q) = (inside(&p), inside(&q));
+            let (at_p, at_q) = (inside(&p.point), inside(&q.point));
             if at_p >= -ON_OUTLINE {
-                cut.push(p);
+                // along the side plane from here, where the rest is cut off
+                cut.push(if at_q < -ON_OUTLINE && at_p <= ON_OUTLINE { Corner { edge: side, ..p } } else { p });
             }
             if (at_p < -ON_OUTLINE && at_q > ON_OUTLINE) || (at_p > ON_OUTLINE && at_q < -ON_OUTLINE) {
-                cut.push(p + (q - p).scale(at_p / (at_p - at_q)));
+                let point = p.point + (q.point - p.point).scale(at_p / (at_p - at_q));
+                let edge = if at_p > 0.0 { side } else { p.edge };
+                cut.push(Corner { point, id: crossing(p.edge, side), edge });
             }
         }
         core::mem::swap(outline, cut);
@@ -240,20 +328,21 @@ fn cut_outline(
     }
     cut.clear();
     for p in outline.iter() {
-        if cut.iter().all(|known| (*p - *known).norm() > ALIKE) {
+        if cut.iter().all(|known| (p.point - known.point).norm() > ALIKE) {
             cut.push(*p);
         }
     }
     core::mem::swap(outline, cut);
+    facing
 }
 
 /// Reduces the points to `max_points`: those go first whose removal reduces the area least.
-fn thin_out(points: &mut Vec<Vec3<f64>>, max_points: usize) {
+fn thin_out(points: &mut Vec<Corner>, max_points: usize) {
     while points.len() > max_points {
         let n = points.len();
         let area = |k: usize| {
-            let (before, after) = (points[(k + n - 1) % n], points[(k + 1) % n]);
-            (before - points[k]).cross(after - points[k]).norm()
+            let (before, at, after) = (points[(k + n - 1) % n].point, points[k].point, points[(k + 1) % n].point);
+            (before - at).cross(after - at).norm()
         };
         let least = (1..n).fold(0, |best, k| if area(k) < area(best) { k } else { best });
         points.remove(least);
@@ -261,17 +350,31 @@ fn thin_out(points: &mut Vec<Vec3<f64>>, max_points: usize) {
 }
 
 /// Pair of edges with the largest separation: edges, normal from two to one, separation.
-fn best_edges(one: &Placed<'_>, two: &Placed<'_>) -> Option<([usize; 2], Vec3<f64>, f64)> {
+fn best_edges(
+    one: &Placed<'_>,
+    two: &Placed<'_>,
+    projections: &mut [Vec<f64>; 2],
+) -> Option<([usize; 2], Vec3<f64>, f64)> {
+    let [on_one, on_two] = projections;
+    project_normals(two, one, on_one);
+    project_normals(one, two, on_two);
+    let (n_one, n_two) = (one.shape.faces.len(), two.shape.faces.len());
     let mut best: Option<([usize; 2], Vec3<f64>, f64)> = None;
-    for (i, e) in one.shape.edges.iter().enumerate() {
-        let (p, u) = (one.vertices[e.ends[0]], one.vertices[e.ends[1]] - one.vertices[e.ends[0]]);
+    for ((i, e), of_u) in one.shape.edges.iter().enumerate().zip(on_one.chunks_exact(n_two)) {
+        let (p, u) = (one.vertices[e.ends[0]], one.edge(e));
         let [a, b] = e.faces.map(|f| one.normal(f));
-        for (j, f) in two.shape.edges.iter().enumerate() {
-            let [c, d] = f.faces.map(|f| -two.normal(f));
-            if !arcs_cross((a, b, u), (c, d), two.vertices[f.ends[1]] - two.vertices[f.ends[0]]) {
+        let ba = b.cross(a);
+        for ((j, f), of_w) in two.shape.edges.iter().enumerate().zip(on_two.chunks_exact(n_one)) {
+            // only edges whose arcs on the Gauss map cross can touch; the arc from a to b has its pole along the edge
+            if of_u[f.faces[0]] * of_u[f.faces[1]] >= 0.0 || of_w[e.faces[0]] * of_w[e.faces[1]] >= 0.0 {
                 continue;
             }
-            let (q, w) = (two.vertices[f.ends[0]], two.vertices[f.ends[1]] - two.vertices[f.ends[0]]);
+            let [c, d] = f.faces.map(|f| -two.normal(f));
+            // on the same half of the sphere
+            if c.dot(ba) * b.dot(d.cross(c)) <= 0.0 {
+                continue;
+            }
+            let (q, w) = (two.vertices[f.ends[0]], two.edge(f));
             let across = u.cross(w);
             let size = across.norm();
             if size < PARALLEL * u.norm() * w.norm() {
@@ -295,17 +398,13 @@ fn separation(one: &Placed<'_>, two: &Placed<'_>, n: Vec3<f64>) -> f64 {
     nearest - one.vertices.iter().map(|v| n.dot(*v)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Returns true if the arcs of two edges on the Gauss map cross: only then can they touch. The arc from a to b has its
-/// pole along the edge.
-fn arcs_cross((a, b, u): (Vec3<f64>, Vec3<f64>, Vec3<f64>), (c, d): (Vec3<f64>, Vec3<f64>), w: Vec3<f64>) -> bool {
-    let (at_c, at_d) = (c.dot(u), d.dot(u));
-    let (at_a, at_b) = (a.dot(w), b.dot(w));
-    if at_c * at_d >= 0.0 || at_a * at_b >= 0.0 {
-        return false;
+/// Scalar products of the face normals of one polytope with the edges of another, edge by edge.
+fn project_normals(of: &Placed<'_>, on: &Placed<'_>, products: &mut Vec<f64>) {
+    products.clear();
+    for edge in &on.shape.edges {
+        let along = on.edge(edge);
+        products.extend((0..of.shape.faces.len()).map(|face| of.normal(face).dot(along)));
     }
-    // on the same half of the sphere
-    let (ba, dc) = (b.cross(a), d.cross(c));
-    c.dot(ba) * b.dot(dc) > 0.0
 }
 
 /// Contact point of two crossing edges: the first one's nearest point over a plane through the second one.
@@ -320,7 +419,7 @@ fn edge_point(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64
     let along = ((r.dot(u) * ww - r.dot(w) * uw) / (uu * ww - uw * uw)).clamp(0.0, 1.0);
     let point = p + u.scale(along);
     let own = |v: Vec3<f64>| x_ab.rot.tr_mul_vec(v);
-    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n) }
+    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n), feature: edge_feature(edges) }
 }
 
 #[cfg(test)]
@@ -336,7 +435,7 @@ mod tests {
     /// Points and signed distances of a brick in a pose over one at rest.
     fn first_contact(x_ab: &Pose<f64>) -> Vec<(Vec3<f64>, f64)> {
         let mut points = Vec::new();
-        FaceClipper::default().find(&brick(), &brick(), x_ab, 1e-3, 8, |p: PointOnPlane| {
+        FaceClipper::default().find(&brick(), &brick(), x_ab, ContactKind::Unknown, 1e-3, 8, |p: PointOnPlane| {
             let place = |p: Vec3<f64>, is_first: bool| if is_first { p } else { x_ab.point(p) };
             let (point, origin) = (place(p.point, p.is_on_first), place(p.origin, !p.is_on_first));
             let n = if p.is_on_first { x_ab.rot.mul_vec(p.normal) } else { p.normal };
@@ -405,6 +504,41 @@ mod tests {
             assert!(found.len() >= 4, "{found:?}");
             assert!(found.iter().all(|(_, distance)| distance.abs() < 1e-15), "{found:?}");
         }
+    }
+
+    #[test]
+    fn features_stay_while_a_brick_slides_and_are_all_different() {
+        let features = |pose: &Pose<f64>| {
+            let mut found = Vec::new();
+            FaceClipper::default()
+                .find(&brick(), &brick(), pose, ContactKind::Unknown, 1e-3, 8, |p: PointOnPlane| found.push(p.feature));
+            found
+        };
+        let before = features(&turned(2, 0.8, [0.01, 0.0, 0.08]));
+        let after = features(&turned(2, 0.81, [0.012, 0.003, 0.0801]));
+        assert_eq!(before, after);
+        let mut different = before.clone();
+        different.sort_unstable();
+        different.dedup();
+        assert!(before.len() >= 6 && different.len() == before.len() && !different.contains(&0), "{before:?}");
+    }
+
+    #[test]
+    fn the_kind_of_contact_is_kept_until_another_is_clearly_better() {
+        let first_leads = |tilt: f64, former: ContactKind| {
+            let mut found = Vec::new();
+            let pose = turned(0, tilt, [0.0, 0.0, 0.08]);
+            FaceClipper::default().find(&brick(), &brick(), &pose, former, 1e-3, 8, |p: PointOnPlane| {
+                found.push(ContactKind::of(p.feature))
+            });
+            assert!(found.len() == 4 && found.iter().all(|kind| *kind == found[0]), "{found:?}");
+            found[0]
+        };
+        // both faces separate the bricks alike where they lie flat on each other
+        for kind in [ContactKind::FirstFace, ContactKind::SecondFace] {
+            assert_eq!(first_leads(1e-5, kind), kind);
+        }
+        assert_eq!(first_leads(0.0, ContactKind::Unknown), ContactKind::FirstFace);
     }
 
     #[test]

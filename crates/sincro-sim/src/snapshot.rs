@@ -14,7 +14,7 @@ use twox_hash::XxHash3_64;
 use crate::load::Loaded;
 use crate::trace::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro04";
+const MAGIC: &[u8; 8] = b"sincro05";
 
 /// A moment of a run.
 #[derive(Clone, Debug, PartialEq)]

@@ -203,3 +203,27 @@ fn a_force_sensor_feels_weight_and_acceleration() {
         assert_last(&run, &names[..6], [up, along, -out, about_up, -d * up, 0.0], 1e-9);
     }
 }
+
+#[test]
+fn reported_friction_opposes_the_sliding_whatever_its_direction() {
+    for [x, y] in [[1.0_f64, 0.0], [0.0, 1.0], [-0.6, 0.8], [0.3, -0.9]] {
+        let scene = format!(
+            "[[joint]]\nname = \"air\"\nkind = \"free\"\n\
+             initial = {{ position = [0.0, 0.0, 0.05, 1.0, 0.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.0, {x:?}, {y:?}, 0.0] }}\n\
+             [[body]]\nname = \"block\"\nparent = \"/air\"\nmass = 2.0\nshape = [{{ cuboid = {{ size = [0.2, 0.2, 0.1] }} }}]\n\
+             contact = {{ friction = 0.3 }}\n\
+             [[body]]\nname = \"floor\"\nshape = [{{ plane = {{}} }}]\ncontact = {{ friction = 0.3 }}\n"
+        );
+        let names: Vec<String> = ["x", "y", "z"].map(|axis| format!("/air/block.contact_force.{axis}")).into();
+        let run = ran(&folder(&scene, &names, 0.1));
+        let (speed, weight) = ((x * x + y * y).sqrt(), 2.0 * G);
+        let expected = [-0.3 * weight * x / speed, -0.3 * weight * y / speed, weight];
+        for (name, expected) in names.iter().zip(expected) {
+            let found = last(&run, name);
+            assert!(
+                (found - expected).abs() < 1e-6,
+                "sliding along ({x}, {y}): {name} is {found}, expected {expected}"
+            );
+        }
+    }
+}

@@ -8,6 +8,7 @@ use super::row::{Row, force_at, force_rate};
 use super::{CLOSED_DISTANCE, Constraints, ModeRule, dot, pair_of};
 use crate::contact::Pair;
 use crate::contact::candidate::{ContactCandidate, tangents};
+use crate::contact::candidate_list::SlotCandidate;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
@@ -34,14 +35,14 @@ impl<R: Real> Constraints<R> {
                 });
             }
         }
-        for pair in &set.pairs {
-            for k in pair.first..pair.first + pair.slots {
-                let slot = set.limits.len() + k;
-                if let (true, Some(candidate)) = (self.memory.is_closed(slot), self.candidates[k]) {
-                    self.contact(slot, &candidate, pair, v, scratch, slides);
-                }
+        let candidates = core::mem::take(&mut self.candidates);
+        for SlotCandidate { slot, pair, candidate } in candidates.iter() {
+            let slot = set.limits.len() + *slot as usize;
+            if self.memory.is_closed(slot) {
+                self.contact(slot, candidate, &set.pairs[*pair as usize], v, scratch, slides);
             }
         }
+        self.candidates = candidates;
         self.lambda.clear();
         self.lambda.resize(self.rows.len(), R::zero());
         self.memory.restore(&mut self.blocks, &mut self.lambda, self.mode_rule != ModeRule::Decided);
@@ -81,7 +82,9 @@ impl<R: Real> Constraints<R> {
     ) {
         let at = candidate.kinematics(&self.motions.at(scratch));
         let row = self.rows.len();
-        let (c, n) = (at.point, at.normal);
+        let n = at.normal;
+        // points of a face that lie in one plane do not contradict each other in friction
+        let c = if self.sweeps { at.point - n.scale(at.distance) } else { at.point };
         let normal =
             Row::between(candidate.a, candidate.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
         self.add(normal, at.distance);

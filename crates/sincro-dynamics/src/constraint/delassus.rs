@@ -29,10 +29,7 @@ pub(crate) struct InverseMass<R> {
 impl<R: Real> InverseMass<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.links.len();
-        let mut tree = vec![0; n];
-        for (i, link) in model.links.iter().enumerate() {
-            tree[i] = if link.parent == WORLD { i as u32 } else { tree[link.parent as usize] };
-        }
+        let tree = trees(model);
         let dofs = vec![R::zero(); model.n_v()];
         Self {
             force: vec![Force::zero(); n],
@@ -122,6 +119,8 @@ pub(crate) struct Delassus<R> {
     inv_d: Vec<R>,
     inv_root: Vec<R>,
     link_of: Vec<u32>,
+    /// First link of the tree that each link belongs to.
+    tree: Vec<u32>,
     /// For each degree of freedom, one number a row.
     values: Vec<R>,
 }
@@ -135,7 +134,8 @@ impl<R: Real> Delassus<R> {
             link_of[k..k + link.kind.n_v()].fill(i as u32);
         }
         let o = R::zero();
-        Self { u: vec![Force::zero(); n], inv_d: vec![o; n], inv_root: vec![o; n], link_of, values: Vec::new() }
+        let tree = trees(model);
+        Self { u: vec![Force::zero(); n], inv_d: vec![o; n], inv_root: vec![o; n], link_of, tree, values: Vec::new() }
     }
 
     /// Memory for `m` rows.
@@ -168,13 +168,16 @@ impl<R: Real> Delassus<R> {
         self.place(model, scratch);
         self.values.clear();
         self.values.resize(m * n, R::zero());
+        let mut values = core::mem::take(&mut self.values);
         for (i, row) in rows.iter().enumerate() {
-            self.descend(model, columns, row, (i, m));
+            self.factor_row(model, columns, row, |k, value| values[k as usize * m + i] = value);
         }
+        self.values = values;
         &self.values
     }
 
-    fn place(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
+    /// Takes the factors of the degrees of freedom from the scratch, for [`Delassus::factor_row`].
+    pub fn place(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         for (i, link) in model.links.iter().enumerate() {
             let pose = &scratch.poses[i];
             let sign = if link.kind.n_v() == 1 { link.sign } else { R::one() };
@@ -189,15 +192,28 @@ impl<R: Real> Delassus<R> {
         }
     }
 
-    /// Carries the wrench of one row from its two links to the base; where the two ways meet, the rest of both goes on
-    /// together.
-    fn descend(&mut self, model: &Model<R>, columns: &[Motion<R>], row: &Row<R>, (i, m): (usize, usize)) {
-        let mut ends = [(row.a, row.wa), (row.b, -row.wb)];
+    /// Trees that a row acts on, by their first links; `WORLD` for none.
+    pub fn trees(&self, row: &Row<R>) -> [u32; 2] {
+        self.ends(row).map(|link| if link == WORLD { WORLD } else { self.tree[link as usize] })
+    }
+
+    /// Links that a row acts on; `WORLD` for none.
+    fn ends(&self, row: &Row<R>) -> [u32; 2] {
+        let mut ends = [row.a, row.b];
         for (end, (dof, _)) in ends.iter_mut().zip(&row.joints) {
             if *dof != WORLD {
-                end.0 = self.link_of[*dof as usize];
+                *end = self.link_of[*dof as usize];
             }
         }
+        ends
+    }
+
+    /// Factors of one row: hands each degree of freedom on the ways of its two links to the base to `take`, with its
+    /// number. Where the two ways meet, the rest of both goes on together.
+    #[inline(always)]
+    pub fn factor_row(&self, model: &Model<R>, columns: &[Motion<R>], row: &Row<R>, mut take: impl FnMut(u32, R)) {
+        let [a, b] = self.ends(row);
+        let mut ends = [(a, row.wa), (b, -row.wb)];
         loop {
             let [(one, f_one), (two, f_two)] = ends;
             if one == two {
@@ -219,12 +235,21 @@ impl<R: Real> Delassus<R> {
                         u += c;
                     }
                 }
-                self.values[k * m + i] = u * self.inv_root[k];
+                take(k as u32, u * self.inv_root[k]);
                 *force -= self.u[k].scale(u * self.inv_d[k]);
             }
             *at = link.parent;
         }
     }
+}
+
+/// First link of the tree that each link belongs to.
+fn trees<R: Real>(model: &Model<R>) -> Vec<u32> {
+    let mut tree = vec![0; model.links.len()];
+    for (i, link) in model.links.iter().enumerate() {
+        tree[i] = if link.parent == WORLD { i as u32 } else { tree[link.parent as usize] };
+    }
+    tree
 }
 
 /// Sum over the degrees of freedom of the products of the factors.

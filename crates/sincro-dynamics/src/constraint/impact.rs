@@ -4,7 +4,6 @@ use super::active_set::ContactProblem;
 use super::assembly::restitution;
 use super::cone::{ContactMode, UnilateralConstraint};
 use super::{Constraints, ContactPoint, dot, pair_of};
-use crate::contact::candidate::tangents;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Vec3;
@@ -188,23 +187,26 @@ impl Constraints<f64> {
         let set = &model.constraints;
         self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open && !b.is_drive()).filter_map(move |block| {
             let k = block.slot - set.limits.len();
-            let at = self.candidates[k]?.kinematics(&self.motions.at(scratch));
-            let (t1, t2) = tangents(at.normal);
+            let candidate = self.candidates.get(k)?;
+            let at = candidate.kinematics(&self.motions.at(scratch));
             let mut force = at.normal.scale(self.lambda[block.row]);
             let mut torque = Vec3::zero();
             for (g, group) in block.groups.iter().enumerate() {
                 let Some(group) = group else { continue };
-                let l = |k: usize| self.lambda[group.row + k];
-                match g {
-                    0 => force += t1.scale(l(0)) + t2.scale(l(1)),
-                    1 => torque += t1.scale(l(0)) + t2.scale(l(1)),
-                    _ => torque += at.normal.scale(l(0)),
+                // rows of a sliding group are turned along its velocity
+                for k in group.row..group.row + group.dim {
+                    let (row, lambda) = (&self.rows[k], self.lambda[k]);
+                    if g == 0 {
+                        force += row.wa.lin.scale(lambda);
+                    } else {
+                        torque += row.wa.ang.scale(lambda);
+                    }
                 }
             }
             let pair = pair_of(set, k);
             let [one, two] = [set.pairs[pair].a, set.pairs[pair].b];
             // a candidate may have its rounded side on either surface
-            let surfaces = if set.colliders[one].link == self.candidates[k]?.a { [one, two] } else { [two, one] };
+            let surfaces = if set.colliders[one].link == candidate.a { [one, two] } else { [two, one] };
             Some(ContactPoint {
                 pair,
                 surfaces,

@@ -29,6 +29,7 @@
 //! | `admm` | ADMM for the same problem, without an active set |
 //! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
 //! | `solver` | solution of one problem: active set first, then ADMM |
+//! | `time_stepping` | problem of a whole step at velocity level with many contacts |
 //! | `impact` | impacts, contact points |
 //! | `projection` | projection of positions and velocities |
 //! | `active_rows` | equations that hold at a state, for analysis |
@@ -58,6 +59,7 @@ pub(crate) mod row;
 mod solver;
 #[cfg(test)]
 mod tests;
+mod time_stepping;
 pub(crate) mod warm_start;
 
 use sincro_math::Real;
@@ -66,18 +68,20 @@ pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, 
 pub use active_rows::{ActiveRow, ActiveSource};
 pub use solver::SolverReport;
 
-use crate::contact::{Detector, Pair, candidate::ContactCandidate};
+use crate::contact::{Detector, Pair, candidate_list::CandidateList};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
-use crate::spatial::Vec3;
+use crate::spatial::{Force, Vec3};
 use active_set::ContactProblem;
+use assembly::restitution;
 use cone::{SlowSliding, UnilateralConstraint};
 pub(crate) use held::HeldLaw;
 use held::{Solution, is_observable};
 use kink::Kink;
 use row::{Motions, Row};
 use solver::Solver;
+use time_stepping::TimeStepping;
 use warm_start::WarmStart;
 
 /// Signed distance below which a constraint counts as closed `[m]` or `[rad]`; projection leaves a thousandth of it.
@@ -145,9 +149,9 @@ pub struct ContactPoint {
 pub(crate) struct Constraints<R> {
     /// Warm start and classification of every slot.
     pub memory: WarmStart<R>,
-    pub candidates: Vec<Option<ContactCandidate>>,
+    pub candidates: CandidateList,
     /// Candidates of a later instant, for the detection of new contacts.
-    pub later_candidates: Vec<Option<ContactCandidate>>,
+    pub later_candidates: CandidateList,
     pub detector: Detector,
     pub motions: Motions<R>,
     inverse_mass: delassus::InverseMass<R>,
@@ -191,6 +195,15 @@ pub(crate) struct Constraints<R> {
     /// True while the instant of a violation is being located: other modes are looked for near the held ones only.
     pub is_locating: bool,
     pub solver: Solver<R>,
+    time_stepping: TimeStepping,
+    /// Wrench on each link about the world's origin, world axes.
+    wrenches: Vec<Force<R>>,
+    /// Generalized forces of all constraints but drives, of a problem solved by sweeps.
+    contact_torque: Vec<R>,
+    /// True while problems at velocity level are solved by sweeps ([`time_stepping`]).
+    pub sweeps: bool,
+    /// True if the forces last found are those of sweeps.
+    is_swept: bool,
 }
 
 impl<R: Real> Constraints<R> {
@@ -202,8 +215,8 @@ impl<R: Real> Constraints<R> {
         let n = vec![R::zero(); model.n_v()];
         let mut new = Self {
             memory: WarmStart::new(set.n_slots()),
-            candidates: vec![None; set.n_contacts()],
-            later_candidates: vec![None; set.n_contacts()],
+            candidates: CandidateList::default(),
+            later_candidates: CandidateList::default(),
             detector: Detector::new(&set.colliders, &set.pairs),
             motions: Motions::new(model),
             inverse_mass: delassus::InverseMass::new(model),
@@ -234,6 +247,11 @@ impl<R: Real> Constraints<R> {
             held: Solution::default(),
             is_locating: false,
             solver: Solver::default(),
+            time_stepping: TimeStepping::default(),
+            wrenches: vec![Force::zero(); model.links.len()],
+            contact_torque: vec![R::zero(); model.n_v()],
+            sweeps: false,
+            is_swept: false,
         };
         // more contacts than this at once enlarge the memory, once for every new maximum
         let groups = |p: &Pair| 1 + 2 * usize::from(p.material.friction > 0.0);
@@ -279,8 +297,13 @@ impl<R: Real> Constraints<R> {
         self.assemble(model, q, v, scratch, level == Level::Acceleration);
         self.add_kinks();
         if self.rows.is_empty() {
+            self.is_swept = false;
             return;
         }
+        if let (true, Level::Velocity(h)) = (self.sweeps, level) {
+            return self.apply_by_sweeps(model, (h, v), scratch, v_dot, has_drives);
+        }
+        self.is_swept = false;
         self.assemble_delassus(model, scratch);
         self.b.clear();
         match level {
@@ -378,6 +401,7 @@ impl<R: Real> Constraints<R> {
 
     /// Excess of a law over its tolerance in the last evaluation, above zero if it is violated.
     pub fn excess(&self, law: HeldLaw) -> f64 {
+        debug_assert!(!self.is_swept, "sweeps hold no modes");
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         self.solver.excess(law, &problem, &self.blocks, &self.lambda)
     }
@@ -391,6 +415,11 @@ impl<R: Real> Constraints<R> {
                 *t += *lambda * *j;
             }
         }
+        self.respond(model, scratch, v_dot, has_drives);
+    }
+
+    /// Adds the response to the generalized forces in `torque` to accelerations and reactions.
+    fn respond(&mut self, model: &Model<R>, scratch: &mut Scratch<R>, v_dot: &mut [R], has_drives: bool) {
         let mut reaction = core::mem::take(&mut scratch.reaction);
         let wanted = has_drives.then_some(&mut reaction[..]);
         self.inverse_mass.find(model, scratch, &self.torque, &mut self.change, wanted);
@@ -404,6 +433,10 @@ impl<R: Real> Constraints<R> {
     /// rate of the lightest row.
     pub fn force_scale(&self) -> f64 {
         let largest = |x: &[R]| x.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
+        if self.is_swept {
+            // sweeps have no Delassus matrix
+            return largest(&self.lambda);
+        }
         let m = self.rows.len();
         let lightest = (0..m).map(|i| self.a[i * m + i].lane(0)).fold(0.0, f64::max);
         let stopping = if lightest > 0.0 { largest(&self.b) / lightest } else { 0.0 };
@@ -412,6 +445,9 @@ impl<R: Real> Constraints<R> {
 
     /// Power dissipated by all constraint forces at joint rates `v` `[W]`, after [`Constraints::apply`].
     pub fn dissipation(&self, v: &[R]) -> R {
+        if self.is_swept {
+            return -dot(&self.contact_torque, v);
+        }
         let n = v.len();
         let mut sum = R::zero();
         // the work of drives is counted by themselves

@@ -115,6 +115,30 @@ impl<R: Real> Motions<R> {
         }
     }
 
+    /// Velocities of the links for other joint rates than the twists were placed for, at the same poses; they take the
+    /// place of the accelerations.
+    pub fn place_velocities(&mut self, model: &Model<R>, v: &[R]) {
+        for (i, link) in model.links.iter().enumerate() {
+            let mut twist = if link.parent == WORLD { Motion::zero() } else { self.accel[link.parent as usize] };
+            for k in link.v_idx as usize..link.v_idx as usize + link.kind.n_v() {
+                twist += Motion { ang: self.columns[k].ang.scale(v[k]), lin: self.columns[k].lin.scale(v[k]) };
+            }
+            self.accel[i] = twist;
+        }
+    }
+
+    /// J v of a row for the joint rates of [`Motions::place_velocities`].
+    pub fn placed_rate(&self, row: &Row<R>, v: &[R]) -> R {
+        let of = |link: u32| if link == WORLD { Motion::zero() } else { self.accel[link as usize] };
+        let mut sum = of(row.a).dot(&row.wa) - of(row.b).dot(&row.wb);
+        for (k, c) in row.joints {
+            if k != WORLD {
+                sum += c * v[k as usize];
+            }
+        }
+        sum
+    }
+
     /// Axes of the joints, one a degree of freedom.
     pub fn columns(&self) -> &[Motion<R>] {
         &self.columns

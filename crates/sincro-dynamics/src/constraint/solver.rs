@@ -55,6 +55,14 @@ pub struct SolverReport {
     pub not_converged: u64,
     /// Largest complementarity residual among those, relative to the largest force or rate (dimensionless).
     pub worst_residual: f64,
+    /// Islands solved by sweeps at the time-stepping level.
+    pub islands: u64,
+    /// Sweeps over all contacts of an island.
+    pub sweeps: u64,
+    /// Islands whose residual exceeds 1e-6 at the iteration limit.
+    pub unconverged_islands: u64,
+    /// Largest residual of an island, natural map of the Coulomb law relative to its largest force (dimensionless).
+    pub worst_island: f64,
 }
 
 impl SolverReport {
@@ -62,6 +70,8 @@ impl SolverReport {
     pub(crate) fn discard(&mut self, before: &Self) {
         self.not_converged = before.not_converged;
         self.worst_residual = before.worst_residual;
+        (self.islands, self.sweeps) = (before.islands, before.sweeps);
+        (self.unconverged_islands, self.worst_island) = (before.unconverged_islands, before.worst_island);
     }
 }
 

@@ -3,15 +3,24 @@
 //! | per slot | meaning | part of the state |
 //! |---|---|---|
 //! | multipliers | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
-//! | code | 0 never solved, else 1 + 1·open + 2, 4, 8·slipping group | yes |
+//! | code | 0 never solved, else 1 + 1·open + 2, 4, 8·slipping group, + 32·feature after sweeps | yes |
 //! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
 //!
-//! The last number is the [`ZenoFallback`].
+//! In the state stands the [`ZenoFallback`], then one record a slot that has been solved: its index and these numbers.
 
 use sincro_math::Real;
 
 use super::cone::{ContactMode, UnilateralConstraint};
-use crate::model::{SLOT_LEN, warm_start_len};
+use crate::model::SLOT_LEN;
+
+/// Numbers of a slot in the state: its index, then its multipliers and code.
+const RECORD_LEN: usize = 1 + SLOT_LEN;
+
+/// Number of slots for which memory is reserved beforehand.
+pub(crate) const RESERVED: usize = 64;
+
+/// Factor of the feature in a code.
+const FEATURE: f64 = 32.0;
 
 /// Fallback for Zeno behaviour (event storms): after a tick with too many events the next `pause` ticks are made at
 /// velocity level without event location, `left` of which remain. The pause doubles until a tick succeeds; a heap that
@@ -33,122 +42,305 @@ impl ZenoFallback {
     }
 }
 
+/// Warm start and classification of one slot.
+#[derive(Clone, Copy, Debug)]
+struct Entry<R> {
+    slot: u32,
+    closed: bool,
+    /// True if the slot has closed since it was last asked for.
+    is_new: bool,
+    slides: [bool; 3],
+    /// Multipliers and code: of the last solution, at the start of the sub-step, and those that others were proposed
+    /// for.
+    numbers: [R; SLOT_LEN],
+    start: [R; SLOT_LEN],
+    decided: [R; SLOT_LEN],
+    directions: [[R; 2]; 3],
+    start_directions: [[R; 2]; 3],
+    /// Sliding velocity of each group along that at the start [m/s] or [rad/s]; below zero it has reversed.
+    along_start: [f64; 3],
+}
+
+impl<R: Real> Entry<R> {
+    fn new(slot: usize) -> Self {
+        let zeros = [R::zero(); SLOT_LEN];
+        Self {
+            slot: slot as u32,
+            closed: false,
+            is_new: false,
+            slides: [false; 3],
+            numbers: zeros,
+            start: zeros,
+            decided: zeros,
+            directions: [[R::zero(); 2]; 3],
+            start_directions: [[R::zero(); 2]; 3],
+            along_start: [0.0; 3],
+        }
+    }
+
+    /// Returns true if nothing would be different without this entry.
+    fn is_idle(&self) -> bool {
+        !self.closed && self.start.iter().chain(&self.numbers).all(|x| *x == R::zero())
+    }
+
+    /// Classifies the slot; the warm start of one that is not closed is cleared.
+    fn classify(&mut self, closed: bool, slides: [bool; 3]) {
+        self.is_new = closed && (self.is_new || !self.closed);
+        (self.closed, self.slides) = (closed, slides);
+        self.start_directions = [[R::zero(); 2]; 3];
+        if !closed {
+            self.numbers = [R::zero(); SLOT_LEN];
+        }
+    }
+}
+
+/// Entries of the slots that are closed or were, in increasing order of slots.
 #[derive(Clone, Debug)]
 pub(crate) struct WarmStart<R> {
-    /// Multipliers and codes, as in the state.
-    pub numbers: Vec<R>,
-    closed: Vec<bool>,
-    /// Slots that have closed since they were last asked for.
-    is_new: Vec<bool>,
-    slides: Vec<[bool; 3]>,
-    directions: Vec<[[R; 2]; 3]>,
-    /// Multipliers and codes at the start of a sub-step.
-    start: Vec<R>,
-    /// Those that others were proposed for.
-    decided: Vec<R>,
-    start_directions: Vec<[[R; 2]; 3]>,
-    /// Sliding velocity of each group along that at the start [m/s] or [rad/s]; below zero it has reversed.
-    along_start: Vec<[f64; 3]>,
+    entries: Vec<Entry<R>>,
+    /// Entries before the classification that is being made.
+    former: Vec<Entry<R>>,
+    /// Number of those that have been classified.
+    taken: usize,
+    /// Features and numbers of the pair that is being classified; none if its features are not known.
+    of_features: Vec<(u32, [R; SLOT_LEN])>,
+    /// Numbers of its new points, from the last to the first.
+    continued: Vec<[R; SLOT_LEN]>,
+    zeno_fallback: ZenoFallback,
+    /// True if there are slots at all.
+    has_slots: bool,
 }
 
 impl<R: Real> WarmStart<R> {
     pub fn new(n_slots: usize) -> Self {
+        let usual = n_slots.min(RESERVED);
         Self {
-            numbers: vec![R::zero(); warm_start_len(n_slots)],
-            closed: vec![false; n_slots],
-            is_new: vec![false; n_slots],
-            slides: vec![[false; 3]; n_slots],
-            directions: vec![[[R::zero(); 2]; 3]; n_slots],
-            start: vec![R::zero(); warm_start_len(n_slots)],
-            decided: vec![R::zero(); warm_start_len(n_slots)],
-            start_directions: vec![[[R::zero(); 2]; 3]; n_slots],
-            along_start: vec![[0.0; 3]; n_slots],
+            entries: Vec::with_capacity(usual),
+            former: Vec::with_capacity(usual),
+            taken: 0,
+            of_features: Vec::new(),
+            continued: Vec::new(),
+            zeno_fallback: ZenoFallback::default(),
+            has_slots: n_slots > 0,
+        }
+    }
+
+    fn entry(&self, slot: usize) -> Option<&Entry<R>> {
+        let k = self.entries.binary_search_by_key(&slot, |entry| entry.slot as usize).ok()?;
+        Some(&self.entries[k])
+    }
+
+    fn entry_mut(&mut self, slot: usize) -> &mut Entry<R> {
+        match self.entries.binary_search_by_key(&slot, |entry| entry.slot as usize) {
+            Ok(k) => &mut self.entries[k],
+            Err(k) => {
+                self.entries.insert(k, Entry::new(slot));
+                &mut self.entries[k]
+            }
         }
     }
 
     /// Takes over which slots are closed and which of their groups slide, and in which directions.
     pub fn take_modes(&mut self, other: &WarmStart<f64>) {
-        self.closed.clone_from(&other.closed);
-        self.slides.clone_from(&other.slides);
-        for (own, other) in self.directions.iter_mut().zip(&other.directions) {
-            *own = other.map(|direction| direction.map(R::splat));
+        for entry in &mut self.entries {
+            (entry.closed, entry.slides, entry.directions) = (false, [false; 3], [[R::zero(); 2]; 3]);
+        }
+        for theirs in &other.entries {
+            let own = self.entry_mut(theirs.slot as usize);
+            (own.closed, own.slides) = (theirs.closed, theirs.slides);
+            own.directions = theirs.directions.map(|direction| direction.map(R::splat));
         }
     }
 
     /// Takes multipliers and modes from a state; they are those that the motion came with.
     pub fn load(&mut self, numbers: &[R]) {
-        self.numbers.copy_from_slice(numbers);
-        self.start.copy_from_slice(numbers);
+        for entry in &mut self.entries {
+            (entry.numbers, entry.start) = ([R::zero(); SLOT_LEN], [R::zero(); SLOT_LEN]);
+        }
+        self.zeno_fallback = ZenoFallback::default();
+        let Some((fallback, records)) = numbers.split_first() else { return };
+        let number = fallback.lane(0) as u32;
+        self.zeno_fallback = ZenoFallback { pause: number / 256, left: number % 256 };
+        for record in records.chunks_exact(RECORD_LEN) {
+            let entry = self.entry_mut(record[0].lane(0) as usize);
+            entry.numbers.copy_from_slice(&record[1..]);
+            entry.start = entry.numbers;
+        }
+    }
+
+    /// Writes what belongs to the state: the fallback, then the slots that have been solved, each with its numbers;
+    /// nothing where there are no slots.
+    pub fn store(&self, numbers: &mut Vec<R>) {
+        numbers.clear();
+        if !self.has_slots {
+            return;
+        }
+        let ZenoFallback { pause, left } = self.zeno_fallback;
+        numbers.push(R::splat(f64::from(256 * pause + left)));
+        for entry in self.entries.iter().filter(|entry| entry.numbers.iter().any(|x| *x != R::zero())) {
+            numbers.push(R::splat(f64::from(entry.slot)));
+            numbers.extend_from_slice(&entry.numbers);
+        }
     }
 
     /// Forgets the modes that the motion came with: those of a step at velocity level are no modes of forces.
     pub fn forget_start(&mut self) {
-        self.start.fill(R::zero());
+        self.entries.iter_mut().for_each(|entry| entry.start = [R::zero(); SLOT_LEN]);
     }
 
     pub fn zeno_fallback(&self) -> ZenoFallback {
-        let number = self.numbers.last().map_or(0, |x| x.lane(0) as u32);
-        ZenoFallback { pause: number / 256, left: number % 256 }
+        self.zeno_fallback
     }
 
     pub fn set_patience(&mut self, zeno_fallback: ZenoFallback) {
-        if let Some(number) = self.numbers.last_mut() {
-            *number = R::splat(f64::from(256 * zeno_fallback.pause + zeno_fallback.left));
+        if self.has_slots {
+            self.zeno_fallback = zeno_fallback;
         }
     }
 
     pub fn is_closed(&self, slot: usize) -> bool {
-        self.closed[slot]
+        self.entry(slot).is_some_and(|entry| entry.closed)
+    }
+
+    /// Slots that are closed, in increasing order.
+    pub fn closed_slots(&self) -> impl Iterator<Item = usize> {
+        self.entries.iter().filter(|entry| entry.closed).map(|entry| entry.slot as usize)
     }
 
     /// Returns true if any slot is closed.
     pub fn has_closed(&self) -> bool {
-        self.closed.contains(&true)
+        self.entries.iter().any(|entry| entry.closed)
     }
 
     /// Returns true once after a slot has closed.
     pub fn take_new(&mut self, slot: usize) -> bool {
-        core::mem::take(&mut self.is_new[slot])
+        core::mem::take(&mut self.entry_mut(slot).is_new)
     }
 
     pub fn slides(&self, slot: usize, group: usize) -> bool {
-        self.slides[slot][group]
+        self.entry(slot).is_some_and(|entry| entry.slides[group])
     }
 
     pub fn direction(&self, slot: usize, group: usize) -> [R; 2] {
-        self.directions[slot][group]
+        self.entry(slot).map_or([R::zero(); 2], |entry| entry.directions[group])
     }
 
     /// Sets the direction of a sliding group's friction, for its `speed`. Within a sub-step it does not reverse: the
     /// force continues smoothly until the instant of reversal has been located.
     pub fn set_direction(&mut self, slot: usize, group: usize, direction: [R; 2], speed: R) -> [R; 2] {
-        let start = self.start_directions[slot][group];
+        let entry = self.entry_mut(slot);
+        let start = entry.start_directions[group];
         let along = (direction[0] * start[0] + direction[1] * start[1]).lane(0);
-        self.along_start[slot][group] = along * speed.lane(0);
+        entry.along_start[group] = along * speed.lane(0);
         let direction = if along < 0.0 { direction.map(|x| -x) } else { direction };
-        self.directions[slot][group] = direction;
+        entry.directions[group] = direction;
         direction
     }
 
-    /// Classifies a slot; the warm start of one that is not closed is cleared.
+    /// Feature of the first loaded slot of a range, as of the last sweeps; 0 if there is none.
+    pub fn feature_among(&self, slots: core::ops::Range<usize>) -> u32 {
+        let first = self.entries.partition_point(|entry| (entry.slot as usize) < slots.start);
+        let of_range = self.entries[first..].iter().take_while(|entry| (entry.slot as usize) < slots.end);
+        of_range.map(|entry| feature(&entry.numbers)).find(|feature| *feature != 0).unwrap_or(0)
+    }
+
+    /// Begins a classification of all slots.
+    pub fn begin_classification(&mut self) {
+        core::mem::swap(&mut self.entries, &mut self.former);
+        self.entries.clear();
+        self.continued.clear();
+        self.taken = 0;
+    }
+
+    /// Begins the slots of a pair with the features of its new points in the order of slots. Where the features of the
+    /// former points are known, a new point continues the one of the same feature, in whatever slot that was; new and
+    /// former points that are left over continue each other in their order, since a corner on an edge is now one
+    /// feature, now another.
+    pub fn begin_pair(
+        &mut self,
+        slots: core::ops::Range<usize>,
+        features: impl DoubleEndedIterator<Item = u32> + Clone,
+    ) {
+        self.leave_open(slots.start);
+        self.of_features.clear();
+        self.continued.clear();
+        for entry in self.former[self.taken..].iter().take_while(|entry| (entry.slot as usize) < slots.end) {
+            let feature = feature(&entry.numbers);
+            if feature != 0 {
+                self.of_features.push((feature, entry.numbers));
+            }
+        }
+        if self.of_features.is_empty() {
+            return;
+        }
+        let former = &self.of_features;
+        let is_new = |feature: u32| !former.iter().any(|(known, _)| *known == feature);
+        let mut left_over = former.iter().rev().filter(|(known, _)| !features.clone().any(|feature| feature == *known));
+        let n_left_over = left_over.clone().count();
+        let n_new = features.clone().filter(|feature| is_new(*feature)).count();
+        // the first of each continue each other
+        let (mut surplus, mut unused) = (n_new.saturating_sub(n_left_over), n_left_over.saturating_sub(n_new));
+        while unused > 0 {
+            left_over.next();
+            unused -= 1;
+        }
+        for feature in features.clone().rev() {
+            let same = former.iter().find(|(known, _)| *known == feature);
+            let numbers = if same.is_some() {
+                same
+            } else if surplus > 0 {
+                surplus -= 1;
+                None
+            } else {
+                left_over.next()
+            };
+            self.continued.push(numbers.map_or([R::zero(); SLOT_LEN], |(_, numbers)| *numbers));
+        }
+    }
+
+    /// Classifies a slot, slots in increasing order; those left out are not closed.
     pub fn classify(&mut self, slot: usize, closed: bool, slides: [bool; 3]) {
-        self.is_new[slot] = closed && (self.is_new[slot] || !self.closed[slot]);
-        self.closed[slot] = closed;
-        self.slides[slot] = slides;
-        self.start_directions[slot] = [[R::zero(); 2]; 3];
-        if !closed {
-            self.numbers[slot * SLOT_LEN..(slot + 1) * SLOT_LEN].fill(R::zero());
+        self.leave_open(slot);
+        let known = self.former.get(self.taken).filter(|entry| entry.slot as usize == slot);
+        self.taken += usize::from(known.is_some());
+        let mut entry = known.copied().unwrap_or_else(|| Entry::new(slot));
+        if let Some(numbers) = self.continued.pop() {
+            entry.numbers = numbers;
+        }
+        entry.classify(closed, slides);
+        self.keep_entry(entry);
+    }
+
+    /// Ends a classification.
+    pub fn end_classification(&mut self) {
+        self.leave_open(usize::MAX);
+    }
+
+    /// Classifies the known slots before `slot` as not closed.
+    fn leave_open(&mut self, slot: usize) {
+        while let Some(entry) = self.former.get(self.taken).filter(|entry| (entry.slot as usize) < slot) {
+            let mut entry = *entry;
+            self.taken += 1;
+            entry.classify(false, [false; 3]);
+            self.keep_entry(entry);
+        }
+    }
+
+    fn keep_entry(&mut self, entry: Entry<R>) {
+        if !entry.is_idle() {
+            self.entries.push(entry);
         }
     }
 
     /// Restores multipliers and modes of the last solution, or with `holds` the modes of the start of the sub-step.
     pub fn restore(&self, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R], holds: bool) {
         for block in blocks.iter_mut().filter(|block| !block.is_drive()) {
-            let code = code(if holds { &self.start } else { &self.numbers }, block.slot);
+            let Some(entry) = self.entry(block.slot) else { continue };
+            let code = code(if holds { &entry.start } else { &entry.numbers });
             if code == 0 {
                 continue;
             }
-            let kept = &self.numbers[block.slot * SLOT_LEN..];
+            let kept = &entry.numbers;
             lambda[block.row] = kept[0];
             block.open = (code - 1) & 1 == 1 && block.given.is_none();
             for (g, group) in block.groups.iter_mut().enumerate() {
@@ -172,7 +364,7 @@ impl<R: Real> WarmStart<R> {
     /// Stores a solution.
     pub fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
         for block in blocks.iter().filter(|block| !block.is_drive()) {
-            let kept = &mut self.numbers[block.slot * SLOT_LEN..(block.slot + 1) * SLOT_LEN];
+            let kept = &mut self.entry_mut(block.slot).numbers;
             kept[0] = lambda[block.row];
             let mut code = 1 + u32::from(block.open);
             for (g, group) in block.groups.iter().enumerate() {
@@ -187,74 +379,90 @@ impl<R: Real> WarmStart<R> {
         }
     }
 
+    /// Adds the features of the contact points to what [`WarmStart::keep`] stored; `feature` gives that of a slot.
+    pub fn keep_features(&mut self, feature: impl Fn(usize) -> u32) {
+        for entry in self.entries.iter_mut().filter(|entry| entry.closed) {
+            let number = &mut entry.numbers[SLOT_LEN - 1];
+            *number += R::splat(FEATURE * f64::from(feature(entry.slot as usize)));
+        }
+    }
+
     /// Records multipliers and modes at the start of a sub-step.
     pub fn mark_start(&mut self) {
-        self.start.copy_from_slice(&self.numbers);
-        self.start_directions.copy_from_slice(&self.directions);
+        for entry in &mut self.entries {
+            (entry.start, entry.start_directions) = (entry.numbers, entry.directions);
+        }
     }
 
     /// Returns true if a mode differs from the start of the sub-step.
     pub fn has_other_modes(&self) -> bool {
-        (0..self.closed.len()).any(|slot| self.closed[slot] && code(&self.start, slot) != code(&self.numbers, slot))
+        self.entries.iter().any(|entry| entry.closed && code(&entry.start) != code(&entry.numbers))
     }
 
     /// Returns true if a mode differs from the start of the last sub-step, and every closed slot had one there.
     pub fn has_left_modes(&self) -> bool {
-        let has_former = |slot: usize| !self.closed[slot] || code(&self.start, slot) != 0;
-        self.has_other_modes() && (0..self.closed.len()).all(has_former)
+        self.has_other_modes() && self.entries.iter().all(|entry| !entry.closed || code(&entry.start) != 0)
     }
 
     /// Keeps the present multipliers and modes while others are looked at.
     pub fn set_aside(&mut self) {
-        self.decided.copy_from_slice(&self.numbers);
+        self.entries.iter_mut().for_each(|entry| entry.decided = entry.numbers);
     }
 
     /// Goes back to the multipliers and modes that were set aside.
     pub fn take_set_aside(&mut self) {
-        self.numbers.copy_from_slice(&self.decided);
+        self.entries.iter_mut().for_each(|entry| entry.numbers = entry.decided);
     }
 
     /// Takes the present multipliers and modes for those at the start of the sub-step; directions stay.
     pub fn propose_modes(&mut self) {
-        self.decided.copy_from_slice(&self.start);
-        self.start.copy_from_slice(&self.numbers);
-        self.directions.copy_from_slice(&self.start_directions);
+        for entry in &mut self.entries {
+            (entry.decided, entry.start) = (entry.start, entry.numbers);
+            entry.directions = entry.start_directions;
+        }
     }
 
     /// Takes back [`WarmStart::propose_modes`].
     pub fn reject_modes(&mut self) {
-        self.start.copy_from_slice(&self.decided);
+        self.entries.iter_mut().for_each(|entry| entry.start = entry.decided);
         self.return_to_start();
     }
 
     /// Goes back to multipliers and modes at the start of the sub-step.
     pub fn return_to_start(&mut self) {
-        self.numbers.copy_from_slice(&self.start);
-        self.directions.copy_from_slice(&self.start_directions);
+        for entry in &mut self.entries {
+            (entry.numbers, entry.directions) = (entry.start, entry.start_directions);
+        }
     }
 
     /// Returns true if a slot carried a force, or none was needed of it, at the start of the sub-step.
     pub fn was_closed(&self, slot: usize) -> bool {
-        self.closed[slot] && code(&self.start, slot).saturating_sub(1) & 1 == 0
+        self.entry(slot).is_some_and(|entry| entry.closed && code(&entry.start).saturating_sub(1) & 1 == 0)
     }
 
     /// Closed slot and group that slides fastest against its direction at the start of the sub-step.
     pub fn reversal(&self) -> Option<(usize, usize)> {
-        let along = |(slot, g): &(usize, usize)| self.along_start[*slot][*g];
-        let closed = (0..self.closed.len()).filter(|slot| self.closed[*slot]);
+        let along = |(entry, g): &(&Entry<R>, usize)| entry.along_start[*g];
+        let closed = self.entries.iter().filter(|entry| entry.closed);
         closed
-            .flat_map(|slot| (0..3).map(move |g| (slot, g)))
-            .filter(|(slot, g)| self.slides[*slot][*g] && along(&(*slot, *g)) < 0.0)
+            .flat_map(|entry| (0..3).map(move |g| (entry, g)))
+            .filter(|(entry, g)| entry.slides[*g] && along(&(*entry, *g)) < 0.0)
             .min_by(|a, b| along(a).total_cmp(&along(b)))
+            .map(|(entry, g)| (entry.slot as usize, g))
     }
 
     /// Sliding velocity of a group along that at the start of the sub-step [m/s] or [rad/s].
     pub fn along_start(&self, slot: usize, group: usize) -> f64 {
-        self.along_start[slot][group]
+        self.entry(slot).map_or(0.0, |entry| entry.along_start[group])
     }
 }
 
-/// Code of a slot.
-fn code<R: Real>(numbers: &[R], slot: usize) -> u32 {
-    numbers[slot * SLOT_LEN + 6].lane(0) as u32
+/// Code of a slot, without its feature.
+fn code<R: Real>(numbers: &[R; SLOT_LEN]) -> u32 {
+    (numbers[SLOT_LEN - 1].lane(0) as u64 % FEATURE as u64) as u32
+}
+
+/// Feature of a slot; 0 if it is not known.
+fn feature<R: Real>(numbers: &[R; SLOT_LEN]) -> u32 {
+    (numbers[SLOT_LEN - 1].lane(0) as u64 / FEATURE as u64) as u32
 }

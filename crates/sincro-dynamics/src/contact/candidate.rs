@@ -39,6 +39,8 @@ pub(crate) struct ContactCandidate {
     /// Axis of the disc whose rim it is, in link axes of a; the point is then the disc's centre. Planes only.
     pub rim: Option<Vec3<f64>>,
     pub feature: Feature,
+    /// Features of the surfaces that the candidate comes from, the same as long as the same ones touch; 0: not known.
+    pub id: u32,
 }
 
 /// Contact kinematics of a candidate at one instant, world axes.

@@ -1,10 +1,12 @@
 //! Contact detection from the poses of the links: broad phase by bounding spheres, then the narrow phase of each pair.
 
+use super::broad_phase::{BroadPhase, Margin, center};
 use super::candidate::{ContactCandidate, Feature};
+use super::candidate_list::{CandidateList, SlotCandidate};
 use super::manifold::Manifolds;
 use super::{Collider, Pair, PairKind, Surface};
 use crate::geometry::Shape;
-use crate::geometry::sat::{FaceClipper, PointOnPlane, Polytope};
+use crate::geometry::sat::{ContactKind, FaceClipper, PointOnPlane, Polytope};
 use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
@@ -15,10 +17,12 @@ const STANDS: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub(crate) struct Detector {
     points: Vec<(Vec<Vec3<f64>>, f64)>,
-    reach: Vec<f64>,
+    broad_phase: BroadPhase,
     manifolds: Manifolds,
     polytopes: Vec<Option<Polytope>>,
     clipper: FaceClipper,
+    /// Candidates of one pair.
+    slots: Vec<Option<ContactCandidate>>,
     /// Pairs that are ignored.
     pub ignored: Vec<bool>,
 }
@@ -27,72 +31,93 @@ impl Detector {
     pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
         Self {
             points: colliders.iter().map(Collider::points).collect(),
-            reach: colliders.iter().map(|c| c.surface.reach()).collect(),
+            broad_phase: BroadPhase::new(colliders, pairs),
             manifolds: Manifolds::new(colliders, pairs),
             polytopes: polytopes(colliders, pairs),
             clipper: FaceClipper::default(),
+            slots: Vec::new(),
             ignored: vec![false; pairs.len()],
         }
     }
 
-    /// Writes the contact candidates of every pair into its slots; none where the surfaces are farther apart than
-    /// `margin` `[m]`.
+    /// Finds the contact candidates of every pair whose surfaces are not farther apart than its `margin`; `velocity` as
+    /// in [`BroadPhase::find`], `former` gives a feature that a pair touched with so far, or 0.
     pub fn detect(
         &mut self,
-        colliders: &[Collider],
-        pairs: &[Pair],
+        (colliders, pairs): (&[Collider], &[Pair]),
         poses: &[Pose<f64>],
-        margin: f64,
-        candidates: &mut [Option<ContactCandidate>],
+        margin: Margin,
+        velocity: impl Fn(&Collider, Vec3<f64>) -> (Vec3<f64>, f64),
+        former: impl Fn(&Pair) -> u32,
+        found: &mut CandidateList,
     ) {
-        for (k, pair) in pairs.iter().enumerate() {
-            let slots = &mut candidates[pair.first..pair.first + pair.slots];
-            slots.fill(None);
-            let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
-            if self.ignored[k] || !self.is_near(pair, (a, b), poses, margin) {
+        self.broad_phase.find((colliders, pairs), poses, margin, velocity);
+        found.clear();
+        for n in 0..self.broad_phase.near.len() {
+            let k = self.broad_phase.near[n] as usize;
+            if self.ignored[k] {
                 continue;
             }
-            let at = |c: &Collider| if c.link == WORLD { c.pose } else { poses[c.link as usize].compose(&c.pose) };
-            match pair.kind {
-                PairKind::PointsOnPlane => points_on_plane(&self.points[pair.a], a, b, slots),
-                PairKind::CylinderOnPlane => cylinder_on_plane(a, b, (&at(a), &at(b)), slots),
-                PairKind::Balls => slots[0] = Some(balls(a, b)),
-                PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
-                PairKind::Polytopes => {
-                    let (Some(one), Some(two)) = (&self.polytopes[pair.a], &self.polytopes[pair.b]) else { continue };
-                    let of = |c: &Collider| if c.link == WORLD { Pose::identity() } else { poses[c.link as usize] };
-                    let (max_points, mut free) = (slots.len(), slots.iter_mut());
-                    self.clipper.find(one, two, &of(a).inverse().compose(&of(b)), margin, max_points, |found| {
-                        if let Some(slot) = free.next() {
-                            *slot = Some(point_on_plane(&found, a, b));
-                        }
-                    });
+            let pair = &pairs[k];
+            let reach = self.broad_phase.margin(pair, margin);
+            self.slots.clear();
+            self.slots.resize(pair.slots, None);
+            self.detect_pair((k, pair), colliders, poses, ContactKind::of(former(pair)), reach);
+            for (slot, candidate) in (pair.first..).zip(&self.slots) {
+                if let Some(candidate) = candidate {
+                    found.push(SlotCandidate { slot: slot as u32, pair: k as u32, candidate: *candidate });
                 }
-                PairKind::General => {
-                    self.manifolds.find(k, (pair.a, pair.b), (a, b), (&at(a), &at(b)), margin, slots);
-                }
+            }
+        }
+    }
+
+    /// Narrow phase of pair `k`: writes its candidates to `slots`.
+    fn detect_pair(
+        &mut self,
+        (k, pair): (usize, &Pair),
+        colliders: &[Collider],
+        poses: &[Pose<f64>],
+        former: ContactKind,
+        margin: f64,
+    ) {
+        let slots = &mut self.slots[..];
+        let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
+        let at = |c: &Collider| if c.link == WORLD { c.pose } else { poses[c.link as usize].compose(&c.pose) };
+        match pair.kind {
+            PairKind::PointsOnPlane => points_on_plane(&self.points[pair.a], a, b, slots),
+            PairKind::CylinderOnPlane => cylinder_on_plane(a, b, (&at(a), &at(b)), slots),
+            PairKind::Balls => slots[0] = Some(balls(a, b)),
+            PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
+            PairKind::Polytopes => {
+                let (Some(one), Some(two)) = (&self.polytopes[pair.a], &self.polytopes[pair.b]) else { return };
+                let of = |c: &Collider| if c.link == WORLD { Pose::identity() } else { poses[c.link as usize] };
+                let (max_points, mut free) = (slots.len(), slots.iter_mut());
+                self.clipper.find(one, two, &of(a).inverse().compose(&of(b)), former, margin, max_points, |found| {
+                    if let Some(slot) = free.next() {
+                        *slot = Some(point_on_plane(&found, a, b));
+                    }
+                });
+            }
+            PairKind::General => {
+                self.manifolds.find(k, (pair.a, pair.b), (a, b), (&at(a), &at(b)), margin, slots);
             }
         }
     }
 
     /// Bounding sphere of surface `k`: centre in the world and radius `[m]`.
     pub fn ball(&self, k: usize, c: &Collider, poses: &[Pose<f64>]) -> (Vec3<f64>, f64) {
-        (center(c, poses), self.reach[k])
+        (center(c, poses), self.broad_phase.radius(k))
     }
 
-    /// Broad phase: returns true if the bounding spheres of the two surfaces are closer than `margin` `[m]`.
+    /// Returns true if the bounding spheres of the two surfaces are closer than `margin` `[m]`.
     pub fn is_near(&self, pair: &Pair, (a, b): (&Collider, &Collider), poses: &[Pose<f64>], margin: f64) -> bool {
+        let [radius_a, radius_b] = [pair.a, pair.b].map(|k| self.broad_phase.radius(k));
         if let Surface::HalfSpace = b.surface {
-            return b.pose.rot.col(2).dot(center(a, poses) - b.pose.pos) <= self.reach[pair.a] + margin;
+            return b.pose.rot.col(2).dot(center(a, poses) - b.pose.pos) <= radius_a + margin;
         }
-        let (d, reach) = (center(a, poses) - center(b, poses), self.reach[pair.a] + self.reach[pair.b] + margin);
+        let (d, reach) = (center(a, poses) - center(b, poses), radius_a + radius_b + margin);
         d.dot(d) <= reach * reach
     }
-}
-
-/// Centre of a surface's bounding sphere, in the world.
-fn center(c: &Collider, poses: &[Pose<f64>]) -> Vec3<f64> {
-    if c.link == WORLD { c.pose.pos } else { poses[c.link as usize].point(c.pose.pos) }
 }
 
 fn polytopes(colliders: &[Collider], pairs: &[Pair]) -> Vec<Option<Polytope>> {
@@ -105,13 +130,14 @@ fn plane_of(b: &Collider) -> Feature {
 }
 
 fn candidate(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> ContactCandidate {
-    ContactCandidate { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature }
+    ContactCandidate { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature, id: 0 }
 }
 
 /// Contact candidate of a point that face clipping or crossing edges gave.
 fn point_on_plane(found: &PointOnPlane, a: &Collider, b: &Collider) -> ContactCandidate {
     let (a, b) = if found.is_on_first { (a, b) } else { (b, a) };
-    candidate(a, b, found.point, 0.0, Feature::Plane { origin: found.origin, normal: found.normal })
+    let plane = Feature::Plane { origin: found.origin, normal: found.normal };
+    ContactCandidate { id: found.feature, ..candidate(a, b, found.point, 0.0, plane) }
 }
 
 fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<ContactCandidate>]) {

@@ -143,6 +143,7 @@ fn candidate(
         radius_a: core_a.radius,
         rim: None,
         feature,
+        id: 0,
     }
 }
 
@@ -155,6 +156,7 @@ fn over_plane((a, core): (&Collider, Core), (b, p_b, n_b): (&Collider, Vec3<f64>
         radius_a: core.radius,
         rim: None,
         feature: Feature::Plane { origin: b.pose.point(p_b), normal: b.pose.rot.mul_vec(n_b) },
+        id: 0,
     }
 }
 

@@ -2,10 +2,10 @@
 //!
 //! A shape takes part in contact if it has a [`Material`]. Two such shapes form a pair unless they are fixed to one
 //! another, joined directly by a joint, or in the same group. A pair has a fixed number of slots, the most contact
-//! points it may have, so that states have a fixed length.
+//! points it may have; a point is known by its slot, and states hold the loaded ones.
 //!
-//! Broad phase: bounding spheres of the pair against a margin (`detect`). Narrow phase, by kind of pair: closed forms
-//! for points, cylinders and spheres against planes and cuboids (`detect`), separating axes and face clipping for
+//! Broad phase: bounding spheres of the pair against a margin (`broad_phase`). Narrow phase, by kind of pair: closed
+//! forms for points, cylinders and spheres against planes and cuboids (`detect`), separating axes and face clipping for
 //! convex polytopes ([`crate::geometry`], `sat`), contact manifolds of the collision library for the rest (`manifold`).
 //! Every contact candidate is a rounded point of one body against a plane, line or point of the other (`candidate`),
 //! which gives signed distance, normal and their rates exactly, curvature included.
@@ -14,12 +14,15 @@
 //! a frictionless surface), the larger restitution, the larger lengths of rolling and spinning friction, the sum of the
 //! compliances. A [`PairLaw`] of the two bodies replaces any of these.
 
+mod broad_phase;
 pub(crate) mod candidate;
+pub(crate) mod candidate_list;
 mod detect;
 mod manifold;
 
 pub use crate::geometry::Surface;
 use crate::geometry::sat::Polytope;
+pub(crate) use broad_phase::Margin;
 pub(crate) use detect::Detector;
 
 use crate::geometry::Shape;
@@ -159,6 +162,15 @@ enum PairKind {
     Polytopes,
     /// By the general algorithm.
     General,
+}
+
+impl Pair {
+    /// Number of rows of a contact point: its normal, and two, two and one of its friction groups.
+    pub(crate) fn rows_per_point(&self) -> usize {
+        let Material { friction, rolling_friction, spinning_friction, .. } = self.material;
+        let rows = |dim: usize, coefficient: f64| if coefficient > 0.0 { dim } else { 0 };
+        1 + rows(2, friction) + rows(2, rolling_friction) + rows(1, spinning_friction)
+    }
 }
 
 /// Maximum number of points of a contact manifold between two solids.

@@ -3,12 +3,14 @@
 
 use sincro_math::Real;
 
+use crate::constraint::row::Motions;
 use crate::constraint::warm_start::WarmStart;
 use crate::constraint::{
-    CLOSED_DISTANCE, Constraints, HeldLaw, LEAST_ZERO_SPEED, MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED,
+    CLOSED_DISTANCE, ConstraintSet, Constraints, HeldLaw, LEAST_ZERO_SPEED, MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED,
 };
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
-use crate::contact::{Collider, Pair};
+use crate::contact::candidate_list::SlotCandidate;
+use crate::contact::{Collider, Margin, Pair};
 use crate::integrate::System;
 use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
 use crate::recursions::aba::{self, Prescribed};
@@ -60,6 +62,17 @@ pub(crate) struct Projected {
     pub has_impulses: bool,
 }
 
+/// Rows that a projection keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ProjectedRows {
+    /// All closed ones; the rates of sticking contacts too.
+    Sticking,
+    /// Bilateral rows and penetrating contacts.
+    Penetrating,
+    /// Bilateral rows.
+    Bilateral,
+}
+
 /// Rule by which a contact or limit counts as closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ActivationRule {
@@ -81,12 +94,10 @@ impl Mechanism<f64> {
         let set = &*model.constraints;
         let gravity = model.gravity.norm();
         let margin = match closing {
-            ActivationRule::Within(h) => {
-                1e-3 + 4.0 * h * c.fastest(&set.colliders, &scratch.poses) + 4.0 * h * h * gravity
-            }
-            _ => 1e-6,
+            ActivationRule::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
+            _ => Margin::of(1e-6),
         };
-        c.detector.detect(&set.colliders, &set.pairs, &scratch.poses, margin, &mut c.candidates);
+        c.detect(set, &scratch.poses, margin);
         let mut touch = ContactStatus::default();
         let zero_speed = c.zero_speed;
         let closes = |distance: f64, rate: f64| match closing {
@@ -96,33 +107,47 @@ impl Mechanism<f64> {
                 distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity
             }
         };
+        c.memory.begin_classification();
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (self.base[limit.coordinate] - limit.bound);
             let rate = limit.sign * v[limit.dof];
             c.memory.classify(slot, closes(distance, rate), [false; 3]);
             touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -zero_speed;
         }
-        for pair in &set.pairs {
-            for k in pair.first..pair.first + pair.slots {
-                let slot = set.limits.len() + k;
-                let Some(candidate) = c.candidates[k] else {
-                    c.memory.classify(slot, false, [false; 3]);
-                    continue;
-                };
+        let candidates = core::mem::take(&mut c.candidates);
+        for of_pair in candidates.by_pair() {
+            let (first_slot, pair) = (set.limits.len(), &set.pairs[of_pair[0].pair as usize]);
+            let slots = first_slot + pair.first..first_slot + pair.first + pair.slots;
+            c.memory.begin_pair(slots, of_pair.iter().map(|found| found.candidate.id));
+            for SlotCandidate { slot, candidate, .. } in of_pair {
+                let slot = first_slot + *slot as usize;
                 let at = candidate.kinematics(&c.motions.at(scratch));
-                let rate = normal_rate(c, &candidate, &at);
+                let rate = normal_rate(&c.motions, candidate, &at);
+                let slides = || slides(&c.motions, candidate, &at, pair, zero_speed);
                 if pair.material.stiffness.is_finite() {
-                    let slides = slides(c, &candidate, &at, pair);
-                    c.memory.classify(slot, at.distance < 0.0, slides);
+                    c.memory.classify(slot, at.distance < 0.0, slides());
                     continue;
                 }
                 let closed = closes(at.distance, rate);
-                let slides = if closed { slides(c, &candidate, &at, pair) } else { [false; 3] };
-                c.memory.classify(slot, closed, slides);
+                c.memory.classify(slot, closed, if closed { slides() } else { [false; 3] });
                 touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -zero_speed;
             }
         }
+        c.memory.end_classification();
+        c.candidates = candidates;
         touch
+    }
+
+    /// Returns true if the constraints last classified as closed make a problem that is solved by sweeps.
+    pub(crate) fn is_large_contact_problem(&self) -> bool {
+        self.constraints.as_ref().is_some_and(|c| c.is_large(&self.model))
+    }
+
+    /// Sets whether problems at velocity level are solved by sweeps in the evaluations that follow.
+    pub(crate) fn set_sweeps(&mut self, sweeps: bool) {
+        if let Some(c) = &mut self.constraints {
+            c.sweeps = sweeps;
+        }
     }
 
     /// Sets the treatment of contact modes in the evaluations that follow.
@@ -188,19 +213,17 @@ impl Mechanism<f64> {
                 deepest = (Some(slot), distance);
             }
         }
-        c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, 1e-6, &mut c.later_candidates);
-        for pair in &set.pairs {
-            for k in pair.first..pair.first + pair.slots {
-                let (Some(candidate), slot) = (c.later_candidates[k], set.limits.len() + k) else { continue };
-                if c.memory.was_closed(slot) {
-                    continue;
-                }
-                let at = candidate.kinematics(&c.motions.at(&self.scratch));
-                if at.distance < deepest.1
-                    && (pair.material.stiffness.is_finite() || normal_rate(c, &candidate, &at) < -c.zero_speed)
-                {
-                    deepest = (Some(slot), at.distance);
-                }
+        c.detect_later(set, &self.scratch.poses, Margin::of(1e-6));
+        for SlotCandidate { slot, pair, candidate } in c.later_candidates.iter() {
+            let (slot, pair) = (set.limits.len() + *slot as usize, &set.pairs[*pair as usize]);
+            if c.memory.was_closed(slot) {
+                continue;
+            }
+            let at = candidate.kinematics(&c.motions.at(&self.scratch));
+            if at.distance < deepest.1
+                && (pair.material.stiffness.is_finite() || normal_rate(&c.motions, candidate, &at) < -c.zero_speed)
+            {
+                deepest = (Some(slot), at.distance);
             }
         }
         deepest.0
@@ -213,8 +236,8 @@ impl Mechanism<f64> {
         if let Some(limit) = set.limits.get(slot) {
             return limit.sign * (self.q[limit.coordinate] - limit.bound);
         }
-        c.detector.detect(&set.colliders, &set.pairs, &self.scratch.poses, LOCATED, &mut c.later_candidates);
-        let candidate = c.later_candidates[slot - set.limits.len()];
+        c.detect_later(set, &self.scratch.poses, Margin::of(LOCATED));
+        let candidate = c.later_candidates.get(slot - set.limits.len());
         candidate.map_or(f64::NAN, |candidate| candidate.kinematics(&c.motions.at(&self.scratch)).distance)
     }
 
@@ -236,8 +259,14 @@ impl Mechanism<f64> {
 
     /// Projection: removes the drift of positions (`y` begins with the chart's zero displacement) until the residuals
     /// of all closed constraints vanish, then that of rates. The closed constraints are those of the last evaluation.
-    pub(crate) fn project(&mut self, y: &mut [f64], sticking: bool) -> Projected {
+    pub(crate) fn project(&mut self, y: &mut [f64], rows: ProjectedRows) -> Projected {
         let n = self.model.n_v();
+        let set = &self.model.constraints;
+        let has_bilateral = !(set.loop_joints.is_empty() && set.gears.is_empty());
+        if rows == ProjectedRows::Bilateral && !has_bilateral {
+            return Projected::default();
+        }
+        let sticking = rows == ProjectedRows::Sticking;
         let enough = self.projection_scale * if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
         let (mut last, mut projected) = (f64::INFINITY, Projected::default());
         for k in 0..MAX_PROJECTIONS {
@@ -248,8 +277,12 @@ impl Mechanism<f64> {
             if k == 0 {
                 projected.closing_work = c.closing_work();
             }
-            // a sticking contact has no position to keep, only a zero rate
-            c.keep_equations(false, !sticking);
+            if rows == ProjectedRows::Bilateral {
+                c.keep_loop_joints();
+            } else {
+                // a sticking contact has no position to keep, only a zero rate
+                c.keep_equations(false, !sticking);
+            }
             let worst = c.worst(&y[n..2 * n]).0;
             // close to a singular position there may be a residual that must not be removed
             if worst <= enough || worst > 0.5 * last {
@@ -264,8 +297,7 @@ impl Mechanism<f64> {
             self.constraint_change = change;
             self.rechart(y);
         }
-        let set = &self.model.constraints;
-        if !sticking && set.loop_joints.is_empty() && set.gears.is_empty() {
+        if !sticking && !has_bilateral {
             return projected;
         }
         self.prepare(y, false);
@@ -346,7 +378,7 @@ impl Mechanism<f64> {
 impl<R: Real> Mechanism<R> {
     /// Factors the mass matrix at the chart's origin for impulses: forward dynamics at rest without forces, prescribed
     /// degrees of freedom as marked.
-    pub(super) fn factor(&mut self) {
+    pub(crate) fn factor(&mut self) {
         self.torque.fill(R::zero());
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
@@ -391,31 +423,48 @@ impl Constraints<f64> {
         self.motions.velocity_of(collider.link, at).norm() + around
     }
 
-    /// Upper bound of the speed of all surfaces [m/s].
-    fn fastest(&self, colliders: &[Collider], poses: &[Pose<f64>]) -> f64 {
-        colliders.iter().enumerate().map(|(k, collider)| self.speed(k, collider, poses)).fold(0.0, f64::max)
+    /// Detects the contact candidates at the motions last placed.
+    fn detect(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
+        let motions = &self.motions;
+        let velocity =
+            |c: &Collider, p: Vec3<f64>| (motions.velocity_of(c.link, p), motions.twist_of(c.link).ang.norm());
+        let (memory, first_slot) = (&self.memory, set.limits.len());
+        let former = |pair: &Pair| memory.feature_among(first_slot + pair.first..first_slot + pair.first + pair.slots);
+        self.detector.detect((&set.colliders, &set.pairs), poses, margin, velocity, former, &mut self.candidates);
+    }
+
+    /// Detects the contact candidates of a later instant.
+    fn detect_later(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
+        let at_rest = |_: &Collider, _| (Vec3::zero(), 0.0);
+        self.detector.detect((&set.colliders, &set.pairs), poses, margin, at_rest, |_| 0, &mut self.later_candidates);
     }
 }
 
-fn normal_rate(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
-    relative(c, candidate, at.point).dot(at.normal)
+fn normal_rate(motions: &Motions<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
+    relative(motions, candidate, at.point).dot(at.normal)
 }
 
 /// Velocity of a's point against b's [m/s].
-fn relative(c: &Constraints<f64>, candidate: &ContactCandidate, point: Vec3<f64>) -> Vec3<f64> {
-    c.motions.velocity_of(candidate.a, point) - c.motions.velocity_of(candidate.b, point)
+fn relative(motions: &Motions<f64>, candidate: &ContactCandidate, point: Vec3<f64>) -> Vec3<f64> {
+    motions.velocity_of(candidate.a, point) - motions.velocity_of(candidate.b, point)
 }
 
-/// Friction groups that slide.
-fn slides(c: &Constraints<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>, pair: &Pair) -> [bool; 3] {
+/// Friction groups that slide, faster than a speed that counts as none.
+fn slides(
+    motions: &Motions<f64>,
+    candidate: &ContactCandidate,
+    at: &ContactKinematics<f64>,
+    pair: &Pair,
+    zero_speed: f64,
+) -> [bool; 3] {
     let (t1, t2) = tangents(at.normal);
-    let v = relative(c, candidate, at.point);
-    let w = c.motions.twist_of(candidate.a).ang - c.motions.twist_of(candidate.b).ang;
-    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > c.zero_speed;
+    let v = relative(motions, candidate, at.point);
+    let w = motions.twist_of(candidate.a).ang - motions.twist_of(candidate.b).ang;
+    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > zero_speed;
     let m = &pair.material;
     [
         m.friction > 0.0 && across(v),
         m.rolling_friction > 0.0 && across(w),
-        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > c.zero_speed,
+        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > zero_speed,
     ]
 }

@@ -163,7 +163,7 @@ impl<R: Real> Mechanism<R> {
         x.v.copy_from_slice(&y[n..2 * n]);
         x.drives.copy_from_slice(&self.drives);
         if let Some(constraints) = &self.constraints {
-            x.contacts.copy_from_slice(&constraints.memory.numbers);
+            constraints.memory.store(&mut x.contacts);
         }
         if self.tracks_totals {
             let totals = 2 * n..2 * n + x.totals.len();

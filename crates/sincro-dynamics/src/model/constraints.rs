@@ -3,7 +3,7 @@
 use crate::contact::{Collider, Pair};
 use crate::spatial::Pose;
 
-/// Numbers per slot in [`crate::state::State::contacts`]: six multipliers and the contact mode.
+/// Numbers of a slot in [`crate::state::State::contacts`], after its index: six multipliers and the contact mode.
 pub const SLOT_LEN: usize = 7;
 
 /// A frame fixed in a link.
@@ -122,10 +122,17 @@ impl ConstraintSet {
         self.limits.len() + self.n_contacts()
     }
 
-    /// Length of [`crate::state::State::contacts`].
+    /// Returns true if a list may be [`crate::state::State::contacts`] of this model: empty, or the fallback and records of
+    /// slots in increasing order.
     #[must_use]
-    pub fn n_numbers(&self) -> usize {
-        warm_start_len(self.n_slots())
+    pub fn accepts(&self, contacts: &[f64]) -> bool {
+        let Some((fallback, records)) = contacts.split_first() else { return true };
+        let slots = records.chunks(1 + SLOT_LEN).map(|record| record[0]);
+        let is_slot = |slot: f64| slot >= 0.0 && slot < self.n_slots() as f64 && slot.fract() == 0.0;
+        fallback.is_finite()
+            && records.len() % (1 + SLOT_LEN) == 0
+            && slots.clone().all(is_slot)
+            && slots.clone().zip(slots.skip(1)).all(|(one, two)| one < two)
     }
 
     /// Number of bilateral rows: of loop joints and gears.
@@ -133,9 +140,4 @@ impl ConstraintSet {
     pub fn n_bilateral(&self) -> usize {
         self.loop_joints.iter().map(|c| c.kind.rows()).sum::<usize>() + self.gears.len()
     }
-}
-
-/// Length of the part of the state that belongs to `n_slots` slots.
-pub(crate) fn warm_start_len(n_slots: usize) -> usize {
-    if n_slots == 0 { 0 } else { SLOT_LEN * n_slots + 1 }
 }

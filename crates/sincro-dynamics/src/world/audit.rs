@@ -22,6 +22,7 @@
 
 use super::Observation;
 use crate::constraint::{Constraints, pair_of};
+use crate::contact::candidate_list::SlotCandidate;
 use crate::joint::StageKind;
 use crate::model::Model;
 use crate::scratch::Scratch;
@@ -268,12 +269,13 @@ impl Observation<'_> {
             let kind = if is_linear(model, limit.dof) { ResidualKind::Length } else { ResidualKind::Angle };
             found.add(Law::JointLimit, beyond.max(0.0), limit.bound.abs().max(1.0), kind, LawElement::Limit(k));
         }
-        for (k, pair) in set.pairs.iter().enumerate().filter(|(_, pair)| !pair.material.stiffness.is_finite()) {
-            for candidate in c.candidates[pair.first..pair.first + pair.slots].iter().flatten() {
-                let depth = -candidate.kinematics(&c.motions.at(self.scratch())).distance;
-                let element = LawElement::Pair(k);
-                found.add(Law::Penetration, depth.max(0.0), scales.length, ResidualKind::Length, element);
+        for SlotCandidate { pair, candidate, .. } in c.candidates.iter() {
+            if set.pairs[*pair as usize].material.stiffness.is_finite() {
+                continue;
             }
+            let depth = -candidate.kinematics(&c.motions.at(self.scratch())).distance;
+            let element = LawElement::Pair(*pair as usize);
+            found.add(Law::Penetration, depth.max(0.0), scales.length, ResidualKind::Length, element);
         }
     }
 

@@ -117,10 +117,13 @@ impl WorldBuilder {
             }
         }
         let fitting = State::new(&self.model);
-        let lists = |s: &State<f64>| [s.q.len(), s.v.len(), s.commands.len(), s.drives.len(), s.contacts.len()];
+        let lists = |s: &State<f64>| [s.q.len(), s.v.len(), s.commands.len(), s.drives.len()];
         let others = |s: &State<f64>| [s.totals.len(), s.rotors.len()];
         if lists(&self.state) != lists(&fitting) || others(&self.state) != others(&fitting) {
             problems.push("the state was made for another model: its lists have other lengths".to_owned());
+        }
+        if !self.model.constraints().accepts(&self.state.contacts) {
+            problems.push("the state was made for another model: its contacts are none of this one".to_owned());
         }
         if !self.state.q.iter().chain(&self.state.v).chain(&self.state.commands).all(|x| x.is_finite()) {
             problems.push("the initial state has a number that is not finite".to_owned());

@@ -1,12 +1,12 @@
 //! Constraints within a tick: impacts at the start of a sub-step, events that end it, projection after it, and steps at
 //! velocity level as a fallback for Zeno behaviour.
 
-use super::{Stop, World};
+use super::{Method, Stop, World};
 use crate::actuation::DriveKind;
 use crate::constraint::warm_start::{WarmStart, ZenoFallback};
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, SemiImplicitEuler, System};
-use crate::mechanism::constraints::ActivationRule;
+use crate::mechanism::constraints::{ActivationRule, ProjectedRows};
 
 /// Maximum number of successive impacts at one instant (propagation through a stack); the rest counts as inelastic.
 const MAX_IMPACTS: usize = 50;
@@ -74,7 +74,7 @@ impl World {
     pub(super) fn project(&mut self) {
         if self.is_constrained() {
             self.mechanism.mark_locked();
-            let projected = self.mechanism.project(&mut self.y, true);
+            let projected = self.mechanism.project(&mut self.y, ProjectedRows::Sticking);
             self.statistics.closing_work += projected.closing_work;
             if projected.has_impulses && self.mechanism.tracks_totals() {
                 self.add_motor_impulses(|world, drive| world.mechanism.drives[drive] == 0.0);
@@ -119,11 +119,32 @@ impl World {
         h: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
+        let is_large = self.try_step(t, h, system);
+        self.statistics.steps += 1;
+        self.mechanism.contact_memory().into_iter().for_each(WarmStart::forget_start);
+        if !self.y.iter().all(|x| x.is_finite()) {
+            self.restore();
+            return Err((t, Stop::Integration(Failure::NotFinite { t })));
+        }
+        let n = self.model().n_v();
+        self.project_penetrations(is_large && matches!(self.method, Method::SemiImplicitEuler));
+        for i in 0..self.target_velocities.len() {
+            if self.mechanism.drives[i] == 0.0 {
+                self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes a step at velocity level without what follows it: no projection, and nothing is looked at. Returns true if
+    /// the problem was large and solved by sweeps.
+    pub(super) fn try_step<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) -> bool {
         // a motor that a client has made a drive may be the first of its world
         let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
-        self.statistics.steps += 1;
         let n = self.model().n_v();
         self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
+        let is_large = self.mechanism.is_large_contact_problem();
+        self.mechanism.set_sweeps(is_large);
         self.save_step_start();
         self.solve_step_modes(h, |world| {
             world.restore();
@@ -137,26 +158,43 @@ impl World {
             };
             method.step(system, t, h, &mut world.y);
         });
+        self.mechanism.set_sweeps(false);
         self.time_stepping = Some(method);
-        self.mechanism.contact_memory().into_iter().for_each(WarmStart::forget_start);
-        if !self.y.iter().all(|x| x.is_finite()) {
-            self.restore();
-            return Err((t, Stop::Integration(Failure::NotFinite { t })));
+        is_large
+    }
+
+    /// Returns true if the next step is one at velocity level with so many contacts that it is solved by sweeps. Forces
+    /// and accelerations are those of whole steps then.
+    pub(super) fn is_next_step_large(&mut self) -> bool {
+        if !self.is_constrained() || !matches!(self.method, Method::SemiImplicitEuler) {
+            return false;
         }
-        self.project_penetrations();
-        for i in 0..self.target_velocities.len() {
-            if self.mechanism.drives[i] == 0.0 {
-                self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
-            }
+        let n = self.model().n_v();
+        self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(self.next_step));
+        self.mechanism.is_large_contact_problem()
+    }
+
+    /// Finds the forces of the next step from the present state, and stays there; the velocities at its end are left in
+    /// `slope`.
+    pub(super) fn find_step_forces<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+        let n = self.model().n_v();
+        self.try_step(t, self.next_step, system);
+        self.slope[..n].copy_from_slice(&self.y[n..2 * n]);
+        self.restore();
+        if !self.slope[..n].iter().all(|v| v.is_finite()) {
+            // a step that fails does so when it is made
+            self.mechanism.load(&self.state, &mut self.y);
         }
-        Ok(())
     }
 
     /// Projects after a step at velocity level: penetrating contacts and loop joints.
-    pub(super) fn project_penetrations(&mut self) {
+    ///
+    /// Sweeps have corrected the distances of contacts already: then loop joints and gears alone.
+    fn project_penetrations(&mut self, is_large: bool) {
         if self.is_constrained() {
+            let rows = if is_large { ProjectedRows::Bilateral } else { ProjectedRows::Penetrating };
             self.mechanism.mark_locked();
-            self.mechanism.project(&mut self.y, false);
+            self.mechanism.project(&mut self.y, rows);
         }
     }
 }

@@ -138,6 +138,8 @@ pub struct World {
     substeps: u32,
     /// Base step of [`World::step`] `[s]`.
     step_size: f64,
+    /// Length of the next step at velocity level of a method that makes no others `[s]`.
+    next_step: f64,
     /// Steps at velocity level: of semi-implicit Euler, and the fallback of the others.
     time_stepping: Option<SemiImplicitEuler<f64>>,
     statistics: StepStatistics,
@@ -206,6 +208,7 @@ impl World {
             attached_before: vec![0.0; n_states],
             substeps: 1,
             step_size: control.h,
+            next_step: control.h,
             time_stepping,
             base_before,
             report_before: SolverReport::default(),
@@ -287,8 +290,12 @@ impl World {
     pub fn initialize_with<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         self.load(system);
         self.latch_target_velocities();
-        self.resolve_impacts();
-        self.resolve_modes(t, (self.step_size, false), system);
+        if self.is_next_step_large() {
+            self.find_step_forces(t, system);
+        } else {
+            self.resolve_impacts();
+            self.resolve_modes(t, (self.step_size, false), system);
+        }
         self.mechanism.store(&self.y, &mut self.state);
     }
 
@@ -331,6 +338,7 @@ impl World {
         h: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
+        self.next_step = h / f64::from(self.substeps);
         // the time event at the end of the last tick has passed
         system.set_time_event(f64::INFINITY);
         self.count_particles(h);
@@ -378,6 +386,10 @@ impl World {
     pub fn rates(&mut self, t: f64) -> (&[f64], &[f64]) {
         let n = self.model().n_v();
         self.mechanism.load(&self.state, &mut self.y);
+        if self.is_next_step_large() {
+            return self.step_rates(t);
+        }
+        self.mechanism.load(&self.state, &mut self.y);
         self.mechanism.detect_contacts(&self.state.v, ActivationRule::Touching);
         self.mechanism.mark_modes();
         let own = self.mechanism.dim();
@@ -385,6 +397,26 @@ impl World {
         self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
         self.accelerations.copy_from_slice(&self.slope[n..2 * n]);
         (&self.accelerations, self.mechanism.motor_torque())
+    }
+
+    /// As [`World::rates`], over the next step, whose contacts are solved as a whole.
+    fn step_rates(&mut self, t: f64) -> (&[f64], &[f64]) {
+        let n = self.model().n_v();
+        self.latch_target_velocities();
+        self.find_step_forces(t, &mut NoCoupling);
+        for k in 0..n {
+            self.accelerations[k] = (self.slope[k] - self.state.v[k]) / self.next_step;
+        }
+        self.mechanism.find_motor_torques(&self.state.v, (self.next_step, 0.0));
+        // the modes are those of the step that has been made
+        self.mechanism.drives.copy_from_slice(&self.state.drives);
+        (&self.accelerations, self.mechanism.motor_torque())
+    }
+
+    /// Announces the length of the next step `[s]`, over which the forces of many contacts are found; after a step it is
+    /// the same again.
+    pub fn announce_step(&mut self, h: f64) {
+        self.next_step = h / f64::from(self.substeps);
     }
 
     /// Calls `look` with the state view of the present state.

@@ -58,8 +58,8 @@ impl World {
         goes_back
     }
 
-    /// Decides contacts together with the drives at their kink, at the start of a sub-step of about `h`, and records the
-    /// modes: those a little later after an event, and where a drive has changed. A force reaches its bound
+    /// Decides contacts together with the drives at their kink, at the start of a sub-step of about `h`, and records
+    /// the modes: those a little later after an event, and where a drive has changed. A force reaches its bound
     /// continuously, so that at the event itself rounding decides between the modes on both sides of it.
     fn decide_with_contacts<A: CoupledSystem<f64> + ?Sized>(
         &mut self,

@@ -139,7 +139,8 @@ impl Instance {
 impl Run {
     fn go_back(&mut self, saved: &SavedRun) -> Result<(), String> {
         let lengths = |s: &sincro_dynamics::state::State<f64>| {
-            [&s.q, &s.v, &s.commands, &s.drives, &s.contacts, &s.totals, &s.rotors].map(Vec::len)
+            // contacts are as many as touch
+            [&s.q, &s.v, &s.commands, &s.drives, &s.totals, &s.rotors].map(Vec::len)
         };
         let fits = lengths(&saved.snapshot.state) == lengths(self.lockstep.state());
         if !fits || !self.recorder.set_memory(&saved.outputs) {

@@ -21,7 +21,9 @@ pub(crate) fn help(finding: &Finding, experiment: &Experiment, method: MethodKin
         }
         "velocity-level-step" => format!("{}; or give surfaces that touch a `stiffness`", finer(experiment, method)),
         "error-bar" => reachable(experiment, method),
-        "constraint-solver" => format!("{}; or give surfaces that touch a `stiffness`", finer(experiment, method)),
+        "contact-island" | "constraint-solver" => {
+            format!("{}; or give surfaces that touch a `stiffness`", finer(experiment, method))
+        }
         _ => finer(experiment, method),
     }
 }

@@ -5,7 +5,7 @@ use sincro_dynamics::world::{MethodKind, Observation, World};
 use sincro_scene::experiment::Experiment;
 
 use super::Finding;
-use super::limits::Limits;
+use super::limits::{ISLAND, Limits};
 
 /// Accumulator of a run: nothing is allocated while it runs.
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub struct LawAudit {
     worst: [Option<(LawResidual, f64)>; Law::ALL.len()],
     /// Constraint problems without convergence: their worst residual, and the time `[s]` after the step that had it.
     unsolved: (f64, f64),
+    /// Largest residual of an island of contacts, and the time `[s]` after the step that had it.
+    rough: (f64, f64),
     /// Ticks finished, and steps made, at velocity level because contacts or drives changed without end, decisions
     /// between modes of drives that did not end, and the time `[s]` after the first.
     fallback: (u64, f64),
@@ -23,7 +25,13 @@ pub struct LawAudit {
 
 impl Default for LawAudit {
     fn default() -> Self {
-        Self { worst: [None; Law::ALL.len()], unsolved: (0.0, 0.0), fallback: (0, 0.0), acceleration: 0.0 }
+        Self {
+            worst: [None; Law::ALL.len()],
+            unsolved: (0.0, 0.0),
+            rough: (0.0, 0.0),
+            fallback: (0, 0.0),
+            acceleration: 0.0,
+        }
     }
 }
 
@@ -44,6 +52,10 @@ impl LawAudit {
         let residual = world.solver_report().map_or(0.0, |report| report.worst_residual);
         if residual > self.unsolved.0 {
             self.unsolved = (residual, t);
+        }
+        let rough = world.solver_report().map_or(0.0, |report| report.worst_island);
+        if rough > self.rough.0 {
+            self.rough = (rough, t);
         }
         let done = world.statistics();
         let steps = done.fallback_ticks + done.fallback_steps + done.undecided_modes;
@@ -73,6 +85,15 @@ impl LawAudit {
             time: self.unsolved.1,
             value: self.unsolved.0,
             limit: limits.unsolved(),
+            unit: String::new(),
+            help: String::new(),
+        }));
+        laws.extend(world.solver_report().filter(|report| report.islands > 0).map(|report| Finding {
+            law: "contact-island".to_owned(),
+            element: format!("{} of {} islands above 1e-6", report.unconverged_islands, report.islands),
+            time: self.rough.1,
+            value: report.worst_island,
+            limit: ISLAND,
             unit: String::new(),
             help: String::new(),
         }));

@@ -14,6 +14,10 @@ const SMALLEST_STATE: f64 = 1e-11;
 /// Smallest limit of a residual of forces: ten times the complementarity tolerance of the solver.
 const SMALLEST_FORCE: f64 = 1e-8;
 
+/// Largest residual of an island of contacts in a step at velocity level, whose own error is of first order, relative
+/// to the largest force of the island.
+pub(super) const ISLAND: f64 = 5e-3;
+
 /// Share of a balance or a difference that is rounding: of each step, relative to the energies.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 

@@ -277,6 +277,7 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
     let (model, control) = ((*scene.model).clone(), Control::new(accuracy, first_step));
     let mut world = World::with_coupled_states(model, scene.initial.clone(), kind, control, true, n_states);
     world.set_substeps(if refined { 2 } else { 1 });
+    world.announce_step(experiment.step);
     world
 }
 

@@ -203,6 +203,12 @@ fn about_constraints(world: &World) -> Vec<String> {
             report.not_converged, report.solved, report.worst_residual
         ));
     }
+    if let Some(report) = world.solver_report().filter(|r| r.unconverged_islands > 0) {
+        warnings.push(format!(
+            "{} of {} islands of contacts were left with a residual above 1e-6, up to {:.1e} of their largest force",
+            report.unconverged_islands, report.islands, report.worst_island
+        ));
+    }
     warnings
 }
 

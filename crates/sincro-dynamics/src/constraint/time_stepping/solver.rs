@@ -1,0 +1,501 @@
+//! Nonsmooth nonlinear conjugate gradient method on block Gauss–Seidel sweeps, island by island.
+//!
+//! A sweep solves each contact's own problem exactly, one after the other ([`super::local`]). Its change of all forces
+//! is taken for a descent direction: with ∇ the change and β = ‖∇_k‖²/‖∇_{k−1}‖² the forces are moved further along the
+//! last direction, p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖:
+//! they weigh forces and torques by their effect. Source: key `silcowitz2010`.
+//!
+//! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
+//! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
+
+use sincro_math::{Real, Task};
+
+use super::local::{ContactLocal, TangentialProblem};
+use crate::constraint::solver::SolverReport;
+
+/// Residual at which an island counts as solved.
+const TOLERANCE: f64 = 1e-6;
+
+/// Residual that an island which hardly moves is solved to, with few sweeps a step: where every step stopped at the
+/// tolerance, the next ones would have to make up for it.
+const REST_TOLERANCE: f64 = 1e-10;
+
+/// Number of sweeps a step towards that residual.
+const REST_SWEEPS: usize = 10;
+
+/// Speed of all contacts of an island below which it hardly moves [m/s].
+const REST_SPEED: f64 = 2e-3;
+
+/// Iteration limit of an island, with one more for each of its blocks; beyond it the last iterate is taken and its
+/// residual reported.
+const MAX_SWEEPS: usize = 60;
+
+/// Force law of a block of rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Law {
+    /// Loop joint or gear: any force.
+    Bilateral,
+    /// Joint limit, contact without friction: pushes.
+    Unilateral,
+    /// Contact with sliding friction: normal row and two across.
+    Coulomb { friction: f64 },
+    /// Force that is given: of a compliant contact.
+    Given { force: f64 },
+    /// Limited drive.
+    Interval { limit: f64 },
+    /// Rolling or spinning friction: at most `coefficient` times the first force of the block `normal`.
+    Disc { coefficient: f64, normal: usize },
+}
+
+/// Rows with one law.
+#[derive(Clone, Debug)]
+struct Block {
+    law: Law,
+    /// First row of the problem, and number of rows.
+    row: usize,
+    n: usize,
+    /// First number and first index of its whitened rows; length of each, even.
+    values: usize,
+    index: usize,
+    len: usize,
+    b: [f64; 3],
+    lambda: [f64; 3],
+    local: Local,
+}
+
+/// Own problem of a block.
+#[derive(Clone, Copy, Debug)]
+enum Local {
+    Scalar {
+        inverse: f64,
+    },
+    Tangential {
+        trace: f64,
+        g: [f64; 3],
+        problem: TangentialProblem,
+    },
+    /// A block that no force moves.
+    Immobile,
+    Contact(ContactLocal),
+}
+
+/// Part of the lists that belongs to one island.
+#[derive(Clone, Copy, Debug)]
+struct IslandRange {
+    blocks: (usize, usize),
+    z: (usize, usize),
+}
+
+/// Blocks of all islands with their whitened rows.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sweeper {
+    blocks: Vec<Block>,
+    values: Vec<f64>,
+    /// Places in z of the numbers of each row.
+    index: Vec<u32>,
+    islands: Vec<IslandRange>,
+    z: Vec<f64>,
+    /// Place in z of each degree of freedom.
+    place: Vec<u32>,
+    z_before: Vec<f64>,
+    direction_z: Vec<f64>,
+    /// Direction and last forces, three a block.
+    direction: Vec<[f64; 3]>,
+    before: Vec<[f64; 3]>,
+    /// Velocities along one block.
+    along: Vec<f64>,
+    h: f64,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// Sum of the inverse masses and inertias of a block below which no force moves it [1/kg], [1/(kg·m²)].
+const IMMOBILE: f64 = 1e-24;
+
+impl Sweeper {
+    /// Begins a problem of a mechanism with `n_v` degrees of freedom.
+    pub fn clear(&mut self, n_v: usize) {
+        self.blocks.clear();
+        self.values.clear();
+        self.index.clear();
+        self.islands.clear();
+        self.place.clear();
+        self.place.resize(n_v, NONE);
+        // the first number belongs to no degree of freedom: it fills up rows of odd length
+        self.z.clear();
+        self.z.push(0.0);
+    }
+
+    /// Sets the length of the step `[s]`.
+    pub fn set_step(&mut self, h: f64) {
+        self.h = h;
+    }
+
+    /// Number of blocks so far.
+    pub fn len(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Adds a block of `n` rows from `row` on, with their whitened rows one after the other in `values`.
+    #[allow(clippy::too_many_arguments)]
+    pub fn add(&mut self, law: Law, row: usize, n: usize, dofs: &[u32], values: &[f64], b: [f64; 3], lambda: [f64; 3]) {
+        let index = self.index.len();
+        for dof in dofs {
+            let place = &mut self.place[*dof as usize];
+            if *place == NONE {
+                *place = self.z.len() as u32;
+                self.z.push(0.0);
+            }
+            self.index.push(*place);
+        }
+        let fill = dofs.len() % 2;
+        self.index.extend(std::iter::repeat_n(0, fill));
+        let first = self.values.len();
+        for row in values.chunks(dofs.len().max(1)).take(n) {
+            self.values.extend_from_slice(row);
+            self.values.extend(std::iter::repeat_n(0.0, fill));
+        }
+        let len = dofs.len() + fill;
+        let y = &self.values[first..];
+        let dot = |i: usize, j: usize| dot(&y[i * len..(i + 1) * len], &y[j * len..(j + 1) * len]);
+        let trace: f64 = (0..n).map(|k| dot(k, k)).sum();
+        let local = match n {
+            _ if trace <= IMMOBILE => Local::Immobile,
+            1 => {
+                let g = dot(0, 0);
+                Local::Scalar { inverse: 1.0 / g }
+            }
+            2 => {
+                let g = [dot(0, 0), dot(0, 1), dot(1, 1)];
+                Local::Tangential { trace: g[0] + g[2], g, problem: TangentialProblem::new(g, g[0] + g[2]) }
+            }
+            _ => Local::Contact(ContactLocal::new([dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)])),
+        };
+        self.blocks.push(Block { law, row, n, values: first, index, len, b, lambda, local });
+    }
+
+    /// Ends an island.
+    pub fn end_island(&mut self) {
+        let (blocks, z) = self.islands.last().map_or((0, 1), |island| (island.blocks.1, island.z.1));
+        self.islands.push(IslandRange { blocks: (blocks, self.blocks.len()), z: (z, self.z.len()) });
+    }
+
+    /// Solves all islands from the forces given as a start.
+    pub fn solve(&mut self, report: &mut SolverReport) {
+        self.z_before.clear();
+        self.z_before.resize(self.z.len(), 0.0);
+        self.direction_z.clear();
+        self.direction_z.resize(self.z.len(), 0.0);
+        self.direction.clear();
+        self.direction.resize(self.blocks.len(), [0.0; 3]);
+        self.before.clear();
+        self.before.resize(self.blocks.len(), [0.0; 3]);
+        let longest = self.blocks.iter().map(|block| block.len).max().unwrap_or(0);
+        self.along.clear();
+        self.along.resize(longest, 0.0);
+        for k in 0..self.islands.len() {
+            let IslandRange { blocks, z } = self.islands[k];
+            let (residual, sweeps) = f64::run_hot(Island { sweeper: self, blocks, z });
+            report.islands += 1;
+            report.sweeps += sweeps as u64;
+            report.unconverged_islands += u64::from(residual > TOLERANCE);
+            report.worst_island = report.worst_island.max(residual);
+        }
+    }
+
+    /// Hands each row with its multiplier to `take`.
+    pub fn read(&self, mut take: impl FnMut(usize, f64)) {
+        for block in &self.blocks {
+            for k in 0..block.n {
+                take(block.row + k, block.lambda[k]);
+            }
+        }
+    }
+
+    /// Rates of a block: b + y·z.
+    #[inline(always)]
+    fn rates(&mut self, k: usize) -> [f64; 3] {
+        let block = &self.blocks[k];
+        let len = block.len;
+        let index = &self.index[block.index..block.index + len];
+        let along = &mut self.along[..len];
+        for (along, i) in along.iter_mut().zip(index) {
+            *along = self.z[*i as usize];
+        }
+        let mut u = block.b;
+        let y = &self.values[block.values..block.values + block.n * len];
+        match (len, block.n) {
+            (12, 3) => {
+                let (y, z) = (fixed::<36>(y), fixed::<12>(along));
+                let sums = dots::<12>(y, z);
+                for k in 0..3 {
+                    u[k] += sums[k];
+                }
+            }
+            (6, 3) => {
+                let (y, z) = (fixed::<18>(y), fixed::<6>(along));
+                let sums = dots::<6>(y, z);
+                for k in 0..3 {
+                    u[k] += sums[k];
+                }
+            }
+            _ => {
+                for (u, y) in u.iter_mut().zip(y.chunks_exact(len.max(1))) {
+                    *u += dot(y, along);
+                }
+            }
+        }
+        u
+    }
+
+    /// Changes the forces of a block; the velocities along it are those last taken by [`Sweeper::rates`].
+    #[inline(always)]
+    fn change(&mut self, k: usize, lambda: [f64; 3]) {
+        let block = &mut self.blocks[k];
+        let d = minus(lambda, block.lambda);
+        block.lambda = lambda;
+        if d == [0.0; 3] {
+            return;
+        }
+        let len = block.len;
+        let along = &mut self.along[..len];
+        let y = &self.values[block.values..block.values + block.n * len];
+        match (len, block.n) {
+            (12, 3) => add::<12>(fixed::<36>(y), d, fixed_mut::<12>(along)),
+            (6, 3) => add::<6>(fixed::<18>(y), d, fixed_mut::<6>(along)),
+            _ => {
+                for (d, y) in d.iter().zip(y.chunks_exact(len.max(1))) {
+                    for (along, y) in along.iter_mut().zip(y) {
+                        *along += y * d;
+                    }
+                }
+            }
+        }
+        for (along, i) in along.iter().zip(&self.index[block.index..block.index + len]) {
+            self.z[*i as usize] = *along;
+        }
+    }
+
+    /// Force of a block that solves its own problem, for its present rates.
+    #[inline(always)]
+    fn own_force(&mut self, k: usize, u: [f64; 3]) -> [f64; 3] {
+        let limit = self.limit(k);
+        let Block { law, lambda, local, .. } = &mut self.blocks[k];
+        match (local, *law) {
+            (Local::Contact(local), Law::Coulomb { friction }) => {
+                let own = local.times(*lambda);
+                local.solve(friction, minus(u, own))
+            }
+            (Local::Scalar { inverse, .. }, law) => {
+                let free = lambda[0] - u[0] * *inverse;
+                let force = match law {
+                    Law::Bilateral => free,
+                    Law::Unilateral => free.max(0.0),
+                    Law::Given { force } => force,
+                    _ => free.clamp(-limit, limit),
+                };
+                [force, 0.0, 0.0]
+            }
+            (Local::Tangential { g, problem, .. }, _) => {
+                let own = [g[0] * lambda[0] + g[1] * lambda[1], g[1] * lambda[0] + g[2] * lambda[1]];
+                let r = [own[0] - u[0], own[1] - u[1]];
+                let free = problem.slip_or_stick(r, limit);
+                [free[0], free[1], 0.0]
+            }
+            (Local::Immobile, Law::Given { force }) => [force, 0.0, 0.0],
+            _ => [0.0; 3],
+        }
+    }
+
+    /// Limit of the force of a friction block or drive.
+    #[inline(always)]
+    fn limit(&self, k: usize) -> f64 {
+        match self.blocks[k].law {
+            Law::Interval { limit } => limit,
+            Law::Disc { coefficient, normal } => coefficient * self.blocks[normal].lambda[0].max(0.0),
+            _ => 0.0,
+        }
+    }
+
+    /// Natural map of a block's law at its present force and rates.
+    #[inline(always)]
+    fn natural_map(&self, k: usize, u: [f64; 3]) -> f64 {
+        let Block { law, lambda, local, .. } = &self.blocks[k];
+        match (local, *law) {
+            (Local::Contact(local), Law::Coulomb { friction }) => {
+                let rho = 3.0 / local.trace();
+                let shift = friction * (u[1] * u[1] + u[2] * u[2]).sqrt();
+                let moved = [lambda[0] - rho * (u[0] + shift), lambda[1] - rho * u[1], lambda[2] - rho * u[2]];
+                let projected = project_on_cone(friction, moved);
+                distance(lambda, &projected)
+            }
+            (Local::Scalar { inverse, .. }, law) => {
+                let free = lambda[0] - u[0] * inverse;
+                let force = match law {
+                    Law::Bilateral => free,
+                    Law::Unilateral => free.max(0.0),
+                    Law::Given { force } => force,
+                    _ => free.clamp(-self.limit(k), self.limit(k)),
+                };
+                (force - lambda[0]).abs()
+            }
+            (Local::Tangential { trace, .. }, _) => {
+                let rho = 2.0 / trace;
+                let free = [lambda[0] - rho * u[0], lambda[1] - rho * u[1]];
+                let (size, limit) = ((free[0] * free[0] + free[1] * free[1]).sqrt(), self.limit(k));
+                let share = if size > limit { limit / size } else { 1.0 };
+                distance(lambda, &[free[0] * share, free[1] * share, 0.0])
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// One island to be solved.
+struct Island<'a> {
+    sweeper: &'a mut Sweeper,
+    blocks: (usize, usize),
+    z: (usize, usize),
+}
+
+impl Task for Island<'_> {
+    /// Residual, and number of sweeps.
+    type Output = (f64, usize);
+
+    #[inline(always)]
+    fn run(self) -> (f64, usize) {
+        let Self { sweeper, blocks, z } = self;
+        let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
+        for k in blocks.clone() {
+            // the velocities of the forces to start from
+            sweeper.rates(k);
+            let lambda = core::mem::take(&mut sweeper.blocks[k].lambda);
+            sweeper.change(k, lambda);
+        }
+        let mut last_square = 0.0;
+        let max_sweeps = MAX_SWEEPS + blocks.len();
+        for sweep in 1..=max_sweeps {
+            sweeper.z_before[z.clone()].copy_from_slice(&sweeper.z[z.clone()]);
+            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            for k in blocks.clone() {
+                let u = sweeper.rates(k);
+                let lambda = sweeper.own_force(k, u);
+                let before = sweeper.blocks[k].lambda;
+                sweeper.before[k] = before;
+                change = change.max(distance(&lambda, &before));
+                largest = largest.max(distance(&lambda, &[0.0; 3]));
+                sweeper.change(k, lambda);
+            }
+            let is_last = sweep == max_sweeps;
+            if change <= TOLERANCE * largest || is_last || largest == 0.0 {
+                let (residual, fastest) = residual(sweeper, blocks.clone(), largest);
+                let rests = fastest * sweeper.h < REST_SPEED && sweep < REST_SWEEPS;
+                let tolerance = if rests { REST_TOLERANCE } else { TOLERANCE };
+                if residual <= tolerance || is_last {
+                    return (residual, sweep);
+                }
+            }
+            // further along the last direction
+            let mut square = 0.0;
+            for i in z.clone() {
+                let d = sweeper.z[i] - sweeper.z_before[i];
+                square += d * d;
+            }
+            let beta = if last_square > 0.0 { square / last_square } else { f64::INFINITY };
+            last_square = square;
+            let goes_on = beta <= 1.0;
+            for i in z.clone() {
+                let d = sweeper.z[i] - sweeper.z_before[i];
+                let along = if goes_on { beta * sweeper.direction_z[i] } else { 0.0 };
+                sweeper.direction_z[i] = along + d;
+                sweeper.z[i] += along;
+            }
+            for k in blocks.clone() {
+                let block = &mut sweeper.blocks[k];
+                for c in 0..3 {
+                    let d = block.lambda[c] - sweeper.before[k][c];
+                    let along = if goes_on { beta * sweeper.direction[k][c] } else { 0.0 };
+                    sweeper.direction[k][c] = along + d;
+                    block.lambda[c] += along;
+                }
+            }
+        }
+        unreachable!("the last sweep returns")
+    }
+}
+
+/// Residual of an island relative to its `largest` force, and its largest rate.
+#[inline(always)]
+fn residual(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64) -> (f64, f64) {
+    let (mut worst, mut fastest) = (0.0_f64, 0.0_f64);
+    for k in blocks {
+        let u = sweeper.rates(k);
+        let miss = sweeper.natural_map(k, u);
+        // a maximum passes over what is not a number
+        worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
+        fastest = u.iter().fold(fastest, |s, u| s.max(u.abs()));
+    }
+    (if worst > 0.0 { worst / largest } else { 0.0 }, fastest)
+}
+
+/// Projection on the cone ‖x_t‖ ≤ μ xₙ.
+#[inline(always)]
+fn project_on_cone(friction: f64, x: [f64; 3]) -> [f64; 3] {
+    let size = (x[1] * x[1] + x[2] * x[2]).sqrt();
+    if size <= friction * x[0] {
+        return x;
+    }
+    if friction * size <= -x[0] {
+        return [0.0; 3];
+    }
+    let normal = (x[0] + friction * size) / (1.0 + friction * friction);
+    let share = friction * normal / size;
+    [normal, x[1] * share, x[2] * share]
+}
+
+#[inline(always)]
+fn distance(x: &[f64; 3], y: &[f64; 3]) -> f64 {
+    let d = minus(*x, *y);
+    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+}
+
+// written out: closures are not inlined into code for other registers
+#[inline(always)]
+fn minus(x: [f64; 3], y: [f64; 3]) -> [f64; 3] {
+    [x[0] - y[0], x[1] - y[1], x[2] - y[2]]
+}
+
+/// Scalar product of two lists of even length, in two lanes.
+#[inline(always)]
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let mut sums = [0.0; 2];
+    for (x, y) in x.chunks_exact(2).zip(y.chunks_exact(2)) {
+        sums[0] += x[0] * y[0];
+        sums[1] += x[1] * y[1];
+    }
+    sums[0] + sums[1]
+}
+
+#[inline(always)]
+fn fixed<const N: usize>(x: &[f64]) -> &[f64; N] {
+    x.try_into().expect("the length was looked at")
+}
+
+#[inline(always)]
+fn fixed_mut<const N: usize>(x: &mut [f64]) -> &mut [f64; N] {
+    x.try_into().expect("the length was looked at")
+}
+
+/// Scalar products of three rows of `N` numbers, one after the other, with `z`.
+#[inline(always)]
+fn dots<const N: usize>(y: &[f64], z: &[f64; N]) -> [f64; 3] {
+    [dot(&y[..N], z), dot(&y[N..2 * N], z), dot(&y[2 * N..3 * N], z)]
+}
+
+/// Adds three rows of `N` numbers, times `d`, to `z`.
+#[inline(always)]
+fn add<const N: usize>(y: &[f64], d: [f64; 3], z: &mut [f64; N]) {
+    for j in 0..N {
+        z[j] += y[j] * d[0] + y[N + j] * d[1] + y[2 * N + j] * d[2];
+    }
+}

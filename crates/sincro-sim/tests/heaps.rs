@@ -1,0 +1,129 @@
+//! Heaps: many contacts at once, solved island by island at the time-stepping level.
+
+use std::fmt::Write;
+use std::sync::atomic::AtomicBool;
+
+use sincro_dynamics::world::MethodKind;
+use sincro_sim::campaign::{Campaign, run_campaign};
+use sincro_sim::run::LockStep;
+use sincro_sim::snapshot::Snapshot;
+use sincro_testing::SceneFolder;
+
+const G: f64 = 9.81;
+const STEP: f64 = 0.005;
+
+/// Uniform numbers in (0, 1).
+fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
+    move || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+const FLOOR: &str = "[[body]]\nname = \"floor\"\nshape = [{ plane = {} }]\ncontact = { friction = 0.6 }\n";
+
+/// A box of 800 kg/m³ on its own.
+fn a_box(text: &mut String, name: usize, position: [f64; 3], rotation: [f64; 4], size: [f64; 3]) {
+    let [x, y, z] = position;
+    let [a, b, c, d] = rotation;
+    let _ = write!(
+        text,
+        "[[joint]]\nname = \"air{name}\"\nkind = \"free\"\ninitial = {{ position = [{x}, {y}, {z}, {a}, {b}, {c}, {d}] }}\n\
+         [[body]]\nname = \"box\"\nparent = \"/air{name}\"\ndensity = 800.0\nshape = [{{ cuboid = {{ size = {size:?} }} }}]\n\
+         contact = {{ friction = 0.6 }}\n"
+    );
+}
+
+/// `n` boxes of random sizes, turned at random, above each other and beside each other; and their mass `[kg]`.
+fn heap(n: usize, seed: u64) -> (String, f64) {
+    let (mut text, mut number, mut mass) = (FLOOR.to_owned(), numbers(seed), 0.0);
+    for k in 0..n {
+        let size: [f64; 3] = std::array::from_fn(|_| 0.08 + 0.08 * number());
+        mass += 800.0 * size.iter().product::<f64>();
+        let beside = |k: usize, number: &mut dyn FnMut() -> f64| 0.22 * k as f64 + 0.04 * (number() - 0.5);
+        let position = [beside(k % 2, &mut number), beside(k / 2 % 2, &mut number), 0.16 + 0.23 * (k / 4) as f64];
+        let axis: [f64; 3] = std::array::from_fn(|_| 0.4 * (number() - 0.5));
+        let norm = (1.0 + axis.iter().map(|x| x * x).sum::<f64>()).sqrt();
+        a_box(&mut text, k, position, [1.0 / norm, axis[0] / norm, axis[1] / norm, axis[2] / norm], size);
+    }
+    (text, mass)
+}
+
+fn experiment(duration: f64, record: &str) -> String {
+    format!(
+        "title = \"Heap\"\nscene = \"scene.toml\"\nduration = {duration}\nstep = {STEP}\n\
+         integrator = \"semi-implicit-euler\"\nerror_bar = \"none\"\nrecord = [{record}]\n"
+    )
+}
+
+fn run(scene: &str, duration: f64, record: &str) -> Campaign {
+    let folder = SceneFolder::of(scene, &experiment(duration, record));
+    let loaded = folder.load(&[]).unwrap_or_else(|message| panic!("{message}"));
+    run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
+}
+
+fn column<'a>(campaign: &'a Campaign, name: &str) -> &'a [f64] {
+    &campaign.main.simulated.table.column(name).unwrap_or_else(|| panic!("no column {name}")).values
+}
+
+#[test]
+fn a_heap_comes_to_rest_and_the_floor_carries_its_weight() {
+    for seed in [1, 2, 3] {
+        let (scene, mass) = heap(12, seed);
+        let done = run(&scene, 5.0, "\"energy.kinetic\", \"energy.total\", \"/floor.normal_force\"");
+        assert!(done.main.audit.ok, "seed {seed}: {:?}", done.main.audit.findings);
+        let kinetic = column(&done, "energy.kinetic");
+        assert!(*kinetic.last().unwrap() < 1e-12, "seed {seed}: {:e} J", kinetic.last().unwrap());
+        let total = column(&done, "energy.total");
+        let risen = total.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        assert!(risen < 1e-2 * (total[0] - total.last().unwrap()), "seed {seed}: energy rose by {risen:e} J");
+        let weight = column(&done, "/floor.normal_force").last().unwrap().abs();
+        assert!((weight / (mass * G) - 1.0).abs() < 1e-5, "seed {seed}: {weight} N for {} N", mass * G);
+    }
+}
+
+#[test]
+fn a_wall_of_bricks_stays_where_it_is() {
+    let mut scene = FLOOR.to_owned();
+    let (rows, edge) = (6, 0.1);
+    for row in 0..rows {
+        for k in 0..rows - row {
+            let x = (k as f64 - 0.5 * (rows - row) as f64) * 0.11;
+            let position = [x, 0.0, edge * (row as f64 + 0.5)];
+            a_box(&mut scene, 10 * row + k, position, [1.0, 0.0, 0.0, 0.0], [edge; 3]);
+        }
+    }
+    let done = run(&scene, 3.0, "\"/air50.position\", \"energy.kinetic\"");
+    assert!(done.main.audit.ok, "{:?}", done.main.audit.findings);
+    let columns = &done.main.simulated.table.columns;
+    for column in columns.iter().filter(|column| column.name.starts_with("/air50")) {
+        let moved = column.values.iter().map(|x| (x - column.values[0]).abs()).fold(0.0, f64::max);
+        assert!(moved < 1e-6, "{} moved by {moved:e}", column.name);
+    }
+    assert!(*column(&done, "energy.kinetic").last().unwrap() < 1e-15);
+}
+
+#[test]
+fn a_heap_goes_on_bit_for_bit_from_a_snapshot() {
+    let folder = SceneFolder::of(&heap(10, 5).0, &experiment(2.0, "\"energy.total\""));
+    let loaded = folder.load(&[]).unwrap_or_else(|message| panic!("{message}"));
+    let method = MethodKind::SemiImplicitEuler;
+    let mut run = LockStep::new(&loaded, method, false);
+    run.start().unwrap();
+    for _ in 0..140 {
+        run.advance().unwrap();
+    }
+    let bytes = run.snapshot(run.trace()).to_bytes(&loaded);
+    let mut other = LockStep::new(&loaded, method, false);
+    other.start().unwrap();
+    other.restore(&Snapshot::from_bytes(&bytes, &loaded).unwrap());
+    for tick in 140..260 {
+        assert_eq!(
+            run.observe(f64::from(tick) * STEP).0.accelerations,
+            other.observe(f64::from(tick) * STEP).0.accelerations
+        );
+        run.advance().unwrap();
+        other.advance().unwrap();
+        assert_eq!(run.state(), other.state(), "tick {tick}");
+    }
+}
