@@ -27,6 +27,11 @@ const ON_OUTLINE: f64 = 1e-9;
 /// Sine of the angle between two edges below which they are parallel.
 const PARALLEL: f64 = 1e-6;
 
+/// Sine of the angle between crossing edges, and cosine of that between their normal and a face's, of six degrees: with
+/// less the face is taken where bodies have touched before.
+const ALMOST_PARALLEL: f64 = 0.104_528_463;
+const ALMOST_ALONG: f64 = 0.994_521_895;
+
 /// Maximum number of edges; hulls with more are left to the general algorithm, since all pairs of edges are tested.
 const MAX_EDGES: usize = 90;
 
@@ -248,8 +253,10 @@ impl FaceClipper {
         if of_faces > margin {
             return;
         }
+        let face_normal = if depth_1 >= depth_2 { one.normal(face_1) } else { -two.normal(face_2) };
         if let Some((edges, n, depth)) = best_edges(&one, &two, projections)
             && depth > of_faces + edge_handicap(former)
+            && !(former != ContactKind::Unknown && is_like_a_face(&one, &two, edges, n.dot(face_normal)))
         {
             if depth <= margin {
                 emit(edge_point(&one, &two, edges, n, x_ab));
@@ -278,6 +285,13 @@ impl FaceClipper {
             });
         }
     }
+}
+
+/// Returns true if crossing edges are nearly parallel or their normal is close to that of the best face, by its cosine
+/// `along_face`: where the point of such a contact lies is a matter of small angles, and a body on it would never rest.
+fn is_like_a_face(one: &Placed<'_>, two: &Placed<'_>, [i, j]: [usize; 2], along_face: f64) -> bool {
+    let (u, w) = (one.edge(&one.shape.edges[i]), two.edge(&two.shape.edges[j]));
+    u.cross(w).norm() < ALMOST_PARALLEL * u.norm() * w.norm() || along_face.abs() > ALMOST_ALONG
 }
 
 /// Separation by which edges must be better than faces `[m]`.
