@@ -5,10 +5,8 @@
 
 use sincro_math::Real;
 
-use crate::constraint::SLOT_LEN;
-use crate::constraint::warm_start::RESERVED;
 use crate::joint::StageKind;
-use crate::model::Model;
+use crate::model::{Model, RESERVED_SLOTS, SLOT_LEN};
 use crate::spatial::{Quat, Vec3};
 
 /// State of a world: generalized coordinates and velocities, commands, modes, warm start, totals.
@@ -85,7 +83,8 @@ impl<R: Real> State<R> {
 /// Warm start without any loaded slot, with memory for the usual number of them.
 fn empty_contacts<R: Real>(model: &Model<R>) -> Vec<R> {
     let n_slots = model.constraints().n_slots();
-    let mut contacts = Vec::with_capacity(if n_slots > 0 { 1 + (1 + SLOT_LEN) * n_slots.min(RESERVED) } else { 0 });
+    let mut contacts =
+        Vec::with_capacity(if n_slots > 0 { 1 + (1 + SLOT_LEN) * n_slots.min(RESERVED_SLOTS) } else { 0 });
     contacts.extend((n_slots > 0).then(R::zero));
     contacts
 }

@@ -11,13 +11,10 @@
 use sincro_math::Real;
 
 use super::cone::{ContactMode, UnilateralConstraint};
-use crate::model::SLOT_LEN;
+use crate::model::{RESERVED_SLOTS, SLOT_LEN};
 
 /// Numbers of a slot in the state: its index, then its multipliers and code.
 const RECORD_LEN: usize = 1 + SLOT_LEN;
-
-/// Number of slots for which memory is reserved beforehand.
-pub(crate) const RESERVED: usize = 64;
 
 /// Factor of the feature in a code.
 const FEATURE: f64 = 32.0;
@@ -113,7 +110,7 @@ pub(crate) struct WarmStart<R> {
 
 impl<R: Real> WarmStart<R> {
     pub fn new(n_slots: usize) -> Self {
-        let usual = n_slots.min(RESERVED);
+        let usual = n_slots.min(RESERVED_SLOTS);
         Self {
             entries: Vec::with_capacity(usual),
             former: Vec::with_capacity(usual),

@@ -14,7 +14,7 @@ const FEW: usize = 64;
 /// Distance up to which surfaces are looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Margin {
-    /// Of any pair `[m]`.
+    /// Margin of any pair `[m]`.
     pub base: f64,
     /// Time over which their relative motion adds to it `[s]`; 0: it does not.
     pub time: f64,

@@ -6,6 +6,9 @@ use crate::spatial::Pose;
 /// Numbers of a slot in [`crate::state::State::contacts`], after its index: six multipliers and the contact mode.
 pub const SLOT_LEN: usize = 7;
 
+/// Number of slots for which memory is reserved beforehand.
+pub(crate) const RESERVED_SLOTS: usize = 64;
+
 /// A frame fixed in a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anchor {
@@ -122,8 +125,8 @@ impl ConstraintSet {
         self.limits.len() + self.n_contacts()
     }
 
-    /// Returns true if a list may be [`crate::state::State::contacts`] of this model: empty, or the fallback and records of
-    /// slots in increasing order.
+    /// Returns true if a list may be [`crate::state::State::contacts`] of this model: empty, or the fallback and
+    /// records of slots in increasing order.
     #[must_use]
     pub fn accepts(&self, contacts: &[f64]) -> bool {
         let Some((fallback, records)) = contacts.split_first() else { return true };

@@ -29,6 +29,7 @@ pub use builder::{
     BodySpec, DragSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
     RotorSpec,
 };
+pub(crate) use constraints::RESERVED_SLOTS;
 pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
 pub use diagnostic::{BuildError, Diagnostic, Severity};
 pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};

@@ -413,8 +413,8 @@ impl World {
         (&self.accelerations, self.mechanism.motor_torque())
     }
 
-    /// Announces the length of the next step `[s]`, over which the forces of many contacts are found; after a step it is
-    /// the same again.
+    /// Announces the length of the next step `[s]`, over which the forces of many contacts are found; after a step it
+    /// is the same again.
     pub fn announce_step(&mut self, h: f64) {
         self.next_step = h / f64::from(self.substeps);
     }

@@ -13,8 +13,8 @@ const MAX_ITERATIONS: usize = 40;
 /// Tolerance of the friction limit, relative to the friction.
 const TOLERANCE: f64 = 1e-13;
 
-/// Amount added to the diagonal of a matrix that may be singular, relative to the largest entry of the problem: a contact
-/// that cannot be moved in a direction needs no exact force there.
+/// Amount added to the diagonal of a matrix that may be singular, relative to the largest entry of the problem: a
+/// contact that cannot be moved in a direction needs no exact force there.
 const REGULARISATION: f64 = 1e-12;
 
 /// Friction problem in a plane: symmetric 2 × 2 matrix A with the solution of (A + s 1) x = r under a limit on ‖x‖.
