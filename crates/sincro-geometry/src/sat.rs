@@ -135,7 +135,7 @@ fn edge_feature(edges: [usize; 2]) -> u32 {
     3 + 4 * (one + 256 * two)
 }
 
-/// Kind of contact of two polytopes, which is kept while another one is better by less than [`HYSTERESIS`].
+/// Kind of contact of two polytopes, which is kept while another one is better by less than 20 µm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ContactKind {
     /// Nothing is kept.
