@@ -1,7 +1,7 @@
 //! The constants that clients and scripts know, with the numbers that travel over the wire.
 //!
 //! `constants.txt` holds the whole table of V-REP and CoppeliaSim; the numbers that this program itself depends on, and
-//! names that are spelt otherwise there, are in [`CONSTANTS`] and with the parameters of the simulator.
+//! names that are spelt otherwise there, are in a table here and with the parameters of the simulator.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
