@@ -6,6 +6,7 @@ pub mod dual;
 pub mod elementary;
 pub mod expression;
 pub mod lanes;
+pub mod random;
 mod real;
 mod scalar;
 pub mod series;

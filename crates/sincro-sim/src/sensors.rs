@@ -1,12 +1,13 @@
 //! Sensors in a run: due samples are taken, the others held.
 
-use sincro_blocks::library::sources::random::{gaussian, splitmix};
+use sincro_blocks::library::sources::random::gaussian;
 use sincro_blocks::program::seed_of;
 use sincro_dynamics::constraint::ContactPoint;
 use sincro_dynamics::coupled::StateView;
 use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
 use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
+use sincro_math::random::splitmix64;
 
 use crate::controller::Controller;
 use crate::proximity::{Detection, ProximitySensor};
@@ -133,7 +134,7 @@ impl Sensors {
 impl Sensor {
     /// Sample `k`, after the kinematics.
     fn measure(&self, seen: &StateView<'_, f64>, k: u64, points: &[ContactPoint], y: &mut [f64]) {
-        let noise = |component: usize| gaussian(splitmix(self.seed, component as u64), k);
+        let noise = |component: usize| gaussian(splitmix64(self.seed, component as u64), k);
         let three = |first: usize, x: Vec3<f64>, errors: &Errors, scale: f64| -> [f64; 3] {
             core::array::from_fn(|i| x[i] + errors.bias[i] + scale * errors.noise * noise(first + i))
         };
@@ -186,7 +187,7 @@ impl Sensor {
         if noise == 0.0 {
             return Some(found);
         }
-        Some(found.at_distance(found.distance + noise * gaussian(splitmix(self.seed, 0), k)))
+        Some(found.at_distance(found.distance + noise * gaussian(splitmix64(self.seed, 0), k)))
     }
 
     /// Writes a detection as sensor values.

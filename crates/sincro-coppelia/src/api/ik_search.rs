@@ -1,6 +1,7 @@
 //! Inverse kinematics without moving anything: Jacobian, manipulability, configurations that reach a target, and paths.
 
 use sincro_dynamics::spatial::{Pose, Quat};
+use sincro_math::random::SplitMix64;
 
 use super::ik::{Group, IkJoint, cholesky};
 use super::registry::Handle;
@@ -16,6 +17,8 @@ const MAX_ATTEMPTS: f64 = 2_000.0;
 const SAME: f64 = 1e-2;
 /// Half-range in which a joint without stops is sampled: `[rad]` of a revolute joint, `[m]` of a prismatic one.
 const FREE_RANGE: [f64; 2] = [std::f64::consts::PI, 1.0];
+/// Seed of the starting configurations.
+const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Points of one path.
 const MAX_POINTS: usize = 10_000;
 
@@ -76,11 +79,11 @@ impl SimApi<'_> {
         self.inside(environment, &group, |sim, moved| {
             let places = places(joints, moved)?;
             let start: Vec<f64> = moved.iter().map(|m| sim.world.state.q[m.q_idx]).collect();
-            let (mut found, mut random) = (Vec::<Vec<f64>>::new(), Random(0x9e37_79b9_7f4a_7c15));
+            let (mut found, mut random) = (Vec::<Vec<f64>>::new(), SplitMix64::new(SEED));
             for attempt in 0..attempts {
                 let from: Vec<f64> = match attempt {
                     0 => start.clone(),
-                    _ => moved.iter().map(|m| random.position(m)).collect(),
+                    _ => moved.iter().map(|m| random_position(&mut random, m)).collect(),
                 };
                 sim.put(moved, &from);
                 if !sim.solve(&group, moved)?.is_reached {
@@ -163,24 +166,10 @@ fn places(joints: &[Handle], moved: &[IkJoint]) -> Result<Vec<usize>, ApiError> 
     joints.iter().map(place).collect()
 }
 
-/// SplitMix64 (Steele et al.), for starting configurations.
-struct Random(u64);
-
-impl Random {
-    /// A number in [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A position within the limits of a joint.
-    fn position(&mut self, joint: &IkJoint) -> f64 {
-        let range = FREE_RANGE[usize::from(joint.is_sliding)];
-        let [low, high] = joint.bounds;
-        let [low, high] = if low.is_finite() && high.is_finite() { [low, high] } else { [-range, range] };
-        low + (high - low) * self.unit()
-    }
+/// Random position within the limits of a joint.
+fn random_position(random: &mut SplitMix64, joint: &IkJoint) -> f64 {
+    let range = FREE_RANGE[usize::from(joint.is_sliding)];
+    let [low, high] = joint.bounds;
+    let [low, high] = if low.is_finite() && high.is_finite() { [low, high] } else { [-range, range] };
+    low + (high - low) * random.unit()
 }

@@ -31,6 +31,7 @@ use core::f64::consts::{PI, TAU};
 
 use sincro_math::Real;
 use sincro_math::elementary::{atan, ln, pow, sin_cos};
+use sincro_math::random::SplitMix64;
 
 use crate::error::InvalidParameters;
 use crate::spatial::Vec3;
@@ -309,7 +310,7 @@ pub fn dryden_scales(wind_at_20_feet: f64, height: f64) -> ([f64; 3], [f64; 3]) 
 impl Turbulence {
     fn new(spec: &TurbulenceSpec, mean: [f64; 3]) -> Self {
         let (deviations, lengths) = spec.scales.values();
-        let mut random = SplitMix(spec.seed);
+        let mut random = SplitMix64::new(spec.seed);
         let components = core::array::from_fn(|k| {
             let area = if k == 0 { along_area } else { across_area };
             Component::new(deviations[k], spec.airspeed / lengths[k], area, &mut random)
@@ -339,7 +340,7 @@ fn across_area(x: f64) -> f64 {
 
 impl Component {
     /// Standard deviation σ, corner frequency V/L [rad/s], and the part of the variance below x = ω/(V/L).
-    fn new(deviation: f64, corner: f64, area: fn(f64) -> f64, random: &mut SplitMix) -> Self {
+    fn new(deviation: f64, corner: f64, area: fn(f64) -> f64, random: &mut SplitMix64) -> Self {
         let share = area(BAND) / N_HARMONICS as f64;
         let harmonics = (0..N_HARMONICS).map(|k| {
             let x = inverse(area, share * (k as f64 + random.unit()));
@@ -370,20 +371,6 @@ fn inverse(area: fn(f64) -> f64, wanted: f64) -> f64 {
         }
     }
     0.5 * (low + high)
-}
-
-/// The generator SplitMix64: only draws frequencies and phases, once.
-struct SplitMix(u64);
-
-impl SplitMix {
-    /// Uniform in [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 fn problems(mean: [f64; 3], profile: Profile, gusts: &[Gust], turbulence: Option<TurbulenceSpec>) -> Vec<String> {

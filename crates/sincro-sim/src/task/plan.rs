@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use sincro_blocks::library::sources::random::{gaussian, splitmix, uniform};
+use sincro_blocks::library::sources::random::{gaussian, uniform};
 use sincro_dynamics::batch::{is_time_invariant, obstacle_to_lanes};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 use sincro_math::expression::Expression;
+use sincro_math::random::splitmix64;
 
 use crate::load::Loaded;
 use crate::run::method_for;
@@ -224,9 +225,9 @@ impl Plan {
 
     /// As [`Plan::drawn`], into what an earlier call gave.
     pub(super) fn draw(&self, seed: u64, episode: u64, drawn: &mut Drawn) {
-        let key = splitmix(seed, episode);
+        let key = splitmix64(seed, episode);
         let value = |k: usize| {
-            let key = splitmix(key, k as u64);
+            let key = splitmix64(key, k as u64);
             match self.task.random[k].distribution {
                 Distribution::Uniform(low, high) => low + (high - low) * uniform(key, 0),
                 Distribution::Normal(mean, deviation) => mean + deviation * gaussian(key, 0),

@@ -5,7 +5,9 @@
 //! other, and the samples are the same in every run with that seed, from wherever it goes on. `std` is that of the
 //! samples, whatever the sample time: there is no scaling to a power density.
 
-use super::random::{gaussian, splitmix, uniform};
+use sincro_math::random::splitmix64;
+
+use super::random::{gaussian, uniform};
 use crate::library::prelude::*;
 
 declare_block! {
@@ -71,7 +73,7 @@ impl Block for Noise {
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let sample = at.tick / at.node.every;
         for (i, y) in y.iter_mut().enumerate() {
-            let key = splitmix(at.node.seed, i as u64);
+            let key = splitmix64(at.node.seed, i as u64);
             *y = R::splat(match self.distribution {
                 Distribution::Gaussian => of(&self.mean, i) + of(&self.std, i) * gaussian(key, sample),
                 Distribution::Uniform => {
