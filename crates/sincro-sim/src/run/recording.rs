@@ -205,7 +205,7 @@ fn about_constraints(world: &World) -> Vec<String> {
     }
     if let Some(report) = world.solver_report().filter(|r| r.unconverged_islands > 0) {
         warnings.push(format!(
-            "{} of {} islands of contacts were left with a residual above 1e-6, up to {:.1e} of their largest force",
+            "{} of {} islands of contacts were left with a residual above 1e-6, up to {:.1e} of their largest force: take a smaller step",
             report.unconverged_islands, report.islands, report.worst_island
         ));
     }
