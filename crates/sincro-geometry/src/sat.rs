@@ -153,9 +153,11 @@ impl ContactKind {
     /// Kind of the contact that gave a point of this feature; unknown for 0.
     #[must_use]
     pub fn of(feature: u32) -> Self {
-        match feature {
-            0 => Self::Unknown,
-            feature => [Self::Unknown, Self::SecondFace, Self::FirstFace, Self::Edges][feature as usize % 4],
+        match feature % 4 {
+            1 => Self::SecondFace,
+            2 => Self::FirstFace,
+            3 => Self::Edges,
+            _ => Self::Unknown,
         }
     }
 }

@@ -74,13 +74,13 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use active_set::ContactProblem;
-use assembly::restitution;
 use cone::{SlowSliding, UnilateralConstraint};
 pub(crate) use held::HeldLaw;
 use held::{Solution, is_observable};
 use kink::Kink;
 use row::{Motions, Row};
 use solver::Solver;
+pub(crate) use time_stepping::DIRECT_ROWS;
 use time_stepping::TimeStepping;
 use warm_start::WarmStart;
 

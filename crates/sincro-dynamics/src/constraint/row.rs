@@ -49,6 +49,17 @@ impl<R: Real> Row<R> {
         }
     }
 
+    /// J v for the twists of links and the joint rates `v`.
+    fn rate(&self, twist: impl Fn(u32) -> Motion<R>, v: &[R]) -> R {
+        let mut sum = twist(self.a).dot(&self.wa) - twist(self.b).dot(&self.wb);
+        for (k, c) in self.joints {
+            if k != WORLD {
+                sum += c * v[k as usize];
+            }
+        }
+        sum
+    }
+
     /// A row over joint rates.
     pub fn of_joints(joints: [(u32, R); 2]) -> Self {
         let o = Force::zero();
@@ -129,14 +140,7 @@ impl<R: Real> Motions<R> {
 
     /// J v of a row for the joint rates of [`Motions::place_velocities`].
     pub fn placed_rate(&self, row: &Row<R>, v: &[R]) -> R {
-        let of = |link: u32| if link == WORLD { Motion::zero() } else { self.accel[link as usize] };
-        let mut sum = of(row.a).dot(&row.wa) - of(row.b).dot(&row.wb);
-        for (k, c) in row.joints {
-            if k != WORLD {
-                sum += c * v[k as usize];
-            }
-        }
-        sum
+        row.rate(|link| if link == WORLD { Motion::zero() } else { self.accel[link as usize] }, v)
     }
 
     /// Axes of the joints, one a degree of freedom.
@@ -162,13 +166,7 @@ impl<R: Real> Motions<R> {
 
     /// J v of a row, `v` the joint rates that the twists were placed for.
     pub fn rate(&self, row: &Row<R>, v: &[R]) -> R {
-        let mut sum = self.twist_of(row.a).dot(&row.wa) - self.twist_of(row.b).dot(&row.wb);
-        for (k, c) in row.joints {
-            if k != WORLD {
-                sum += c * v[k as usize];
-            }
-        }
-        sum
+        row.rate(|link| self.twist_of(link), v)
     }
 
     /// J v̇ + J̇ v of a row, `v_dot` the joint accelerations that forward dynamics gave.

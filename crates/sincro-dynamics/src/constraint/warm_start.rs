@@ -253,11 +253,7 @@ impl<R: Real> WarmStart<R> {
     /// former points are known, a new point continues the one of the same feature, in whatever slot that was; new and
     /// former points that are left over continue each other in their order, since a corner on an edge is now one
     /// feature, now another.
-    pub fn begin_pair(
-        &mut self,
-        slots: core::ops::Range<usize>,
-        features: impl DoubleEndedIterator<Item = u32> + Clone,
-    ) {
+    pub fn begin_pair(&mut self, slots: core::ops::Range<usize>, features: impl Iterator<Item = u32> + Clone) {
         self.leave_open(slots.start);
         self.of_features.clear();
         self.continued.clear();
@@ -271,28 +267,13 @@ impl<R: Real> WarmStart<R> {
             return;
         }
         let former = &self.of_features;
-        let is_new = |feature: u32| !former.iter().any(|(known, _)| *known == feature);
-        let mut left_over = former.iter().rev().filter(|(known, _)| !features.clone().any(|feature| feature == *known));
-        let n_left_over = left_over.clone().count();
-        let n_new = features.clone().filter(|feature| is_new(*feature)).count();
-        // the first of each continue each other
-        let (mut surplus, mut unused) = (n_new.saturating_sub(n_left_over), n_left_over.saturating_sub(n_new));
-        while unused > 0 {
-            left_over.next();
-            unused -= 1;
-        }
-        for feature in features.clone().rev() {
+        let mut left_over = former.iter().filter(|(known, _)| !features.clone().any(|feature| feature == *known));
+        for feature in features.clone() {
             let same = former.iter().find(|(known, _)| *known == feature);
-            let numbers = if same.is_some() {
-                same
-            } else if surplus > 0 {
-                surplus -= 1;
-                None
-            } else {
-                left_over.next()
-            };
+            let numbers = same.or_else(|| left_over.next());
             self.continued.push(numbers.map_or([R::zero(); SLOT_LEN], |(_, numbers)| *numbers));
         }
+        self.continued.reverse();
     }
 
     /// Classifies a slot, slots in increasing order; those left out are not closed.

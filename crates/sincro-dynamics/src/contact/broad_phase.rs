@@ -170,12 +170,21 @@ fn place(a: usize, b: usize) -> usize {
 /// Returns true if the bounding spheres of a pair are closer than its margin.
 fn is_near(balls: &[Ball], colliders: &[Collider], pair: &Pair, margin: Margin) -> bool {
     let (a, b) = (&balls[pair.a], &balls[pair.b]);
-    let margin = margin.of_pair(a, b);
-    if let Surface::HalfSpace = colliders[pair.b].surface {
-        let plane = &colliders[pair.b].pose;
-        return plane.rot.col(2).dot(a.center - plane.pos) <= a.radius + margin;
+    are_close((a.center, a.radius), &colliders[pair.b], (b.center, b.radius), margin.of_pair(a, b))
+}
+
+/// Returns true if the bounding spheres of two surfaces, each a centre and a radius, are closer than `margin` `[m]`; of
+/// a half-space b the surface itself counts.
+pub(super) fn are_close(
+    (center_a, radius_a): (Vec3<f64>, f64),
+    b: &Collider,
+    (center_b, radius_b): (Vec3<f64>, f64),
+    margin: f64,
+) -> bool {
+    if let Surface::HalfSpace = b.surface {
+        return b.pose.rot.col(2).dot(center_a - b.pose.pos) <= radius_a + margin;
     }
-    let (d, reach) = (a.center - b.center, a.radius + b.radius + margin);
+    let (d, reach) = (center_a - center_b, radius_a + radius_b + margin);
     d.dot(d) <= reach * reach
 }
 

@@ -1,6 +1,6 @@
 //! Contact detection from the poses of the links: broad phase by bounding spheres, then the narrow phase of each pair.
 
-use super::broad_phase::{BroadPhase, Margin, center};
+use super::broad_phase::{BroadPhase, Margin, are_close, center};
 use super::candidate::{ContactCandidate, Feature};
 use super::candidate_list::{CandidateList, SlotCandidate};
 use super::manifold::Manifolds;
@@ -111,18 +111,17 @@ impl Detector {
 
     /// Returns true if the bounding spheres of the two surfaces are closer than `margin` `[m]`.
     pub fn is_near(&self, pair: &Pair, (a, b): (&Collider, &Collider), poses: &[Pose<f64>], margin: f64) -> bool {
-        let [radius_a, radius_b] = [pair.a, pair.b].map(|k| self.broad_phase.radius(k));
-        if let Surface::HalfSpace = b.surface {
-            return b.pose.rot.col(2).dot(center(a, poses) - b.pose.pos) <= radius_a + margin;
-        }
-        let (d, reach) = (center(a, poses) - center(b, poses), radius_a + radius_b + margin);
-        d.dot(d) <= reach * reach
+        are_close(self.ball(pair.a, a, poses), b, self.ball(pair.b, b, poses), margin)
     }
 }
 
 fn polytopes(colliders: &[Collider], pairs: &[Pair]) -> Vec<Option<Polytope>> {
-    let wanted = |k: usize| pairs.iter().any(|p| p.kind == PairKind::Polytopes && (p.a == k || p.b == k));
-    colliders.iter().enumerate().map(|(k, c)| wanted(k).then(|| Polytope::new(&c.surface, &c.pose)).flatten()).collect()
+    let mut wanted = vec![false; colliders.len()];
+    for pair in pairs.iter().filter(|pair| pair.kind == PairKind::Polytopes) {
+        (wanted[pair.a], wanted[pair.b]) = (true, true);
+    }
+    let polytope = |(c, wanted): (&Collider, bool)| wanted.then(|| Polytope::new(&c.surface, &c.pose)).flatten();
+    colliders.iter().zip(wanted).map(polytope).collect()
 }
 
 fn plane_of(b: &Collider) -> Feature {

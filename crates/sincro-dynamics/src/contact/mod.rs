@@ -213,6 +213,7 @@ pub(crate) fn pairs(
     law: impl Fn(usize, usize) -> PairLaw,
 ) -> Vec<Pair> {
     let mut pairs: Vec<Pair> = Vec::new();
+    let is_polytope: Vec<bool> = colliders.iter().map(|c| Polytope::new(&c.surface, &c.pose).is_some()).collect();
     for i in 0..colliders.len() {
         for j in i + 1..colliders.len() {
             let (x, y) = (&colliders[i], &colliders[j]);
@@ -223,7 +224,7 @@ pub(crate) fn pairs(
             if x.link == y.link || same_group || adjacent || law.is_excluded {
                 continue;
             }
-            let Some((a, b, kind, slots)) = arrange(colliders, i, j) else { continue };
+            let Some((a, b, kind, slots)) = arrange(colliders, &is_polytope, i, j) else { continue };
             let first = pairs.last().map_or(0, |p| p.first + p.slots);
             pairs.push(Pair { a, b, material: law.replace(x.material.with(&y.material)), first, slots, kind });
         }
@@ -232,7 +233,12 @@ pub(crate) fn pairs(
 }
 
 /// Roles of two colliders, their narrow-phase algorithm and number of slots; none if they cannot touch.
-fn arrange(colliders: &[Collider], i: usize, j: usize) -> Option<(usize, usize, PairKind, usize)> {
+fn arrange(
+    colliders: &[Collider],
+    is_polytope: &[bool],
+    i: usize,
+    j: usize,
+) -> Option<(usize, usize, PairKind, usize)> {
     let fixed = |k: usize| !matches!(colliders[k].surface, Surface::Solid(_) | Surface::Hull(_));
     if fixed(i) && fixed(j) {
         return None;
@@ -253,9 +259,7 @@ fn arrange(colliders: &[Collider], i: usize, j: usize) -> Option<(usize, usize, 
         (true, false) if is(b, cuboid) => (a, b, PairKind::BallOnCuboid, 1),
         (false, true) if is(a, cuboid) => (b, a, PairKind::BallOnCuboid, 1),
         (false, true) => (b, a, PairKind::General, MANIFOLD),
-        _ if [a, b].iter().all(|k| Polytope::new(&colliders[*k].surface, &colliders[*k].pose).is_some()) => {
-            (a, b, PairKind::Polytopes, MANIFOLD)
-        }
+        _ if is_polytope[a] && is_polytope[b] => (a, b, PairKind::Polytopes, MANIFOLD),
         _ => (a, b, PairKind::General, MANIFOLD),
     })
 }

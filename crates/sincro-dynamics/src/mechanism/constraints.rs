@@ -6,7 +6,8 @@ use sincro_math::Real;
 use crate::constraint::row::Motions;
 use crate::constraint::warm_start::WarmStart;
 use crate::constraint::{
-    CLOSED_DISTANCE, ConstraintSet, Constraints, HeldLaw, LEAST_ZERO_SPEED, MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED,
+    CLOSED_DISTANCE, ConstraintSet, Constraints, DIRECT_ROWS, HeldLaw, LEAST_ZERO_SPEED, MAX_ZERO_SPEED, ModeRule,
+    SETTLING_SPEED,
 };
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::candidate_list::SlotCandidate;
@@ -141,6 +142,11 @@ impl Mechanism<f64> {
     /// Returns true if the constraints last classified as closed make a problem that is solved by sweeps.
     pub(crate) fn is_large_contact_problem(&self) -> bool {
         self.constraints.as_ref().is_some_and(|c| c.is_large(&self.model))
+    }
+
+    /// Returns true if contacts and limits can be so many that a problem at velocity level is solved by sweeps.
+    pub(crate) fn can_have_many_contacts(&self) -> bool {
+        self.constraints.is_some() && self.model.constraints.max_rows() > DIRECT_ROWS
     }
 
     /// Sets whether problems at velocity level are solved by sweeps in the evaluations that follow.

@@ -125,6 +125,11 @@ impl ConstraintSet {
         self.limits.len() + self.n_contacts()
     }
 
+    /// Upper bound of the number of constraint rows, whatever the materials: six a contact point.
+    pub(crate) fn max_rows(&self) -> usize {
+        self.n_bilateral() + self.limits.len() + 6 * self.n_contacts()
+    }
+
     /// Returns true if a list may be [`crate::state::State::contacts`] of this model: empty, or the fallback and
     /// records of slots in increasing order.
     #[must_use]

@@ -119,7 +119,8 @@ impl World {
         h: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        let is_large = self.try_step(t, h, system);
+        let is_large = self.detect_step_contacts(h);
+        self.try_step(t, h, is_large, system);
         self.statistics.steps += 1;
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::forget_start);
         if !self.y.iter().all(|x| x.is_finite()) {
@@ -136,14 +137,19 @@ impl World {
         Ok(())
     }
 
-    /// Makes a step at velocity level without what follows it: no projection, and nothing is looked at. Returns true if
-    /// the problem was large and solved by sweeps.
-    pub(super) fn try_step<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) -> bool {
-        // a motor that a client has made a drive may be the first of its world
-        let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
+    /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is
+    /// solved by sweeps.
+    fn detect_step_contacts(&mut self, h: f64) -> bool {
         let n = self.model().n_v();
         self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
-        let is_large = self.mechanism.is_large_contact_problem();
+        self.mechanism.is_large_contact_problem()
+    }
+
+    /// Makes a step at velocity level with the contacts last detected, by sweeps if they are many (`is_large`), without
+    /// what follows it: no projection, and nothing is looked at.
+    fn try_step<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, is_large: bool, system: &mut A) {
+        // a motor that a client has made a drive may be the first of its world
+        let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
         self.mechanism.set_sweeps(is_large);
         self.save_step_start();
         self.solve_step_modes(h, |world| {
@@ -160,25 +166,20 @@ impl World {
         });
         self.mechanism.set_sweeps(false);
         self.time_stepping = Some(method);
-        is_large
     }
 
-    /// Returns true if the next step is one at velocity level with so many contacts that it is solved by sweeps. Forces
-    /// and accelerations are those of whole steps then.
+    /// Returns true if the next step is one at velocity level with so many contacts that it is solved by sweeps, and
+    /// has detected them then. Forces and accelerations are those of whole steps.
     pub(super) fn is_next_step_large(&mut self) -> bool {
-        if !self.is_constrained() || !matches!(self.method, Method::SemiImplicitEuler) {
-            return false;
-        }
-        let n = self.model().n_v();
-        self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(self.next_step));
-        self.mechanism.is_large_contact_problem()
+        let is_time_stepping = matches!(self.method, Method::SemiImplicitEuler);
+        is_time_stepping && self.mechanism.can_have_many_contacts() && self.detect_step_contacts(self.next_step)
     }
 
-    /// Finds the forces of the next step from the present state, and stays there; the velocities at its end are left in
-    /// `slope`.
+    /// Finds the forces of the next step from the present state with the contacts last detected, by sweeps, and stays
+    /// there; the velocities at its end are left in `slope`.
     pub(super) fn find_step_forces<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         let n = self.model().n_v();
-        self.try_step(t, self.next_step, system);
+        self.try_step(t, self.next_step, true, system);
         self.slope[..n].copy_from_slice(&self.y[n..2 * n]);
         self.restore();
         if !self.slope[..n].iter().all(|v| v.is_finite()) {

@@ -389,6 +389,7 @@ impl World {
         if self.is_next_step_large() {
             return self.step_rates(t);
         }
+        // with the contact modes that looking for many contacts has cleared
         self.mechanism.load(&self.state, &mut self.y);
         self.mechanism.detect_contacts(&self.state.v, ActivationRule::Touching);
         self.mechanism.mark_modes();

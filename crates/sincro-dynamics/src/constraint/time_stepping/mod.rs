@@ -24,8 +24,9 @@ mod tests;
 
 use sincro_math::Real;
 
+use super::assembly::restitution;
 use super::cone::{ContactMode, UnilateralConstraint};
-use super::{Constraints, pair_of, restitution};
+use super::{Constraints, pair_of};
 use crate::joint::WORLD;
 use crate::model::Model;
 use crate::scratch::Scratch;
@@ -86,8 +87,7 @@ impl<R: Real> Constraints<R> {
         self.aim_at_targets(h);
         let mut sweeps = core::mem::take(&mut self.time_stepping);
         self.collect_blocks(model, scratch, &mut sweeps);
-        sweeps.sweeper.set_step(h);
-        sweeps.sweeper.solve(&mut self.solver.report);
+        sweeps.sweeper.solve(h, &mut self.solver.report);
         self.read_blocks(&sweeps);
         self.time_stepping = sweeps;
         self.memory.keep(&self.blocks, &self.lambda);
@@ -110,9 +110,7 @@ impl<R: Real> Constraints<R> {
         self.motions.place_velocities(model, &velocity);
         self.velocity_change = velocity;
         self.b.clear();
-        for (row, of_joints) in self.rows.iter().map(|row| (row, &self.velocity_change)) {
-            self.b.push(self.motions.placed_rate(row, of_joints));
-        }
+        self.b.extend(self.rows.iter().map(|row| self.motions.placed_rate(row, &self.velocity_change)));
         let rest_speed = model.constraints.rest_speed;
         for block in self.blocks.iter().filter(|block| !block.is_drive()) {
             let i = block.row;

@@ -47,6 +47,20 @@ pub(super) enum Law {
     Disc { coefficient: f64, normal: usize },
 }
 
+impl Law {
+    /// Force of one row that the law admits instead of the `free` one, which brings the rate to zero; `limit` is that
+    /// of friction or a drive.
+    #[inline(always)]
+    fn admitted(self, free: f64, limit: f64) -> f64 {
+        match self {
+            Self::Bilateral => free,
+            Self::Unilateral => free.max(0.0),
+            Self::Given { force } => force,
+            Self::Coulomb { .. } | Self::Interval { .. } | Self::Disc { .. } => free.clamp(-limit, limit),
+        }
+    }
+}
+
 /// Rows with one law.
 #[derive(Clone, Debug)]
 struct Block {
@@ -104,7 +118,6 @@ pub(super) struct Sweeper {
     before: Vec<[f64; 3]>,
     /// Velocities along one block.
     along: Vec<f64>,
-    h: f64,
 }
 
 const NONE: u32 = u32::MAX;
@@ -124,11 +137,6 @@ impl Sweeper {
         // the first number belongs to no degree of freedom: it fills up rows of odd length
         self.z.clear();
         self.z.push(0.0);
-    }
-
-    /// Sets the length of the step `[s]`.
-    pub fn set_step(&mut self, h: f64) {
-        self.h = h;
     }
 
     /// Number of blocks so far.
@@ -161,13 +169,10 @@ impl Sweeper {
         let trace: f64 = (0..n).map(|k| dot(k, k)).sum();
         let local = match n {
             _ if trace <= IMMOBILE => Local::Immobile,
-            1 => {
-                let g = dot(0, 0);
-                Local::Scalar { inverse: 1.0 / g }
-            }
+            1 => Local::Scalar { inverse: 1.0 / trace },
             2 => {
                 let g = [dot(0, 0), dot(0, 1), dot(1, 1)];
-                Local::Tangential { trace: g[0] + g[2], g, problem: TangentialProblem::new(g, g[0] + g[2]) }
+                Local::Tangential { trace, g, problem: TangentialProblem::new(g, trace) }
             }
             _ => Local::Contact(ContactLocal::new([dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)])),
         };
@@ -180,8 +185,8 @@ impl Sweeper {
         self.islands.push(IslandRange { blocks: (blocks, self.blocks.len()), z: (z, self.z.len()) });
     }
 
-    /// Solves all islands from the forces given as a start.
-    pub fn solve(&mut self, report: &mut SolverReport) {
+    /// Solves all islands of a step of length `h` `[s]` from the forces given as a start.
+    pub fn solve(&mut self, h: f64, report: &mut SolverReport) {
         self.z_before.clear();
         self.z_before.resize(self.z.len(), 0.0);
         self.direction_z.clear();
@@ -195,7 +200,7 @@ impl Sweeper {
         self.along.resize(longest, 0.0);
         for k in 0..self.islands.len() {
             let IslandRange { blocks, z } = self.islands[k];
-            let (residual, sweeps) = f64::run_hot(Island { sweeper: self, blocks, z });
+            let (residual, sweeps) = f64::run_hot(Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h });
             report.islands += 1;
             report.sweeps += sweeps as u64;
             report.unconverged_islands += u64::from(residual > TOLERANCE);
@@ -225,20 +230,8 @@ impl Sweeper {
         let mut u = block.b;
         let y = &self.values[block.values..block.values + block.n * len];
         match (len, block.n) {
-            (12, 3) => {
-                let (y, z) = (fixed::<36>(y), fixed::<12>(along));
-                let sums = dots::<12>(y, z);
-                for k in 0..3 {
-                    u[k] += sums[k];
-                }
-            }
-            (6, 3) => {
-                let (y, z) = (fixed::<18>(y), fixed::<6>(along));
-                let sums = dots::<6>(y, z);
-                for k in 0..3 {
-                    u[k] += sums[k];
-                }
-            }
+            (12, 3) => add_dots::<12>(y, along, &mut u),
+            (6, 3) => add_dots::<6>(y, along, &mut u),
             _ => {
                 for (u, y) in u.iter_mut().zip(y.chunks_exact(len.max(1))) {
                     *u += dot(y, along);
@@ -261,8 +254,8 @@ impl Sweeper {
         let along = &mut self.along[..len];
         let y = &self.values[block.values..block.values + block.n * len];
         match (len, block.n) {
-            (12, 3) => add::<12>(fixed::<36>(y), d, fixed_mut::<12>(along)),
-            (6, 3) => add::<6>(fixed::<18>(y), d, fixed_mut::<6>(along)),
+            (12, 3) => add_rows::<12>(y, d, along),
+            (6, 3) => add_rows::<6>(y, d, along),
             _ => {
                 for (d, y) in d.iter().zip(y.chunks_exact(len.max(1))) {
                     for (along, y) in along.iter_mut().zip(y) {
@@ -286,16 +279,7 @@ impl Sweeper {
                 let own = local.times(*lambda);
                 local.solve(friction, minus(u, own))
             }
-            (Local::Scalar { inverse, .. }, law) => {
-                let free = lambda[0] - u[0] * *inverse;
-                let force = match law {
-                    Law::Bilateral => free,
-                    Law::Unilateral => free.max(0.0),
-                    Law::Given { force } => force,
-                    _ => free.clamp(-limit, limit),
-                };
-                [force, 0.0, 0.0]
-            }
+            (Local::Scalar { inverse }, law) => [law.admitted(lambda[0] - u[0] * *inverse, limit), 0.0, 0.0],
             (Local::Tangential { g, problem, .. }, _) => {
                 let own = [g[0] * lambda[0] + g[1] * lambda[1], g[1] * lambda[0] + g[2] * lambda[1]];
                 let r = [own[0] - u[0], own[1] - u[1]];
@@ -329,15 +313,8 @@ impl Sweeper {
                 let projected = project_on_cone(friction, moved);
                 distance(lambda, &projected)
             }
-            (Local::Scalar { inverse, .. }, law) => {
-                let free = lambda[0] - u[0] * inverse;
-                let force = match law {
-                    Law::Bilateral => free,
-                    Law::Unilateral => free.max(0.0),
-                    Law::Given { force } => force,
-                    _ => free.clamp(-self.limit(k), self.limit(k)),
-                };
-                (force - lambda[0]).abs()
+            (Local::Scalar { inverse }, law) => {
+                (law.admitted(lambda[0] - u[0] * inverse, self.limit(k)) - lambda[0]).abs()
             }
             (Local::Tangential { trace, .. }, _) => {
                 let rho = 2.0 / trace;
@@ -356,6 +333,8 @@ struct Island<'a> {
     sweeper: &'a mut Sweeper,
     blocks: (usize, usize),
     z: (usize, usize),
+    /// Rate below which it hardly moves.
+    rest_rate: f64,
 }
 
 impl Task for Island<'_> {
@@ -364,7 +343,7 @@ impl Task for Island<'_> {
 
     #[inline(always)]
     fn run(self) -> (f64, usize) {
-        let Self { sweeper, blocks, z } = self;
+        let Self { sweeper, blocks, z, rest_rate } = self;
         let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
         for k in blocks.clone() {
             // the velocities of the forces to start from
@@ -389,7 +368,7 @@ impl Task for Island<'_> {
             let is_last = sweep == max_sweeps;
             if change <= TOLERANCE * largest || is_last || largest == 0.0 {
                 let (residual, fastest) = residual(sweeper, blocks.clone(), largest);
-                let rests = fastest * sweeper.h < REST_SPEED && sweep < REST_SWEEPS;
+                let rests = fastest < rest_rate && sweep < REST_SWEEPS;
                 let tolerance = if rests { REST_TOLERANCE } else { TOLERANCE };
                 if residual <= tolerance || is_last {
                     return (residual, sweep);
@@ -481,20 +460,19 @@ fn fixed<const N: usize>(x: &[f64]) -> &[f64; N] {
     x.try_into().expect("the length was looked at")
 }
 
+/// Adds the scalar products of three rows of `N` numbers, one after the other, with `z` to `sums`.
 #[inline(always)]
-fn fixed_mut<const N: usize>(x: &mut [f64]) -> &mut [f64; N] {
-    x.try_into().expect("the length was looked at")
-}
-
-/// Scalar products of three rows of `N` numbers, one after the other, with `z`.
-#[inline(always)]
-fn dots<const N: usize>(y: &[f64], z: &[f64; N]) -> [f64; 3] {
-    [dot(&y[..N], z), dot(&y[N..2 * N], z), dot(&y[2 * N..3 * N], z)]
+fn add_dots<const N: usize>(y: &[f64], z: &[f64], sums: &mut [f64; 3]) {
+    let z = fixed::<N>(z);
+    for (k, sum) in sums.iter_mut().enumerate() {
+        *sum += dot(fixed::<N>(&y[k * N..(k + 1) * N]), z);
+    }
 }
 
 /// Adds three rows of `N` numbers, times `d`, to `z`.
 #[inline(always)]
-fn add<const N: usize>(y: &[f64], d: [f64; 3], z: &mut [f64; N]) {
+fn add_rows<const N: usize>(y: &[f64], d: [f64; 3], z: &mut [f64]) {
+    let (y, z) = (&y[..3 * N], &mut z[..N]);
     for j in 0..N {
         z[j] += y[j] * d[0] + y[N + j] * d[1] + y[2 * N + j] * d[2];
     }
