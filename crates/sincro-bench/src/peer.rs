@@ -124,12 +124,12 @@ impl Peer {
         }
     }
 
-    /// `quit`, closed input, and if that does not help within `patience`, killed.
-    fn end(&mut self, patience: Duration) {
+    /// `quit`, closed input, and if that does not help within `grace`, killed.
+    fn end(&mut self, grace: Duration) {
         if let Some(mut input) = self.input.take() {
             let _ = writeln!(input, "quit");
         }
-        let deadline = Instant::now() + patience;
+        let deadline = Instant::now() + grace;
         while matches!(self.child.try_wait(), Ok(None)) {
             if Instant::now() >= deadline {
                 let _ = self.child.kill();

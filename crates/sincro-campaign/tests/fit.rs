@@ -64,7 +64,7 @@ fn the_spring_of_the_thesis_is_found_in_noisy_data() {
     let fit = fit(&loaded, &sets, all).unwrap();
     assert!(fit.solution.has_converged, "{}", fit.text());
     for (estimate, truth) in fit.inference.estimates.iter().zip([30.0, 10.0]) {
-        assert!(estimate.is_told && (estimate.value - truth).abs() < 3.0 * estimate.std, "{}", fit.text());
+        assert!(estimate.is_identifiable && (estimate.value - truth).abs() < 3.0 * estimate.std, "{}", fit.text());
     }
     // the noise that was put in is what is left
     assert!((fit.inference.sigma - 1.0).abs() < 0.25, "{}", fit.inference.sigma);
@@ -127,8 +127,8 @@ fn parameters_that_only_act_together_are_named() {
     settings.push(Override::new("/shoulder/rod.inertia", "{ xx = 1e-9, yy = 1e-9, zz = 1e-9 }"));
     let model = Model::new(&loaded, &settings, all, &sets, false, &GO);
     let fit = Fit::new("test".into(), model, Loss::Squares, 0.95, &[]).unwrap();
-    assert_eq!(fit.inference.untold.len(), 1, "{}", fit.text());
-    assert!(fit.inference.estimates.iter().all(|estimate| !estimate.is_told), "{}", fit.text());
+    assert_eq!(fit.inference.unidentifiable.len(), 1, "{}", fit.text());
+    assert!(fit.inference.estimates.iter().all(|estimate| !estimate.is_identifiable), "{}", fit.text());
     assert!(fit.text().contains("/shoulder/rod.mass"), "{}", fit.text());
 }
 
@@ -194,7 +194,7 @@ fn six_parameters_of_the_compliant_arm_are_found() {
     let fit = fit(&loaded, &sets, all).unwrap();
     println!("{}", fit.text());
     for (estimate, truth) in fit.inference.estimates.iter().zip(truths) {
-        assert!(estimate.is_told && (estimate.value - truth).abs() < 3.5 * estimate.std, "{}", fit.text());
+        assert!(estimate.is_identifiable && (estimate.value - truth).abs() < 3.5 * estimate.std, "{}", fit.text());
     }
 }
 

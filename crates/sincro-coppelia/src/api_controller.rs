@@ -176,7 +176,7 @@ impl Controller for ApiController {
 
     fn sense(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         let Some(registry) = self.registry.as_mut().filter(|registry| registry.is_due(at.tick)) else { return Ok(()) };
-        at.world.release();
+        at.world.clear_external_forces();
         registry.sense(&at.world.state.q);
         // the time of scripts is that at which the step began
         let tick = at.tick - registry.sample_ticks().min(at.tick);

@@ -32,13 +32,13 @@ impl StateSpace {
     /// Dimension of the controllable subspace, and the states outside of it.
     #[must_use]
     pub fn controllability(&self) -> SubspaceRank {
-        reach(&self.a, &self.b)
+        krylov_rank(&self.a, &self.b)
     }
 
     /// Dimension of the observable subspace, and the states outside of it.
     #[must_use]
     pub fn observability(&self) -> SubspaceRank {
-        reach(&self.a.transpose(), &self.c.transpose())
+        krylov_rank(&self.a.transpose(), &self.c.transpose())
     }
 
     /// One channel without the modes that its input does not reach or its output does not see: the same transfer
@@ -46,8 +46,8 @@ impl StateSpace {
     #[must_use]
     pub fn minimal(&self, input: usize, output: usize) -> Self {
         let (b, c) = (self.b.columns(input, 1).into_owned(), self.c.rows(output, 1).into_owned());
-        let (a, b, c) = within(&span(&self.a, &b), &self.a, &b, &c);
-        let (a, b, c) = within(&span(&a.transpose(), &c.transpose()), &a, &b, &c);
+        let (a, b, c) = within(&krylov_basis(&self.a, &b), &self.a, &b, &c);
+        let (a, b, c) = within(&krylov_basis(&a.transpose(), &c.transpose()), &a, &b, &c);
         Self {
             states: (1..=a.nrows()).map(|k| Axis::new(format!("x{k}"), "")).collect(),
             inputs: vec![self.inputs[input].clone()],
@@ -73,16 +73,17 @@ fn within(
     (q.transpose() * a * &q, q.transpose() * b, c * q)
 }
 
-fn reach(a: &DMatrix<f64>, b: &DMatrix<f64>) -> SubspaceRank {
+/// Rank and unreached states of the Krylov subspace `span(B, A B, A² B, …)`.
+fn krylov_rank(a: &DMatrix<f64>, b: &DMatrix<f64>) -> SubspaceRank {
     let n_states = a.nrows();
-    let basis = span(a, b);
+    let basis = krylov_basis(a, b);
     let share = |state: usize| basis.iter().map(|q| q[state] * q[state]).sum::<f64>();
     let outside = (0..n_states).filter(|&state| share(state) <= NOTHING).collect();
     SubspaceRank { rank: basis.len(), n_states, outside }
 }
 
-/// An orthonormal basis of what B reaches through A.
-fn span(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Vec<DVector<f64>> {
+/// Orthonormal basis of the Krylov subspace `span(B, A B, A² B, …)`, vectors of n_states.
+fn krylov_basis(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Vec<DVector<f64>> {
     let rate = a.norm();
     let mut basis: Vec<DVector<f64>> = Vec::new();
     for column in b.column_iter() {
@@ -100,7 +101,7 @@ fn span(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Vec<DVector<f64>> {
     basis
 }
 
-/// Adds what of a vector is new.
+/// Adds the component of a vector orthogonal to the basis, normalised, unless it is rounding alone.
 fn push_new_direction(basis: &mut Vec<DVector<f64>>, mut vector: DVector<f64>) {
     // twice is enough: the second time takes away what rounding left of the first
     for _ in 0..2 {

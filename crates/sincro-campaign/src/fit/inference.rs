@@ -6,9 +6,9 @@ use super::solve::Solution;
 use crate::design::normal_cdf;
 use crate::statistics::student_quantile;
 
-/// Singular value of the scaled sensitivities, relative to the largest, below which a combination is not told.
+/// Singular value of the scaled sensitivities, relative to the largest, below which a combination is not identifiable.
 const RANK: f64 = 1e-7;
-/// Interval, relative to the value, beyond which a parameter is practically not told.
+/// Interval, relative to the value, beyond which a parameter is practically not identifiable.
 const LOOSE: f64 = 1.0;
 /// Lags of the autocorrelation.
 const MAX_LAG: usize = 40;
@@ -18,17 +18,17 @@ const MAX_LAG: usize = 40;
 pub struct Estimate {
     /// Value.
     pub value: f64,
-    /// Standard deviation; infinite if the data do not tell it.
+    /// Standard deviation; infinite if it is not identifiable.
     pub std: f64,
     /// Half width of its interval.
     pub half_width: f64,
-    /// True if the data tell it.
-    pub is_told: bool,
+    /// True if the data identify it.
+    pub is_identifiable: bool,
 }
 
-/// A combination of unknowns that the data do not tell.
+/// Combination of unknowns that the data do not identify.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Untold {
+pub struct Unidentifiable {
     /// Singular value relative to the largest.
     pub share: f64,
     /// Unknowns in it and their parts, relative to their scales, the largest first.
@@ -44,8 +44,8 @@ pub struct Inference {
     pub correlation: Vec<Vec<f64>>,
     /// Singular values of the scaled sensitivities, relative to the largest.
     pub singular: Vec<f64>,
-    /// Combinations that the data do not tell.
-    pub untold: Vec<Untold>,
+    /// Combinations that the data do not identify.
+    pub unidentifiable: Vec<Unidentifiable>,
     /// Standard deviation of the weighted residuals.
     pub sigma: f64,
     /// Data and unknowns.
@@ -77,8 +77,8 @@ pub fn infer(solution: &Solution, scales: &[f64], confidence: f64) -> Inference 
     order.sort_by(|a, b| svd.singular_values[*b].total_cmp(&svd.singular_values[*a]));
     let t = student_quantile(0.5 + 0.5 * confidence, freedom);
     let mut covariance = DMatrix::<f64>::zeros(n, n);
-    let (mut untold, mut singular) = (Vec::new(), Vec::new());
-    let mut is_told = vec![true; n];
+    let (mut unidentifiable, mut singular) = (Vec::new(), Vec::new());
+    let mut is_identifiable = vec![true; n];
     for i in order {
         let value = svd.singular_values[i];
         singular.push(value / largest);
@@ -88,8 +88,8 @@ pub fn infer(solution: &Solution, scales: &[f64], confidence: f64) -> Inference 
             let mut parts: Vec<(usize, f64)> = (0..n).map(|k| (k, v_t[(i, k)])).collect();
             parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
             parts.retain(|(_, part)| part.abs() > 0.1);
-            parts.iter().for_each(|(k, _)| is_told[*k] = false);
-            untold.push(Untold { share: value / largest, parts });
+            parts.iter().for_each(|(k, _)| is_identifiable[*k] = false);
+            unidentifiable.push(Unidentifiable { share: value / largest, parts });
         }
         if value > RANK * largest {
             for a in 0..n {
@@ -100,14 +100,14 @@ pub fn infer(solution: &Solution, scales: &[f64], confidence: f64) -> Inference 
     let std_of = |k: usize| sigma * covariance[(k, k)].sqrt() * scales[k];
     let estimates = (0..n)
         .map(|k| {
-            let std = if is_told[k] { std_of(k) } else { f64::INFINITY };
-            Estimate { value: solution.unknowns[k], std, half_width: t * std, is_told: is_told[k] }
+            let std = if is_identifiable[k] { std_of(k) } else { f64::INFINITY };
+            Estimate { value: solution.unknowns[k], std, half_width: t * std, is_identifiable: is_identifiable[k] }
         })
         .collect();
     let correlation = (0..n)
         .map(|a| (0..n).map(|b| covariance[(a, b)] / (covariance[(a, a)] * covariance[(b, b)]).sqrt()).collect())
         .collect();
-    Inference { estimates, correlation, singular, untold, sigma, n_values: rows.len(), freedom }
+    Inference { estimates, correlation, singular, unidentifiable, sigma, n_values: rows.len(), freedom }
 }
 
 /// Whiteness of a series of residuals.

@@ -108,15 +108,15 @@ impl<'a> Fit<'a> {
         for (k, name) in names.iter().enumerate() {
             let of = &self.inference.estimates[k];
             let from = short(self.model.bounds(k).0, 6);
-            let interval = match of.is_told {
+            let interval = match of.is_identifiable {
                 true => format!("± {} at {} %", significant(of.half_width, 2), short(100.0 * self.confidence, 4)),
-                false => "not told by these data".into(),
+                false => "not identifiable from these data".into(),
             };
             let bound = if self.solution.at_bound[k] { ", at its bound" } else { "" };
             let _ = writeln!(out, "  {name:<width$}  {} {interval}{bound}   (start {from})", significant(of.value, 6));
         }
-        for untold in &self.inference.untold {
-            let _ = writeln!(out, "  not told: {}", self.untold_words(untold));
+        for unidentifiable in &self.inference.unidentifiable {
+            let _ = writeln!(out, "  not identifiable: {}", self.unidentifiable_words(unidentifiable));
         }
         let _ = writeln!(
             out,
@@ -152,14 +152,14 @@ impl<'a> Fit<'a> {
         out
     }
 
-    /// A combination that the data do not tell, in words.
-    pub(crate) fn untold_words(&self, untold: &inference::Untold) -> String {
+    /// Combination that the data do not identify, in words.
+    pub(crate) fn unidentifiable_words(&self, unidentifiable: &inference::Unidentifiable) -> String {
         let names = self.model.names();
-        let parts: Vec<String> = untold.parts.iter().map(|(k, _)| format!("`{}`", names[*k])).collect();
+        let parts: Vec<String> = unidentifiable.parts.iter().map(|(k, _)| format!("`{}`", names[*k])).collect();
         match parts.as_slice() {
             [one] => format!("{one} hardly changes what was measured; excite it more, or measure more"),
             [a, b] => {
-                let sign = untold.parts[0].1 * untold.parts[1].1;
+                let sign = unidentifiable.parts[0].1 * unidentifiable.parts[1].1;
                 let what = if sign > 0.0 { "ratio" } else { "product" };
                 let other = if sign > 0.0 { "product" } else { "ratio" };
                 format!("{a} and {b} together: the data see their {what} at most, not their {other}; hold one of them")
@@ -190,7 +190,7 @@ impl<'a> Fit<'a> {
             .map(|(k, name)| {
                 let of = &self.inference.estimates[k];
                 json!({
-                    "name": name, "value": of.value, "std": of.std, "half_width": of.half_width, "told": of.is_told,
+                    "name": name, "value": of.value, "std": of.std, "half_width": of.half_width, "identifiable": of.is_identifiable,
                     "start": self.model.bounds(k).0, "at_bound": self.solution.at_bound[k],
                 })
             })
@@ -210,7 +210,7 @@ impl<'a> Fit<'a> {
             "title": self.title, "sincro_version": env!("CARGO_PKG_VERSION"), "loss": self.loss.word(),
             "confidence": self.confidence, "estimates": estimates, "correlation": self.inference.correlation,
             "singular_values": self.inference.singular, "sigma": self.inference.sigma, "n": self.inference.n_values,
-            "untold": self.inference.untold.iter().map(|u| self.untold_words(u)).collect::<Vec<_>>(),
+            "unidentifiable": self.inference.unidentifiable.iter().map(|u| self.unidentifiable_words(u)).collect::<Vec<_>>(),
             "converged": self.solution.has_converged, "iterations": self.solution.n_iterations,
             "runs": self.model.n_runs(), "cost_start": self.solution.cost.0, "cost": self.solution.cost.1,
             "sensitivities": "central differences of runs at accuracy 1e-12",

@@ -27,11 +27,12 @@ pub(super) fn html(fit: &Fit<'_>) -> String {
 }
 
 fn header(fit: &Fit<'_>) -> String {
-    let (n, told) = (fit.inference.estimates.len(), fit.inference.estimates.iter().filter(|e| e.is_told).count());
-    let (class, symbol, words) = match (fit.solution.has_converged, told == n) {
+    let (n, identifiable) =
+        (fit.inference.estimates.len(), fit.inference.estimates.iter().filter(|e| e.is_identifiable).count());
+    let (class, symbol, words) = match (fit.solution.has_converged, identifiable == n) {
         (false, _) => ("bad", "✗", "the fit has not converged".to_owned()),
-        (true, false) => ("bad", "✗", format!("the data tell {told} of {n} parameters")),
-        (true, true) => ("good", "✓", format!("the data tell all {n} parameters")),
+        (true, false) => ("bad", "✗", format!("{identifiable} of {n} parameters are identifiable")),
+        (true, true) => ("good", "✓", format!("all {n} parameters are identifiable")),
     };
     format!(
         "<header>\n<h1>{}</h1>\n{}<div class=\"banner {class}\" role=\"status\"><p class=\"verdict\"><span aria-hidden=\"true\">{symbol}</span> \
@@ -58,10 +59,10 @@ fn estimates(fit: &Fit<'_>) -> String {
             let of = &fit.inference.estimates[k];
             let num = |label: &str, x: f64, digits: usize| cell(label, "num", &escape_raised(&significant(x, digits)));
             let (low, high) = (of.value - of.half_width, of.value + of.half_width);
-            let (std, low, high) = if of.is_told {
+            let (std, low, high) = if of.is_identifiable {
                 (num("Std", of.std, 2), num("From", low, 5), num("To", high, 5))
             } else {
-                (cell("Std", "num", "not told"), cell("From", "num", "–"), cell("To", "num", "–"))
+                (cell("Std", "num", "not identifiable"), cell("From", "num", "–"), cell("To", "num", "–"))
             };
             let bound = if fit.solution.at_bound[k] { " <small>at its bound</small>" } else { "" };
             [
@@ -87,9 +88,11 @@ fn estimates(fit: &Fit<'_>) -> String {
 }
 
 fn identifiability(fit: &Fit<'_>) -> String {
-    let words: Vec<String> = fit.inference.untold.iter().map(|untold| fit.untold_words(untold)).collect();
+    let words: Vec<String> =
+        fit.inference.unidentifiable.iter().map(|unidentifiable| fit.unidentifiable_words(unidentifiable)).collect();
     let singular: Vec<String> = fit.inference.singular.iter().map(|s| significant(*s, 2)).collect();
-    let verdict = if words.is_empty() { paragraph("", "Every parameter is told by these data.") } else { list(&words) };
+    let verdict =
+        if words.is_empty() { paragraph("", "Every parameter is identifiable from these data.") } else { list(&words) };
     format!(
         "{verdict}<p class=\"key\">Singular values of the sensitivities, each parameter in units of its value, relative to the largest: {}. A \
          combination of parameters with a small one hardly changes what was measured.</p>\n",

@@ -1,6 +1,6 @@
 //! Bodies: mass, velocity of the centre of mass, forces for the coming step.
 
-use sincro_dynamics::actuation::Push;
+use sincro_dynamics::actuation::ExternalForce;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::MassProperties;
@@ -116,7 +116,7 @@ impl SimApi<'_> {
             return Err(ApiError::new("a force, torque or point has numbers that are not finite"));
         }
         if let Some(link) = at.link {
-            self.world.push(Push { link, point: at.pose.pos, force, torque });
+            self.world.apply_external_force(ExternalForce { link, point: at.pose.pos, force, torque });
         }
         Ok(())
     }

@@ -63,7 +63,7 @@ impl<R: Real> AppliedWrench<R> {
 /// External force and torque in world axes at a point of a link, constant until it is removed: applied by scripts and
 /// clients.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Push<R> {
+pub struct ExternalForce<R> {
     /// The link.
     pub link: usize,
     /// Point of application, link frame `[m]`.
@@ -74,7 +74,7 @@ pub struct Push<R> {
     pub torque: Vec3<R>,
 }
 
-impl<R: Real> Push<R> {
+impl<R: Real> ExternalForce<R> {
     /// Wrench about the link's origin `[N·m]`, `[N]`, in link axes; `r_wl` takes link to world axes.
     #[inline(always)]
     pub fn wrench(&self, r_wl: &crate::spatial::Mat3<R>) -> Force<R> {

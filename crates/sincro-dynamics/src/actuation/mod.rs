@@ -18,6 +18,6 @@ pub mod friction;
 pub mod motor;
 pub mod spring;
 
-pub use applied::{AppliedTorque, AppliedWrench, Push};
+pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use drive::{Drive, DriveKind};
 pub use motor::{Motor, MotorMode};

@@ -234,7 +234,7 @@ fn group<R>(blocks: &[UnilateralConstraint<R>], k: usize, g: usize) -> &Friction
 
 /// Rate that turns the direction of a group: across it; of one that slides, of its component across the velocity.
 fn turning_rate<R: Real>(group: &FrictionGroup<R>, rates: &[R]) -> R {
-    if group.slides { group.direction[0] * rates[group.row + 1] } else { across(group, rates) }
+    if group.is_sliding { group.direction[0] * rates[group.row + 1] } else { across(group, rates) }
 }
 
 /// Component across the direction of a group.

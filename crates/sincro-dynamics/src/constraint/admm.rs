@@ -128,7 +128,7 @@ impl Admm {
             let normal = if block.given.is_some() { None } else { place(block.row) };
             let mut discs = [None; 3];
             for (disc, group) in discs.iter_mut().zip(&block.groups) {
-                let Some(group) = group.filter(|g| !g.slides) else { continue };
+                let Some(group) = group.filter(|g| !g.is_sliding) else { continue };
                 let Some(first) = place(group.row) else { continue };
                 let d: f64 = (0..group.dim).map(|k| dense.get(first + k, first + k).lane(0).abs()).sum();
                 let scale = if d > 0.0 { (group.dim as f64 / d).sqrt() } else { 1.0 };
@@ -259,7 +259,7 @@ fn slip<R: Real>(group: &mut FrictionGroup<R>, force: &[f64], across: f64) {
 pub(crate) fn activate_all<R: Real>(blocks: &mut [UnilateralConstraint<R>]) {
     for block in blocks.iter_mut() {
         block.open = false;
-        for group in block.groups.iter_mut().flatten().filter(|g| !g.slides) {
+        for group in block.groups.iter_mut().flatten().filter(|g| !g.is_sliding) {
             group.stick();
         }
     }

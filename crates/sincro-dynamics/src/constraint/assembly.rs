@@ -16,7 +16,7 @@ use crate::spatial::{Force, Vec3};
 impl<R: Real> Constraints<R> {
     /// Assembles rows, residuals and unilateral constraints of everything closed, at the poses of `scratch` and the
     /// twists of `motions`.
-    pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, slides: bool) {
+    pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, is_sliding: bool) {
         let set = &*model.constraints;
         self.assemble_loops(model, q, scratch);
         for (slot, limit) in set.limits.iter().enumerate() {
@@ -39,7 +39,7 @@ impl<R: Real> Constraints<R> {
         for SlotCandidate { slot, pair, candidate } in candidates.iter() {
             let slot = set.limits.len() + *slot as usize;
             if self.memory.is_closed(slot) {
-                self.contact(slot, candidate, &set.pairs[*pair as usize], v, scratch, slides);
+                self.contact(slot, candidate, &set.pairs[*pair as usize], v, scratch, is_sliding);
             }
         }
         self.candidates = candidates;
@@ -78,7 +78,7 @@ impl<R: Real> Constraints<R> {
         pair: &Pair,
         v: &[R],
         scratch: &Scratch<R>,
-        slides: bool,
+        is_sliding: bool,
     ) {
         let at = candidate.kinematics(&self.motions.at(scratch));
         let row = self.rows.len();
@@ -114,19 +114,19 @@ impl<R: Real> Constraints<R> {
                 };
                 self.add(row, R::zero());
             }
-            let slides = slides && self.memory.slides(slot, g);
+            let is_sliding = is_sliding && self.memory.is_sliding(slot, g);
             let mut group = FrictionGroup {
                 row: first,
                 dim,
                 coefficient,
                 slack: 1.0,
-                slides,
+                is_sliding,
                 mode: ContactMode::Stick,
                 direction: [R::zero(); 2],
                 compliance: None,
                 slow_sliding: SlowSliding::default(),
             };
-            if slides {
+            if is_sliding {
                 group.mode = ContactMode::Slip;
                 let (direction, speed) = self.direction_against(first, dim, v, self.memory.direction(slot, g));
                 group.direction = self.memory.set_direction(slot, g, direction, speed);

@@ -22,7 +22,7 @@ pub(crate) struct FrictionGroup<R> {
     pub slack: f64,
     /// True if it slides with a velocity that gives the direction; else the direction follows from the solution
     /// (impending slip).
-    pub slides: bool,
+    pub is_sliding: bool,
     pub mode: ContactMode,
     /// Direction of its force if it slips.
     pub direction: [R; 2],
@@ -56,7 +56,7 @@ impl<R: Real> FrictionGroup<R> {
     pub fn sliding_rate(&self, normal: f64) -> Option<f64> {
         let SlowSliding { speed, h, mobility } = self.slow_sliding;
         let reach = h * self.coefficient * normal * mobility;
-        let is_slow = self.slides && normal > 0.0 && speed < reach * (1.0 - SLOWEST_RISE);
+        let is_slow = self.is_sliding && normal > 0.0 && speed < reach * (1.0 - SLOWEST_RISE);
         is_slow.then(|| {
             let share = 1.0 - (speed / reach) * (speed / reach);
             speed / (h * share * share)

@@ -81,7 +81,7 @@ impl<R: Real> Solver<R> {
 /// Friction groups of closed constraints whose mode the solution decides.
 fn undecided<R: Real>(blocks: &mut [UnilateralConstraint<R>]) -> impl Iterator<Item = &mut FrictionGroup<R>> {
     let closed = blocks.iter_mut().filter(|block| !block.open);
-    closed.flat_map(|block| block.groups.iter_mut().flatten()).filter(|group| !group.slides)
+    closed.flat_map(|block| block.groups.iter_mut().flatten()).filter(|group| !group.is_sliding)
 }
 
 /// Returns true if a constraint is open without separating, or friction that could stick slips without a rate.
@@ -93,7 +93,7 @@ fn is_idle<R: Real>(block: &UnilateralConstraint<R>, small: Tolerances, rates: &
 }
 
 fn is_idle_friction<R: Real>(group: &FrictionGroup<R>, small: Tolerances, rates: &[R]) -> bool {
-    !group.slides && group.mode == ContactMode::Slip && norm(pair(group, rates)) <= small.held
+    !group.is_sliding && group.mode == ContactMode::Slip && norm(pair(group, rates)) <= small.held
 }
 
 /// Closes a constraint that is open without separating, and lets friction that slips without a rate stick.

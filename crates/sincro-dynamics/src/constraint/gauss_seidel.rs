@@ -36,7 +36,7 @@ pub(super) fn sweep<R: Real>(
     for block in blocks.iter_mut() {
         let normal = lambda[block.row].lane(0);
         block.open = block.given.is_none() && normal <= 0.0;
-        for group in block.groups.iter_mut().flatten().filter(|group| !group.slides) {
+        for group in block.groups.iter_mut().flatten().filter(|group| !group.is_sliding) {
             let force = pair(group, lambda);
             let size = norm(force);
             if size > AT_LIMIT * group.coefficient * normal && size > 0.0 {
@@ -71,7 +71,7 @@ fn relax_friction<R: Real>(
 ) {
     let (m, limit) = (problem.m(), group.coefficient * normal);
     let mut force = [0.0; 2];
-    if group.slides && group.mode == ContactMode::Slip {
+    if group.is_sliding && group.mode == ContactMode::Slip {
         force = group.direction.map(|d| limit * d.lane(0));
     } else {
         let stiffest = (0..group.dim).map(|k| problem.a[(group.row + k) * (m + 1)].lane(0)).sum::<f64>();

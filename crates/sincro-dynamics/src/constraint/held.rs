@@ -130,7 +130,7 @@ impl<R: Real> Solver<R> {
             for (g, group) in block.groups.iter().enumerate() {
                 match group {
                     Some(group) if group.mode == ContactMode::Stick => look(HeldLaw::Stick(k, g)),
-                    Some(group) if !group.slides => look(HeldLaw::Slip(k, g)),
+                    Some(group) if !group.is_sliding => look(HeldLaw::Slip(k, g)),
                     _ => {}
                 }
             }
@@ -198,7 +198,7 @@ fn turn<R: Real>(mut small: Tolerances, rates: &[R], blocks: &mut [UnilateralCon
         let normal = lambda[block.row].lane(0);
         for group in block.groups.iter_mut().flatten() {
             turned |= match group.mode {
-                ContactMode::Slip if group.slides => turn_slow_friction(group, normal, rates, lambda),
+                ContactMode::Slip if group.is_sliding => turn_slow_friction(group, normal, rates, lambda),
                 ContactMode::Slip => turn_impending_slip(group, normal.max(0.0), small, rates, lambda) == Some(true),
                 ContactMode::Stick => false,
             };

@@ -168,7 +168,7 @@ impl Constraints<f64> {
         for block in &mut self.blocks {
             block.open = false;
             for group in block.groups.iter_mut().flatten() {
-                (group.slides, group.mode, group.compliance) = (false, ContactMode::Stick, None);
+                (group.is_sliding, group.mode, group.compliance) = (false, ContactMode::Stick, None);
             }
             // a compliant contact transmits no impulse
             block.given = block.is_compliant.then_some(0.0);

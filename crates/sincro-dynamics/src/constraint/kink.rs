@@ -60,7 +60,7 @@ impl<R: Real> Constraints<R> {
                 dim: 1,
                 coefficient: limit / NORMAL,
                 slack: LIMIT_SLACK,
-                slides: false,
+                is_sliding: false,
                 mode: if saturation == 0.0 { ContactMode::Stick } else { ContactMode::Slip },
                 direction: [R::splat(saturation), R::zero()],
                 compliance: None,

@@ -307,7 +307,7 @@ impl<R: Real> Solver<R> {
                 let r = rate(block.row);
                 worst = worst.max(if block.open { (-r).max(0.0) } else { r.abs() });
             }
-            for group in block.groups.iter().flatten().filter(|g| !g.slides && !block.open) {
+            for group in block.groups.iter().flatten().filter(|g| !g.is_sliding && !block.open) {
                 let w = pair(group, &self.active_set.rates);
                 let d = group.direction.map(|d| d.lane(0));
                 // a sticking group has no rate, a slipping one none but against its force
@@ -372,7 +372,7 @@ fn update_modes<R: Real>(
             continue;
         }
         changed |= block.given.is_none() && rate < -small.held;
-        for group in block.groups.iter_mut().flatten().filter(|g| !g.slides) {
+        for group in block.groups.iter_mut().flatten().filter(|g| !g.is_sliding) {
             changed |= update_friction_mode(group, normal.max(0.0), small, rates, lambda);
         }
     }
@@ -416,7 +416,7 @@ pub(super) fn turn_slow_friction<R: Real>(
     lambda: &[R],
 ) -> bool {
     let Some(sliding) = group.sliding_rate(normal) else {
-        let was_turned = group.slides && group.compliance.is_some();
+        let was_turned = group.is_sliding && group.compliance.is_some();
         if was_turned {
             group.slip([-R::one(), R::zero()], None);
         }

@@ -27,7 +27,7 @@ fn contacts(count: usize, n_free: usize, friction: f64) -> Vec<UnilateralConstra
         dim: 2,
         coefficient: friction,
         slack: 1.0,
-        slides: false,
+        is_sliding: false,
         mode: ContactMode::Stick,
         direction: [0.0; 2],
         compliance: None,

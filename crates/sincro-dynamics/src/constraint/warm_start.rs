@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | multipliers | λ of the normal and of up to five friction rows `[N]`, [N·m] | yes |
 //! | code | 0 never solved, else 1 + 1·open + 2, 4, 8·slipping group, + 32·feature after sweeps | yes |
-//! | closed, slides, directions | classification at the start of a sub-step | no: from positions and velocities |
+//! | closed, is_sliding, directions | classification at the start of a sub-step | no: from positions and velocities |
 //!
 //! In the state stands the [`ZenoFallback`], then one record a slot that has been solved: its index and these numbers.
 
@@ -46,7 +46,7 @@ struct Entry<R> {
     closed: bool,
     /// True if the slot has closed since it was last asked for.
     is_new: bool,
-    slides: [bool; 3],
+    is_sliding: [bool; 3],
     /// Multipliers and code: of the last solution, at the start of the sub-step, and those that others were proposed
     /// for.
     numbers: [R; SLOT_LEN],
@@ -65,7 +65,7 @@ impl<R: Real> Entry<R> {
             slot: slot as u32,
             closed: false,
             is_new: false,
-            slides: [false; 3],
+            is_sliding: [false; 3],
             numbers: zeros,
             start: zeros,
             decided: zeros,
@@ -81,9 +81,9 @@ impl<R: Real> Entry<R> {
     }
 
     /// Classifies the slot; the warm start of one that is not closed is cleared.
-    fn classify(&mut self, closed: bool, slides: [bool; 3]) {
+    fn classify(&mut self, closed: bool, is_sliding: [bool; 3]) {
         self.is_new = closed && (self.is_new || !self.closed);
-        (self.closed, self.slides) = (closed, slides);
+        (self.closed, self.is_sliding) = (closed, is_sliding);
         self.start_directions = [[R::zero(); 2]; 3];
         if !closed {
             self.numbers = [R::zero(); SLOT_LEN];
@@ -140,11 +140,11 @@ impl<R: Real> WarmStart<R> {
     /// Takes over which slots are closed and which of their groups slide, and in which directions.
     pub fn take_modes(&mut self, other: &WarmStart<f64>) {
         for entry in &mut self.entries {
-            (entry.closed, entry.slides, entry.directions) = (false, [false; 3], [[R::zero(); 2]; 3]);
+            (entry.closed, entry.is_sliding, entry.directions) = (false, [false; 3], [[R::zero(); 2]; 3]);
         }
         for theirs in &other.entries {
             let own = self.entry_mut(theirs.slot as usize);
-            (own.closed, own.slides) = (theirs.closed, theirs.slides);
+            (own.closed, own.is_sliding) = (theirs.closed, theirs.is_sliding);
             own.directions = theirs.directions.map(|direction| direction.map(R::splat));
         }
     }
@@ -189,7 +189,7 @@ impl<R: Real> WarmStart<R> {
         self.zeno_fallback
     }
 
-    pub fn set_patience(&mut self, zeno_fallback: ZenoFallback) {
+    pub fn set_zeno_fallback(&mut self, zeno_fallback: ZenoFallback) {
         if self.has_slots {
             self.zeno_fallback = zeno_fallback;
         }
@@ -214,8 +214,8 @@ impl<R: Real> WarmStart<R> {
         core::mem::take(&mut self.entry_mut(slot).is_new)
     }
 
-    pub fn slides(&self, slot: usize, group: usize) -> bool {
-        self.entry(slot).is_some_and(|entry| entry.slides[group])
+    pub fn is_sliding(&self, slot: usize, group: usize) -> bool {
+        self.entry(slot).is_some_and(|entry| entry.is_sliding[group])
     }
 
     pub fn direction(&self, slot: usize, group: usize) -> [R; 2] {
@@ -277,7 +277,7 @@ impl<R: Real> WarmStart<R> {
     }
 
     /// Classifies a slot, slots in increasing order; those left out are not closed.
-    pub fn classify(&mut self, slot: usize, closed: bool, slides: [bool; 3]) {
+    pub fn classify(&mut self, slot: usize, closed: bool, is_sliding: [bool; 3]) {
         self.leave_open(slot);
         let known = self.former.get(self.taken).filter(|entry| entry.slot as usize == slot);
         self.taken += usize::from(known.is_some());
@@ -285,7 +285,7 @@ impl<R: Real> WarmStart<R> {
         if let Some(numbers) = self.continued.pop() {
             entry.numbers = numbers;
         }
-        entry.classify(closed, slides);
+        entry.classify(closed, is_sliding);
         self.keep_entry(entry);
     }
 
@@ -325,7 +325,7 @@ impl<R: Real> WarmStart<R> {
                 let Some(group) = group else { continue };
                 let first = [1, 3, 5][g];
                 lambda[group.row..group.row + group.dim].copy_from_slice(&kept[first..first + group.dim]);
-                if group.slides || (code - 1) >> (g + 1) & 1 == 0 {
+                if group.is_sliding || (code - 1) >> (g + 1) & 1 == 0 {
                     continue;
                 }
                 let mut d = [R::zero(); 2];
@@ -424,7 +424,7 @@ impl<R: Real> WarmStart<R> {
         let closed = self.entries.iter().filter(|entry| entry.closed);
         closed
             .flat_map(|entry| (0..3).map(move |g| (entry, g)))
-            .filter(|(entry, g)| entry.slides[*g] && along(&(*entry, *g)) < 0.0)
+            .filter(|(entry, g)| entry.is_sliding[*g] && along(&(*entry, *g)) < 0.0)
             .min_by(|a, b| along(a).total_cmp(&along(b)))
             .map(|(entry, g)| (entry.slot as usize, g))
     }

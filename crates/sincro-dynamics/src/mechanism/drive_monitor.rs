@@ -63,8 +63,9 @@ impl DriveMonitor {
         let mut earliest = f64::INFINITY;
         for (i, ((v0, a0), target)) in self.start.iter().zip(&self.targets).enumerate() {
             let (saturation, v1, a1) = drive(i);
-            for s in extrema((*v0, h * a0), (v1, h * a1)) {
-                let v = hermite((*v0, h * a0), (v1, h * a1), s);
+            let cubic = Hermite::new((*v0, h * a0), (v1, h * a1));
+            for s in cubic.extrema() {
+                let v = cubic.value(s);
                 if self.band.is_beyond(*target, v, saturation) {
                     earliest = earliest.min(s * h);
                 }
@@ -80,19 +81,30 @@ impl DriveMonitor {
     }
 }
 
-/// Cubic through value and slope at 0 and at 1.
-fn hermite((v0, a0): (f64, f64), (v1, a1): (f64, f64), s: f64) -> f64 {
-    let (c2, c3) = (3.0 * (v1 - v0) - 2.0 * a0 - a1, 2.0 * (v0 - v1) + a0 + a1);
-    v0 + s * (a0 + s * (c2 + s * c3))
+/// Cubic Hermite polynomial `v₀ + s (a₀ + s (c₂ + s c₃))` on [0, 1].
+struct Hermite {
+    v0: f64,
+    a0: f64,
+    c2: f64,
+    c3: f64,
 }
 
-/// Positions of the extrema of that cubic within (0, 1); NaN for none.
-fn extrema((v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> [f64; 2] {
-    let (c2, c3) = (3.0 * (v1 - v0) - 2.0 * a0 - a1, 2.0 * (v0 - v1) + a0 + a1);
-    // a₀ + 2 c₂ s + 3 c₃ s² = 0, without cancellation
-    let root = (c2 * c2 - 3.0 * c3 * a0).sqrt();
-    let q = -(c2 + root.copysign(c2));
-    [q / (3.0 * c3), a0 / q].map(|s| if s > 0.0 && s < 1.0 { s } else { f64::NAN })
+impl Hermite {
+    /// Polynomial of the given values and slopes at 0 and at 1.
+    fn new((v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> Self {
+        Self { v0, a0, c2: 3.0 * (v1 - v0) - 2.0 * a0 - a1, c3: 2.0 * (v0 - v1) + a0 + a1 }
+    }
+
+    fn value(&self, s: f64) -> f64 {
+        self.v0 + s * (self.a0 + s * (self.c2 + s * self.c3))
+    }
+
+    /// Positions of the extrema within (0, 1), roots of `a₀ + 2 c₂ s + 3 c₃ s²` without cancellation; NaN for none.
+    fn extrema(&self) -> [f64; 2] {
+        let root = (self.c2 * self.c2 - 3.0 * self.c3 * self.a0).sqrt();
+        let q = -(self.c2 + root.copysign(self.c2));
+        [q / (3.0 * self.c3), self.a0 / q].map(|s| if s > 0.0 && s < 1.0 { s } else { f64::NAN })
+    }
 }
 
 /// Width within which a velocity counts as its target.

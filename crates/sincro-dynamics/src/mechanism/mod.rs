@@ -20,7 +20,7 @@ mod torques;
 
 use sincro_math::Real;
 
-use crate::actuation::{Drive, DriveKind, Motor, Push, damper, friction};
+use crate::actuation::{Drive, DriveKind, ExternalForce, Motor, damper, friction};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
 use crate::constraint::{Constraints, Level};
 use crate::ids::{MotorId, RotorId};
@@ -61,7 +61,7 @@ pub struct Mechanism<R> {
     pub(crate) prescribed_acceleration: Vec<R>,
     external: Vec<Force<R>>,
     /// External forces from outside the model, until they are removed.
-    pushes: Vec<Push<R>>,
+    external_forces: Vec<ExternalForce<R>>,
     /// Power dissipated by drag elements in the last evaluation `[W]`.
     air_dissipation: R,
     /// First rotor whose load was not a number in the last evaluation.
@@ -97,7 +97,7 @@ impl<R: Real> Mechanism<R> {
             locked_mask: zero.clone(),
             prescribed_acceleration: zero.clone(),
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
-            pushes: Vec::new(),
+            external_forces: Vec::new(),
             air_dissipation: R::zero(),
             without_load: None,
             motor_torque: vec![R::zero(); model.motors.len()],
@@ -134,7 +134,7 @@ impl<R: Real> Mechanism<R> {
         ];
         numbers.iter().map(|v| size_of_val(&***v)).sum::<usize>()
             + size_of_val(&*self.external)
-            + size_of_val(&*self.pushes)
+            + size_of_val(&*self.external_forces)
             + self.scratch.heap_bytes()
     }
 
@@ -295,44 +295,44 @@ impl<R: Real> Mechanism<R> {
         if self.model.feels_air() {
             // only poses and twists are looked at: any accelerations will do
             kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
-        } else if !self.pushes.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
+        } else if !self.external_forces.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
             kinematics::poses(&self.model, &self.q, &mut self.scratch);
         }
         self.air_wrenches(t, v, rotors);
         for wrench in &self.model.wrenches {
             self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);
         }
-        for push in &self.pushes {
-            self.external[push.link] += push.wrench(&self.scratch.poses[push.link].rot);
+        for applied in &self.external_forces {
+            self.external[applied.link] += applied.wrench(&self.scratch.poses[applied.link].rot);
         }
     }
 
     /// Returns true if external forces act on links now.
     #[inline(always)]
     fn has_external(&self) -> bool {
-        self.model.has_external() || !self.pushes.is_empty()
+        self.model.has_external() || !self.external_forces.is_empty()
     }
 
     /// Adds an external force, to those on the same point of the same link if there are any.
-    pub(crate) fn push(&mut self, push: Push<R>) {
+    pub(crate) fn apply_external_force(&mut self, applied: ExternalForce<R>) {
         self.external.resize(self.model.links.len(), Force::zero());
-        match self.pushes.iter_mut().find(|p| p.link == push.link && p.point == push.point) {
+        match self.external_forces.iter_mut().find(|p| p.link == applied.link && p.point == applied.point) {
             Some(known) => {
-                known.force += push.force;
-                known.torque += push.torque;
+                known.force += applied.force;
+                known.torque += applied.torque;
             }
-            None => self.pushes.push(push),
+            None => self.external_forces.push(applied),
         }
     }
 
     /// Returns true if external forces act from outside the model.
-    pub(crate) fn is_pushed(&self) -> bool {
-        !self.pushes.is_empty()
+    pub(crate) fn has_external_forces(&self) -> bool {
+        !self.external_forces.is_empty()
     }
 
     /// Removes all external forces.
-    pub(crate) fn release(&mut self) {
-        self.pushes.clear();
+    pub(crate) fn clear_external_forces(&mut self) {
+        self.external_forces.clear();
         if !self.model.has_external() {
             self.external.clear();
         }

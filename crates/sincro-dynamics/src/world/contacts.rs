@@ -23,9 +23,9 @@ impl World {
         self.mechanism.constraints.as_ref().map_or_else(ZenoFallback::default, |c| c.memory.zeno_fallback())
     }
 
-    pub(super) fn set_patience(&mut self, zeno_fallback: ZenoFallback) {
+    pub(super) fn set_zeno_fallback(&mut self, zeno_fallback: ZenoFallback) {
         if let Some(constraints) = &mut self.mechanism.constraints {
-            constraints.memory.set_patience(zeno_fallback);
+            constraints.memory.set_zeno_fallback(zeno_fallback);
         }
     }
 

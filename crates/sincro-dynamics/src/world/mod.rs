@@ -26,7 +26,7 @@ pub use builder::WorldBuilder;
 pub use observation::Observation;
 pub use step::{StepError, StepReport};
 
-use crate::actuation::{Motor, Push};
+use crate::actuation::{ExternalForce, Motor};
 use crate::aero::rotor::{RotorLaw, SpeedFrom};
 use crate::constraint::kink::Kink;
 use crate::constraint::{ContactPoint, SolverReport};
@@ -427,15 +427,16 @@ impl World {
         look(StateView { t, model: &mechanism.model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
     }
 
-    /// Applies an external force to a link from now on, until [`World::release`]; forces at one point add up. Not part
+    /// Applies an external force to a link from now on, until
+    /// [`World::clear_external_forces`]; forces at one point add up. Not part
     /// of the state: a force that acts over one step leaves nothing behind.
-    pub fn push(&mut self, push: Push<f64>) {
-        self.mechanism.push(push);
+    pub fn apply_external_force(&mut self, applied: ExternalForce<f64>) {
+        self.mechanism.apply_external_force(applied);
     }
 
     /// Removes all external forces.
-    pub fn release(&mut self) {
-        self.mechanism.release();
+    pub fn clear_external_forces(&mut self) {
+        self.mechanism.clear_external_forces();
     }
 
     /// Replaces a motor between two steps; its joint stays, its command and the state of the other drives too. A motor

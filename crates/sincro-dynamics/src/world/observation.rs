@@ -84,7 +84,7 @@ impl Observation<'_> {
         energy(self.model(), &self.state.q, &self.state.v, self.scratch())
     }
 
-    /// Momentum of all bodies about the world's origin.
+    /// Momentum of all bodies about the world's origin, world axes: angular [kg·m²/s], linear [kg·m/s].
     #[must_use]
     pub fn momentum(&self) -> Force<f64> {
         momentum(self.model(), self.scratch())
@@ -113,7 +113,7 @@ impl World {
             mechanism: &self.mechanism,
             target_velocities: &self.target_velocities,
             is_settled: self.settled_at == Some(self.state.tick),
-            inputs_are_continuous: next_jump > t + SAME_INSTANT && !self.mechanism.is_pushed(),
+            inputs_are_continuous: next_jump > t + SAME_INSTANT && !self.mechanism.has_external_forces(),
         }
     }
 }

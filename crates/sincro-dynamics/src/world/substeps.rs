@@ -51,7 +51,7 @@ impl World {
         let (mut share, mut after_event, mut crawling) = (IDLE_STEP, false, 0);
         let zeno_fallback = self.zeno_fallback();
         if zeno_fallback.left > 0 {
-            self.set_patience(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
+            self.set_zeno_fallback(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
             return self.finish_at_velocity_level(start, span, system);
         }
         while t < end {
@@ -113,7 +113,7 @@ impl World {
                     return Err((reached, Stop::Chatter { t: reached }));
                 }
                 if self.is_constrained() && events > MAX_CONTACT_EVENTS {
-                    self.set_patience(zeno_fallback.lost());
+                    self.set_zeno_fallback(zeno_fallback.lost());
                     return self.finish_at_velocity_level(reached, end - reached, system);
                 }
             } else {
@@ -127,7 +127,7 @@ impl World {
                 (idle, close, crawling) = (0, 0, 0);
             }
         }
-        self.set_patience(ZenoFallback::default());
+        self.set_zeno_fallback(ZenoFallback::default());
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! One run of the engine: the world, what is recorded of it, and a snapshot at each frame so that others can start
 //! there.
 
-use sincro_dynamics::actuation::Push;
+use sincro_dynamics::actuation::ExternalForce;
 use sincro_dynamics::spatial::Vec3;
 use sincro_scene::diagnostic::{Diagnostics, Located};
 use sincro_scene::diagram::ControlDiagram;
@@ -40,7 +40,7 @@ pub(super) struct Track {
     every: u64,
     /// States at the frames.
     snapshots: Thinned<Snapshot>,
-    push: Option<Push<f64>>,
+    push: Option<ExternalForce<f64>>,
     /// Intervention after which the files and settings alone do not give this run; empty if there was none.
     intervention: &'static str,
 }
@@ -149,10 +149,10 @@ impl Track {
     /// One base step; whether a frame is due then.
     pub fn advance(&mut self) -> bool {
         if let Some(push) = self.push {
-            self.lockstep.world().push(push);
+            self.lockstep.world().apply_external_force(push);
         }
         let advanced = self.lockstep.advance();
-        self.lockstep.world().release();
+        self.lockstep.world().clear_external_forces();
         let is_world_halt = matches!(advanced, Err(sincro_sim::run::Halt::World { .. }));
         if !is_world_halt {
             self.lockstep.hash_into(&mut self.trace);
@@ -201,7 +201,7 @@ impl Track {
         let x_wl = self.lockstep.observe(t).0.scratch().link_poses()[link];
         let point = x_wl.inverse().point(Vec3(point));
         self.intervention = "was pulled by hand";
-        self.push = Some(Push { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
+        self.push = Some(ExternalForce { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
         Ok(())
     }
 }
