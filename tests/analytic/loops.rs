@@ -217,6 +217,10 @@ fn of_four_bars(n: usize) -> (Model<f64>, State<f64>) {
     (model, x)
 }
 
+fn world_of((model, x): (Model<f64>, State<f64>), method: MethodKind, accuracy: f64, tick: f64) -> World {
+    World::new(model, x, method, accuracy, tick)
+}
+
 /// Angle of the first rod after 10 s `[rad]`.
 fn angle((model, x): (Model<f64>, State<f64>), accuracy: f64, tick: f64) -> f64 {
     let mut world = World::new(model, x, MethodKind::DormandPrince, accuracy, tick);
@@ -235,6 +239,49 @@ fn four_bars_pass_their_singular_positions_on_their_branch() {
             let error = (angle(four_bars(2), accuracy, tick) - expected).abs();
             // a thousand steps; rounding where the loops are nearly singular
             assert!(error < 1e3 * accuracy + 1e-9, "tick {tick} s, accuracy {accuracy:e}: off by {error:e} rad");
+        }
+    }
+}
+
+/// Time at which the rods of two four-bars lie down for the first time `[s]`: their first singular position.
+fn first_singular_instant() -> f64 {
+    let (mut low, mut high) = (0.5, 1.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        let (model, x) = of_four_bars(2);
+        let mut world = World::new(model, x, MethodKind::DormandPrince, 1e-14, middle);
+        run(&mut world, middle, 1);
+        let is_before = world.state.q[0] > -core::f64::consts::FRAC_PI_2;
+        (low, high) = if is_before { (middle, high) } else { (low, middle) };
+    }
+    0.5 * (low + high)
+}
+
+#[test]
+fn steps_may_end_at_singular_positions() {
+    let instant = first_singular_instant();
+    for off in [0.0, 1e-9, -1e-9, 1e-6, -1e-5, 1e-3] {
+        for ticks in [1, 16, 71] {
+            let tick = (instant + off) / f64::from(ticks);
+            let n = libm::round(10.0 / tick) as u32;
+            let mut exact = world_of(of_four_bars(2), MethodKind::DormandPrince, 1e-13, tick);
+            run(&mut exact, tick, n);
+            for method in [MethodKind::DormandPrince, MethodKind::Stiff] {
+                for accuracy in [1e-6, 1e-9, 1e-13] {
+                    let mut world = world_of(four_bars(2), method, accuracy, tick);
+                    run(&mut world, tick, n);
+                    let error = (world.state.q[0] - exact.state.q[0]).abs();
+                    let case = format!("{method:?}, {off:e} s beside, tick {tick} s, accuracy {accuracy:e}");
+                    assert!(error < 1e3 * accuracy + 1e-8, "{case}: off by {error:e} rad");
+                    // the rods lie down twice a turn
+                    let passed = world.passed_singularities();
+                    let expected = libm::floor((-exact.state.q[0]) / core::f64::consts::PI + 0.5) as usize;
+                    // steps of a tenth of a turn and more do not show every passage
+                    let is_enough = if accuracy > 1e-9 { passed.count >= 1 } else { passed.count == expected };
+                    assert!(is_enough, "{case}: {} of {expected} passages", passed.count);
+                    assert!((passed.first - instant).abs() < 0.02, "{case}: first at {} s", passed.first);
+                }
+            }
         }
     }
 }

@@ -316,7 +316,7 @@ impl<R: Real> Constraints<R> {
                 self.aim_at_targets(h);
             }
         }
-        let vanishing = self.drop_vanishing_rows();
+        let vanishing = self.drop_vanishing_rows(SINGULAR);
         self.solve();
         // redundant contacts are no singular position
         self.conditioning = if self.blocks.is_empty() { vanishing * self.solver.smallest_pivot } else { 1.0 };
@@ -324,15 +324,15 @@ impl<R: Real> Constraints<R> {
         self.take_drive_torques(level == Level::Acceleration, scratch, v_dot);
     }
 
-    /// Drops loop rows that vanish at a singular position, whose forces would be rounding; returns the smallest square
-    /// of a row relative to its size.
-    fn drop_vanishing_rows(&mut self) -> f64 {
+    /// Drops loop rows that vanish at a singular position, whose forces would be rounding: those whose square, relative
+    /// to the row's size, is below `rank`. Returns the smallest of these squares.
+    fn drop_vanishing_rows(&mut self, rank: f64) -> f64 {
         let m = self.rows.len();
         let mut smallest = 1.0_f64;
         for i in 0..self.n_free.min(self.row_sizes.len()) {
             let of_row = self.a[i * m + i].lane(0) / self.row_sizes[i];
             smallest = smallest.min(of_row);
-            if of_row < SINGULAR {
+            if of_row < rank {
                 for j in 0..m {
                     (self.a[i * m + j], self.a[j * m + i]) = (R::zero(), R::zero());
                 }

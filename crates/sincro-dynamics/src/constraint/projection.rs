@@ -92,6 +92,7 @@ impl<R: Real> Constraints<R> {
             None => self.b.extend_from_slice(&self.residual),
         }
         self.solver.rank = rank;
+        self.drop_vanishing_rows(rank);
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         self.solver.correct(&problem, &[], &mut self.lambda);
         out.fill(R::zero());

@@ -127,6 +127,7 @@ impl Extrapolated<f64> {
             for (i, e) in self.error.iter_mut().enumerate() {
                 *e = self.tableau[j][i] - self.tableau[j - 1][i];
             }
+            system.project_error(&self.tableau[j], &mut self.error);
             let before = share;
             share = self.control.share(system, &self.tableau[j], &self.error);
             // rows that no longer help mean a step far too long

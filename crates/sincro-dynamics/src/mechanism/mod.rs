@@ -16,6 +16,7 @@ pub(crate) mod drive_monitor;
 mod kinks;
 mod loop_rank;
 mod singular;
+mod slopes;
 mod torques;
 
 use sincro_math::Real;
@@ -33,6 +34,7 @@ use crate::scratch::Scratch;
 use crate::spatial::{Force, Quat, Vec3};
 use crate::state::{State, displace};
 use drive_monitor::DriveMonitor;
+pub use singular::PassedSingularities;
 use singular::SingularPassage;
 use torques::{TorqueInput, joint_torques};
 
@@ -531,28 +533,9 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
-        let n = self.model.n_v();
-        let (delta, rest) = y.split_at(n);
-        let v = &rest[..n];
-        displace(&self.model, &self.base, delta, &mut self.q);
-        let (rate, rest) = slope.split_at_mut(n);
-        let rotors = &y[self.rotor_states()];
-        let projected = (R::LANES == 1 && self.singular.is_near).then(|| self.project_stage(v));
-        let v = projected.as_deref().unwrap_or(v);
-        self.chart_rate(delta, v, rate);
-        self.accelerations(t, v, rotors, None, &mut rest[..n]);
+        self.explicit_slope(t, y, slope);
         if R::LANES == 1 {
-            self.note_conditioning();
-        }
-        if R::LANES == 1 && self.drive_monitor.is_active {
-            self.monitor_drives(t, v, &rest[..n]);
-        }
-        if self.tracks_totals {
-            self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
-        }
-        self.rotor_rates(rotors, 0.0, &mut slope[self.rotor_states()]);
-        if let Some(v) = projected {
-            self.singular.v = v;
+            self.finish_stage(t, None, y, slope);
         }
     }
 
@@ -576,35 +559,10 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
-        let n = self.model.n_v();
-        let (delta, rest) = y.split_at(n);
-        let v = &rest[..n];
-        displace(&self.model, &self.base, delta, &mut self.q);
-        let (rate, rest) = slope.split_at_mut(n);
-        let rotors = &y[self.rotor_states()];
-        self.accelerations(t, v, rotors, Some((h, implicit)), &mut rest[..n]);
-        if R::LANES == 1 && self.drive_monitor.is_active {
-            self.monitor_drives(t, v, &rest[..n]);
+        self.linearly_implicit_slope(t, h, implicit, y, slope);
+        if R::LANES == 1 {
+            self.finish_stage(t, Some((h, implicit)), y, slope);
         }
-        // the position moves with the new velocity; forces do their work over the mean of old and new
-        let step = R::splat(h);
-        for k in 0..n {
-            self.torque[k] = v[k] + step * rest[k];
-        }
-        let new_v = core::mem::take(&mut self.torque);
-        self.chart_rate(delta, &new_v, rate);
-        self.torque = new_v;
-        if self.tracks_totals {
-            let half = R::splat(0.5);
-            for k in 0..n {
-                self.torque[k] = half * (self.torque[k] + v[k]);
-            }
-            let mean_v = core::mem::take(&mut self.torque);
-            let of_springs = if implicit == Implicit::Dampers { R::zero() } else { step };
-            self.total_rates(t, v, &mean_v, (step, of_springs), &mut rest[n..]);
-            self.torque = mean_v;
-        }
-        self.rotor_rates(rotors, h, &mut slope[self.rotor_states()]);
     }
 
     #[inline(always)]

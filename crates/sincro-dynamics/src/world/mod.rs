@@ -33,8 +33,8 @@ use crate::constraint::{ContactPoint, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, Rk4, SemiImplicitEuler, System};
-use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::ActivationRule;
+use crate::mechanism::{Mechanism, PassedSingularities};
 use crate::model::Model;
 use crate::state::State;
 use events::{Crossing, MAX_CROSSINGS};
@@ -241,6 +241,13 @@ impl World {
     #[must_use]
     pub fn solver_report(&self) -> Option<SolverReport> {
         self.mechanism.constraints.as_ref().map(|c| c.solver.report)
+    }
+
+    /// Singular positions of loops that were passed so far. Not part of the state; semi-implicit Euler does not look for
+    /// them.
+    #[must_use]
+    pub fn passed_singularities(&self) -> PassedSingularities {
+        self.mechanism.passed_singularities()
     }
 
     /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`].

@@ -194,6 +194,7 @@ impl World {
             constraints.sub_step = h;
         }
         self.mechanism.set_mode_rule(rule);
+        self.mechanism.begin_fixed_step();
         let system = &mut Coupled {
             mechanism: &mut self.mechanism,
             system,

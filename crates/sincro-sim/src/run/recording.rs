@@ -209,6 +209,14 @@ fn about_constraints(world: &World) -> Vec<String> {
             report.unconverged_islands, report.islands, report.worst_island
         ));
     }
+    let passed = world.passed_singularities();
+    if passed.count > 0 {
+        let words = if passed.count == 1 { "once,".to_owned() } else { format!("{} times, first", passed.count) };
+        warnings.push(format!(
+            "loops passed a singular position {words} at t = {:.6} s; their momentum decided the branch there",
+            passed.first
+        ));
+    }
     warnings
 }
 

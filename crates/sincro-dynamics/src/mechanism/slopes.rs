@@ -1,0 +1,102 @@
+//! Slopes of positions, velocities, totals and rotor states at a stage, explicit and linearly implicit.
+
+use sincro_math::Real;
+
+use super::Mechanism;
+use crate::integrate::Implicit;
+use crate::state::displace;
+
+impl<R: Real> Mechanism<R> {
+    /// Slope at a stage; at a singular position of loops those rows are left out that vanish.
+    #[inline(always)]
+    pub(super) fn plain_slope(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
+        match implicit {
+            None => self.explicit_slope(t, y, slope),
+            Some((h, implicit)) => self.linearly_implicit_slope(t, h, implicit, y, slope),
+        }
+    }
+
+    /// Slope of an explicit stage.
+    #[inline(always)]
+    pub(super) fn explicit_slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        let n = self.model.n_v();
+        let (delta, rest) = y.split_at(n);
+        let v = &rest[..n];
+        displace(&self.model, &self.base, delta, &mut self.q);
+        let (rate, rest) = slope.split_at_mut(n);
+        let rotors = &y[self.rotor_states()];
+        let projected = (R::LANES == 1 && self.singular.is_near).then(|| self.project_stage(v));
+        let v = projected.as_deref().unwrap_or(v);
+        self.chart_rate(delta, v, rate);
+        self.accelerations(t, v, rotors, None, &mut rest[..n]);
+        self.note_evaluation(t, v, &rest[..n]);
+        if self.tracks_totals {
+            self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
+        }
+        self.rotor_rates(rotors, 0.0, &mut slope[self.rotor_states()]);
+        if let Some(v) = projected {
+            self.singular.v = v;
+        }
+    }
+
+    /// Slope of a linearly implicit Euler step of length `h` `[s]`.
+    #[inline(always)]
+    pub(super) fn linearly_implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+        let n = self.model.n_v();
+        let (delta, rest) = y.split_at(n);
+        let v = &rest[..n];
+        displace(&self.model, &self.base, delta, &mut self.q);
+        let (rate, rest) = slope.split_at_mut(n);
+        let rotors = &y[self.rotor_states()];
+        // a step of semi-implicit Euler is one at velocity level
+        let projects = R::LANES == 1 && self.singular.is_near && implicit != Implicit::Dampers;
+        let projected = projects.then(|| self.project_stage(v));
+        let v = projected.as_deref().unwrap_or(v);
+        self.accelerations(t, v, rotors, Some((h, implicit)), &mut rest[..n]);
+        self.note_evaluation(t, v, &rest[..n]);
+        // the position moves with the new velocity; forces do their work over the mean of old and new
+        let step = R::splat(h);
+        for k in 0..n {
+            self.torque[k] = v[k] + step * rest[k];
+        }
+        let new_v = core::mem::take(&mut self.torque);
+        self.chart_rate(delta, &new_v, rate);
+        self.torque = new_v;
+        if self.tracks_totals {
+            let half = R::splat(0.5);
+            for k in 0..n {
+                self.torque[k] = half * (self.torque[k] + v[k]);
+            }
+            let mean_v = core::mem::take(&mut self.torque);
+            let of_springs = if implicit == Implicit::Dampers { R::zero() } else { step };
+            self.total_rates(t, v, &mean_v, (step, of_springs), &mut rest[n..]);
+            self.torque = mean_v;
+        }
+        self.rotor_rates(rotors, h, &mut slope[self.rotor_states()]);
+        if let Some(v) = projected {
+            self.singular.v = v;
+        }
+    }
+
+    /// Notes the conditioning of the loops and the laws of limited drives in an evaluation; not those of drives where
+    /// forces of loops are rounding.
+    #[inline(always)]
+    fn note_evaluation(&mut self, t: f64, v: &[R], v_dot: &[R]) {
+        if R::LANES == 1 {
+            self.note_conditioning();
+            if self.drive_monitor.is_active && !self.singular.needs_limit() {
+                self.monitor_drives(t, v, v_dot);
+            }
+        }
+    }
+
+    /// Notes a stage, and replaces its slope by the limit along the branch at a singular position.
+    #[inline(always)]
+    pub(super) fn finish_stage(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
+        if self.singular.needs_limit() && !matches!(implicit, Some((_, Implicit::Dampers))) {
+            self.take_limit(t, implicit, y, slope);
+        } else {
+            self.note_stage(t, self.singular.conditioning);
+        }
+    }
+}
