@@ -262,6 +262,12 @@ mod tests {
     }
 
     #[test]
+    fn zero_to_the_zero_falls_with_the_exponent_without_bound() {
+        assert_eq!(pow(0.0, 0.0), (1.0, 0.0, f64::NEG_INFINITY));
+        assert_eq!(pow(0.0, 2.0), (0.0, 0.0, 0.0));
+    }
+
+    #[test]
     fn sine_is_odd_and_cosine_is_even_to_the_bit() {
         for k in 0..10_000 {
             let x = f64::from(k) * 0.013_7;

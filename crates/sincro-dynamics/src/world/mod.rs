@@ -243,8 +243,8 @@ impl World {
         self.mechanism.constraints.as_ref().map(|c| c.solver.report)
     }
 
-    /// Singular positions of loops that were passed so far. Not part of the state; semi-implicit Euler does not look for
-    /// them.
+    /// Singular positions of loops that were passed so far. Not part of the state; semi-implicit Euler does not look
+    /// for them.
     #[must_use]
     pub fn passed_singularities(&self) -> PassedSingularities {
         self.mechanism.passed_singularities()
