@@ -8,7 +8,8 @@ use std::process::Command;
 type Judge = fn(&Path) -> bool;
 
 /// The judges by name.
-const JUDGES: &[(&str, Judge)] = &[("campaigns", campaigns), ("error-bars", error_bars), ("import", import)];
+const JUDGES: &[(&str, Judge)] =
+    &[("campaigns", campaigns), ("error-bars", error_bars), ("import", import), ("processors", processors)];
 
 /// Runs a judge; true if its bounds hold.
 pub fn run(root: &Path, name: Option<&str>) -> bool {
@@ -59,5 +60,18 @@ fn import(root: &Path) -> bool {
                 .args([program.as_path(), work.as_path()])
                 .args(["urdf", "sdf", "mjcf", "bullet", "--markdown"])
                 .arg(root.join("docs/import.md")),
+        )
+}
+
+/// Runs scenes on emulated processors with and without AVX, and compares their trace hashes with the committed ones;
+/// needs the Debian package `qemu-user`.
+fn processors(root: &Path) -> bool {
+    crate::runs(&mut crate::cargo(&["build", "--release", "--package", "sincro"]))
+        && crate::runs(
+            Command::new("python3")
+                .arg(root.join("crates/sincro/tests/judges/processors.py"))
+                .arg(root.join("target/release/sincro"))
+                .arg(root.join("tests/regressions/traces.txt"))
+                .arg(root.join("target/judges/processors")),
         )
 }
