@@ -6,10 +6,11 @@
 //! | module | content |
 //! |---|---|
 //! | [`spatial`], [`geometry`] | spatial algebra; shapes, distances, ray casts: the crate `sincro-geometry` |
+//! | [`aero`] | rotors, drag, wind: the crate `sincro-aero` |
 //! | [`signal`], [`ids`], [`error`] | functions of time; ids; refused parameters |
 //! | [`joint`] | joints, links, passive properties of degrees of freedom |
 //! | [`contact`] | colliders, materials, broad and narrow phase, contact manifolds |
-//! | [`actuation`], [`aero`] | motors, drives, friction, springs, dampers; rotors, drag, wind |
+//! | [`actuation`] | motors, drives, friction, springs, dampers |
 //! | [`model`] | the compiled tree and its builder |
 //! | [`state`], [`scratch`] | generalized coordinates and all else that changes; working memory |
 //! | [`recursions`] | forward and inverse dynamics, mass matrix, kinematics |
@@ -25,14 +26,12 @@
 //! be set between steps; every algorithm below it is a function of the three.
 
 pub mod actuation;
-pub mod aero;
 pub mod batch;
 mod compile;
 pub mod constraint;
 pub mod contact;
 pub mod coupled;
 pub mod energy;
-pub mod error;
 pub mod ids;
 pub mod initial;
 pub mod integrate;
@@ -47,6 +46,8 @@ pub mod state;
 pub mod stiffness;
 pub mod world;
 
+pub use sincro_aero as aero;
 pub use sincro_geometry::{self as geometry, spatial};
+pub use sincro_math::error;
 
 pub use recursions::{aba, crba, kinematics, rnea};

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::aero::AirDrag;
-use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedFrom};
+use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedSource};
 use crate::contact::{self, Collider, PairLaw};
 use crate::ids::{BodyId, JointId, MotorId};
 use crate::joint::{Dof, Friction, JointKind, Link, Shift, StageKind, WORLD};
@@ -177,13 +177,13 @@ impl Compiler<'_> {
         let command = self.model.rotors.iter().filter(|r| r.speed.command().is_some()).count();
         let state = self.model.n_rotor_states();
         let speed = match spec.drive {
-            RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedFrom::Particles { command, state },
-            RotorDrive::Command => SpeedFrom::Command(command),
-            RotorDrive::Lag { time_constant, initial } => SpeedFrom::Lag { command, state, time_constant, initial },
+            RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedSource::Particles { command, state },
+            RotorDrive::Command => SpeedSource::Command(command),
+            RotorDrive::Lag { time_constant, initial } => SpeedSource::Lag { command, state, time_constant, initial },
             RotorDrive::Joint(joint) => {
                 let info = self.names.joints.iter().find(|j| j.node == joint);
                 let along = check::turn_of_rotor(self.nodes, node, joint).expect("checked before");
-                SpeedFrom::Joint {
+                SpeedSource::Joint {
                     dof: info.expect("a revolute joint has a name").v_idx,
                     sign: along * spec.law.spin().map_or(1.0, |spin| spin.sign()),
                 }

@@ -21,7 +21,7 @@ mod torques;
 use sincro_math::Real;
 
 use crate::actuation::{Drive, DriveKind, Motor, Push, damper, friction};
-use crate::aero::rotor::{RotorLaw, SpeedFrom};
+use crate::aero::rotor::{RotorLaw, SpeedSource};
 use crate::constraint::{Constraints, Level};
 use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Implicit, SingularStages, System};
@@ -390,12 +390,12 @@ impl<R: Real> Mechanism<R> {
     fn rotor_rates(&self, x: &[R], h: f64, rates: &mut [R]) {
         for rotor in &self.model.rotors {
             match rotor.speed {
-                SpeedFrom::Lag { command, state, time_constant, .. } => {
+                SpeedSource::Lag { command, state, time_constant, .. } => {
                     rates[state] = (self.commands[command] - x[state]) / (time_constant + R::splat(h));
                 }
                 // particles are counted once a tick
-                SpeedFrom::Particles { state, .. } => rates[state] = R::zero(),
-                SpeedFrom::Command(_) | SpeedFrom::Joint { .. } => {}
+                SpeedSource::Particles { state, .. } => rates[state] = R::zero(),
+                SpeedSource::Command(_) | SpeedSource::Joint { .. } => {}
             }
         }
     }

@@ -7,7 +7,7 @@ use sincro_math::Real;
 use super::{Dof, Link, Model};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::aero::AirDrag;
-use crate::aero::rotor::{MountedRotor, SpeedFrom};
+use crate::aero::rotor::{MountedRotor, SpeedSource};
 use crate::joint::Friction;
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
@@ -98,19 +98,19 @@ impl<R: Real> Model<R> {
             pose: Pose { rot: mat3(&|m| m.rotors[i].pose.rot), pos: vec3(&|m| m.rotors[i].pose.pos) },
             law: first.rotors[i].law.clone(),
             speed: match first.rotors[i].speed {
-                SpeedFrom::Lag { command, state, .. } => {
+                SpeedSource::Lag { command, state, .. } => {
                     let lag =
                         |k: usize, pick: fn((f64, f64)) -> f64| pick(of(k).rotors[i].speed.lag().unwrap_or((1.0, 0.0)));
-                    SpeedFrom::Lag {
+                    SpeedSource::Lag {
                         command,
                         state,
                         time_constant: R::from_lanes(|k| lag(k, |x| x.0)),
                         initial: R::from_lanes(|k| lag(k, |x| x.1)),
                     }
                 }
-                SpeedFrom::Command(k) => SpeedFrom::Command(k),
-                SpeedFrom::Particles { command, state } => SpeedFrom::Particles { command, state },
-                SpeedFrom::Joint { dof, sign } => SpeedFrom::Joint { dof, sign },
+                SpeedSource::Command(k) => SpeedSource::Command(k),
+                SpeedSource::Particles { command, state } => SpeedSource::Particles { command, state },
+                SpeedSource::Joint { dof, sign } => SpeedSource::Joint { dof, sign },
             },
             density: first.rotors[i].density,
             inertia: first.rotors[i].inertia,
