@@ -9,5 +9,6 @@ mod orders;
 mod power;
 mod rotors;
 mod sensors;
+mod spring_dampers;
 mod springs;
 mod wind;

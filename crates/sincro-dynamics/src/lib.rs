@@ -14,8 +14,9 @@
 //! | [`model`] | the compiled tree and its builder |
 //! | [`state`], [`scratch`] | generalized coordinates and all else that changes; working memory |
 //! | [`recursions`] | forward and inverse dynamics, mass matrix, kinematics |
-//! | [`energy`], [`stiffness`] | energies and momentum; rates of springs and dampers |
+//! | [`energy`] | energies and momentum |
 //! | [`constraint`] | loop joints, joint limits, contacts with friction: one complementarity problem |
+//! | [`stiffness`] | rates of springs and dampers |
 //! | [`integrate`] | fixed-step and error-controlled methods |
 //! | [`mechanism`], [`coupled`] | the system to integrate; systems integrated along with it |
 //! | [`initial`] | consistency of an initial state |

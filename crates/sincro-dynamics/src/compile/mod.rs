@@ -7,7 +7,8 @@ mod check;
 
 use std::sync::Arc;
 
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::spring_damper::{LineActuator, LinkPoint};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedSource};
 use crate::contact::{self, Collider, PairLaw};
@@ -76,6 +77,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             wrenches: Vec::new(),
             rotors: Vec::new(),
             drags: Vec::new(),
+            spring_dampers: Vec::new(),
             wind: builder.wind.clone(),
             drives: Vec::new(),
             constraints: Arc::default(),
@@ -89,6 +91,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
         compiler.node(id);
     }
     let constraints = compiler.constraints(builder);
+    compiler.spring_dampers(builder);
     let Compiler { mut model, names, .. } = compiler;
     model.constraints = Arc::new(constraints);
     // commands of motors come first
@@ -99,10 +102,15 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
     for rotor in &mut model.rotors {
         rotor.speed.shift_command(n_motors + 6 * names.inputs.len());
     }
+    let n_before = model.n_commands_before_lines(names.inputs.len());
+    for (k, actuator) in model.spring_dampers.iter_mut().filter_map(|s| s.actuator.as_mut()).enumerate() {
+        actuator.command = n_before + k;
+    }
     model.names = Arc::new(names);
     mark_children(&mut model.links);
     model.drives = model.find_drives();
     problems.extend(check::massless_joints(&model));
+    problems.extend(check::idle_lines(&model));
     if problems.iter().any(|p| p.severity == Severity::Error) {
         return Err(BuildError(problems));
     }
@@ -206,6 +214,32 @@ impl Compiler<'_> {
         let Attached { link, pose } = at.attached();
         let name = self.nodes[node.0 as usize].name.clone();
         self.names.frames.push(FrameInfo { name, node, link, pose, body });
+    }
+
+    /// Springs and dampers between two points; where their commands begin is known at the end.
+    fn spring_dampers(&mut self, builder: &ModelBuilder) {
+        let zero = crate::state::State::new(&self.model).q;
+        let mut scratch = crate::scratch::Scratch::new(&self.model);
+        crate::recursions::kinematics::poses(&self.model, &zero, &mut scratch);
+        for (name, spec) in &builder.spring_dampers {
+            let point = |k: usize| {
+                let at = self.carriers[spec.ends[k].0 as usize];
+                LinkPoint { link: at.attached().link, position: at.pose.point(Vec3(spec.points[k])) }
+            };
+            let ends = [point(0), point(1)];
+            let [one, two] = ends.map(|end| match end.link {
+                None => end.position,
+                Some(link) => scratch.poses[link].point(end.position),
+            });
+            self.model.spring_dampers.push(SpringDamper {
+                ends,
+                free_length: spec.free_length.unwrap_or((two - one).norm()),
+                law: spec.law.clone(),
+                tension_only: spec.tension_only,
+                actuator: spec.actuator.map(|max_force| LineActuator { command: 0, max_force }),
+            });
+            self.names.spring_dampers.push(name.clone());
+        }
     }
 
     /// Closures, couplings, limits and surfaces, with the links that carry them.

@@ -27,7 +27,7 @@ pub use crate::ids::{BodyId, JointId, MotorId, RotorId};
 pub use crate::joint::{Dof, Link};
 pub use builder::{
     BodySpec, DragSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
-    RotorSpec,
+    RotorSpec, SpringDamperSpec,
 };
 pub(crate) use constraints::RESERVED_SLOTS;
 pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
@@ -37,7 +37,7 @@ pub use pack::PackError;
 
 use crate::actuation::Drive;
 use crate::actuation::spring;
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
@@ -56,6 +56,7 @@ pub struct Model<R> {
     pub(crate) wrenches: Vec<AppliedWrench<R>>,
     pub(crate) rotors: Vec<MountedRotor<R>>,
     pub(crate) drags: Vec<AirDrag<R>>,
+    pub(crate) spring_dampers: Vec<SpringDamper<R>>,
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) drives: Vec<Drive>,
     pub(crate) constraints: Arc<ConstraintSet>,
@@ -97,11 +98,19 @@ impl<R: Real> Model<R> {
     }
 
     /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them,
-    /// then one for each rotor that does not turn with a joint: its speed [rad/s].
+    /// then one for each rotor that does not turn with a joint: its speed [rad/s], then one for each spring and damper
+    /// with an actuator: its force `[N]`.
     #[must_use]
     pub fn n_commands(&self) -> usize {
+        let of_lines = self.spring_dampers.iter().filter(|s| s.actuator.is_some()).count();
+        self.n_commands_before_lines(self.names.inputs.len()) + of_lines
+    }
+
+    /// Number of commands before those of springs and dampers between two points, for so many external forces that take
+    /// commands.
+    pub(crate) fn n_commands_before_lines(&self, n_inputs: usize) -> usize {
         let of_rotors = self.rotors.iter().filter(|r| r.speed.command().is_some()).count();
-        self.motors.len() + 6 * self.names.inputs.len() + of_rotors
+        self.motors.len() + 6 * n_inputs + of_rotors
     }
 
     /// Number of states of rotors: [`crate::state::State::rotors`].
@@ -142,6 +151,12 @@ impl<R: Real> Model<R> {
         &self.drags
     }
 
+    /// Springs, dampers and actuators between two points, in the order in which they were added.
+    #[must_use]
+    pub fn spring_dampers(&self) -> &[SpringDamper<R>] {
+        &self.spring_dampers
+    }
+
     /// The wind, if the air moves.
     #[must_use]
     pub fn wind(&self) -> Option<&Wind> {
@@ -167,7 +182,7 @@ impl<R: Real> Model<R> {
 
     /// Returns true if external forces may act on links.
     pub(crate) fn has_external(&self) -> bool {
-        !self.wrenches.is_empty() || self.feels_air()
+        !self.wrenches.is_empty() || self.feels_air() || !self.spring_dampers.is_empty()
     }
 
     /// Velocity motors and joints with Coulomb friction.
@@ -261,6 +276,15 @@ impl<R: Real> Model<R> {
 }
 
 impl Model<f64> {
+    /// Sets the free length `[m]` of the spring and damper `k` between two points.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such element.
+    pub fn set_free_length(&mut self, k: usize, length: f64) {
+        self.spring_dampers[k].free_length = length;
+    }
+
     /// Next time event: the first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if
     /// there is none.
     #[must_use]

@@ -7,7 +7,7 @@ use sincro_dynamics::aero::rotor::RotorLaw;
 use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
-use super::{ContactQuantity, EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
+use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
 
 /// A signal that can be recorded: its name, its unit, how it is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +83,15 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     }
     for (k, name) in model.names().drags.iter().enumerate() {
         list.vector(&format!("{name}.force"), &XYZ, "N", |c| Probe::Drag(k, c));
+    }
+    for (k, name) in model.names().spring_dampers.iter().enumerate() {
+        use LineQuantity as Q;
+        for (what, unit, quantity) in [("length", "m", Q::Length), ("rate", "m/s", Q::Rate), ("force", "N", Q::Force)] {
+            list.add(format!("{name}.{what}"), unit, Probe::SpringDamper(quantity, k));
+        }
+        if let Some(actuator) = model.spring_dampers()[k].actuator {
+            list.add(format!("{name}.command"), "N", Probe::Command(actuator.command));
+        }
     }
     if model.wind().is_some() {
         list.vector("wind", &XYZ, "m/s", Probe::Wind);

@@ -55,6 +55,8 @@ pub enum Probe {
     Rotor(RotorQuantity, usize),
     /// Component of the force of a drag element, world axes.
     Drag(usize, usize),
+    /// Quantity of a spring and damper between two points.
+    SpringDamper(LineQuantity, usize),
     /// Component of the wind at its reference height.
     Wind(usize),
     /// Component of what touches a body.
@@ -96,6 +98,17 @@ pub enum RotorQuantity {
     Power,
     /// Validity of its law: 1 if it holds, else 0.
     Valid,
+}
+
+/// Quantity of a spring and damper between two points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineQuantity {
+    /// Distance of the points `[m]`.
+    Length,
+    /// Rate of the length [m/s].
+    Rate,
+    /// Force along the line, positive where it pushes the points apart `[N]`.
+    Force,
 }
 
 /// Quantity of a frame.

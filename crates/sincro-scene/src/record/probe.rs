@@ -13,7 +13,7 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::Observation;
 use sincro_math::Real;
 
-use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
+use super::{EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
 
 /// State of which a measurement is taken.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +52,15 @@ impl<'a> View<'a, f64> {
 
 /// Returns true if a probe needs the poses and twists of links.
 pub fn needs_kinematics(probe: Probe) -> bool {
-    matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_) | Probe::Rotor(..) | Probe::Drag(..))
+    matches!(
+        probe,
+        Probe::Frame(..)
+            | Probe::Energy(_)
+            | Probe::Momentum(_)
+            | Probe::Rotor(..)
+            | Probe::Drag(..)
+            | Probe::SpringDamper(..)
+    )
 }
 
 /// Value in SI units of a measurement that the state alone decides; after kinematics, if it needs them. None for what
@@ -73,6 +81,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
         Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
         Probe::Drag(k, component) => drag(at, k)[component],
+        Probe::SpringDamper(quantity, k) if !has_actuated_force(model, quantity, k) => of_line(at, quantity, k),
         Probe::Wind(k) => {
             let wind = model.wind()?;
             wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
@@ -88,6 +97,7 @@ pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>
         Probe::Acceleration(k) => response.accelerations[k],
         Probe::MotorTorqueNow(m) => response.motor_torque[m],
         Probe::Rotor(quantity, k) => of_rotor(at, quantity, k),
+        Probe::SpringDamper(quantity, k) => of_line(at, quantity, k),
         Probe::Frame(FrameQuantity::Acceleration, frame, k) => {
             kinematics::frame_acceleration(at.scratch, &attached(at.model, frame)).lin[k]
         }
@@ -134,6 +144,21 @@ pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     let air = at.model.wind().map(|wind| wind.at(at.t));
     let force = drag.resistance(drag.velocity(&at.scratch.twist(drag.link), x_wl, air.as_ref())).force;
     x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))
+}
+
+/// Returns true for the force of a spring and damper with an actuator, which depends on its present command.
+pub fn has_actuated_force<R: Real>(model: &Model<R>, quantity: LineQuantity, k: usize) -> bool {
+    quantity == LineQuantity::Force && model.spring_dampers()[k].actuator.is_some()
+}
+
+fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
+    let element = &at.model.spring_dampers()[k];
+    let line = element.line(|link| (at.scratch.twist(link), at.scratch.link_poses()[link]));
+    match quantity {
+        LineQuantity::Length => line.length,
+        LineQuantity::Rate => line.rate,
+        LineQuantity::Force => element.forces(line.length, line.rate, at.commands).total(),
+    }
 }
 
 /// Attachment of a frame of the model.

@@ -5,14 +5,14 @@
 
 use std::fmt::Write as _;
 
-use super::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, Probe, RotorQuantity, catalogue};
+use super::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, LineQuantity, Probe, RotorQuantity, catalogue};
 use crate::scene::from_text;
 
 /// A scene that has all signals.
 const SAMPLE: &str = include_str!("sample.toml");
 
 /// Objects of the sample with the headings of their tables; `""` takes the rest.
-const SECTIONS: [(&str, &str); 17] = [
+const SECTIONS: [(&str, &str); 18] = [
     ("/slide", "Prismatic joint"),
     ("/hinge", "Revolute joint, with a motor, a spring and stops; a screw joint has the same"),
     ("/universal", "Universal joint: two angles"),
@@ -27,6 +27,7 @@ const SECTIONS: [(&str, &str); 17] = [
     ("/free/solid/push", "External force that takes commands"),
     ("/free/solid/rotor", "Rotor; without a lag there is no command beside the speed"),
     ("/free/solid/hull", "Drag element"),
+    ("/cable", "Spring, damper and actuator between two points; without an actuator there is no command"),
     ("/free/solid/imu", "Inertial measurement unit; this and all other sensors also have the signals of a frame"),
     ("/free/solid/pose", "Pose sensor"),
     ("/free/solid/speed", "Velocity sensor"),
@@ -167,6 +168,9 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Rotor(R::Power, _) => "power of the shaft",
         Probe::Rotor(R::Valid, _) => "1 where the theory holds, else 0",
         Probe::Drag(..) => "force of the air, world axes",
+        Probe::SpringDamper(LineQuantity::Length, _) => "distance of its ends",
+        Probe::SpringDamper(LineQuantity::Rate, _) => "rate of that distance",
+        Probe::SpringDamper(LineQuantity::Force, _) => "force along the line, positive where it pushes the ends apart",
         Probe::Wind(_) => "velocity of the air at the reference height, world axes; where the scene has wind",
         Probe::Contact(C::Force, ..) => "sum of the contact forces on the body, world axes",
         Probe::Contact(C::Torque, ..) => "sum of their moments about the origin of the world, world axes",

@@ -12,6 +12,7 @@ use super::camera::CameraFile;
 use super::rotor::RotorFile;
 use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
+use super::spring_damper::SpringDamperFile;
 
 /// A scene: joints, bodies, frames and forces in a tree of named objects. SI units and radians; z is up.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -77,6 +78,9 @@ pub(crate) struct SceneFile {
     /// Pairs of joints that move together: gears.
     #[serde(default)]
     pub coupling: Vec<CouplingFile>,
+    /// Springs, dampers and actuators between two points.
+    #[serde(default)]
+    pub spring_damper: Vec<SpringDamperFile>,
     /// Contact laws of pairs of bodies, where they are not the combination of the two surfaces.
     #[serde(default)]
     pub contact_pair: Vec<ContactPairFile>,

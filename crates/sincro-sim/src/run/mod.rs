@@ -238,11 +238,11 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     (kind, warnings)
 }
 
-/// A fast degree of freedom in words.
+/// A fast element in words.
 fn describe(scene: &Scene, s: &Stiffness) -> String {
     format!(
-        "joint `{}` (stiffness {:.3e}, damping {:.3e} on an inertia of {:.3e}: {:.3e} 1/s)",
-        scene.model.names().dof_name(s.dof),
+        "{} (stiffness {:.3e}, damping {:.3e} on an inertia of {:.3e}: {:.3e} 1/s)",
+        s.element_name(&scene.model),
         s.stiffness,
         s.damping,
         s.inertia,
