@@ -37,6 +37,15 @@ const ROUGH: &[(&str, &str)] = &[
     ("step", "0.01"),
 ];
 
+/// With a formula, a table and a rope between points, one of them in a loop.
+const LINES: &[(&str, &str)] = &[(
+    "spring_damper",
+    "[{ name = \"a\", between = [\"/\", \"/shoulder/elbow/link2\"], points = [[0.0, 0.3, 2.0], [0.0, 0.0, 0.0]], \
+      law = \"-20*x - 5*abs(x)*x - v\", actuator = { command = 0.5 } }, \
+     { name = \"b\", between = [\"/\", \"/shoulder/link1\"], points = [[0.5, 0.0, 1.0], [0.0, 0.0, 0.0]], \
+      tension_only = true, table = [[0.0, 0.0], [0.1, -2.0], [0.3, -9.0]] }]",
+)];
+
 /// With an IMU, and a step at which the explicit methods are stable.
 const FLIGHT: &[(&str, &str)] = &[
     (
@@ -55,6 +64,7 @@ fn a_step_and_a_row_allocate_nothing() {
         ("alexandros-release", &[]),
         ("free-body", &[]),
         ("two-dof-open-loop", &[]),
+        ("two-dof-open-loop", LINES),
         // sampled blocks on ideal motors, continuous ones on torque motors
         ("two-dof-position", &[]),
         ("two-dof-position", PID),

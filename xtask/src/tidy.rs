@@ -12,7 +12,8 @@ const MAX_LINES: usize = 1000;
 const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-math", &[]),
     ("sincro-geometry", &["sincro-math"]),
-    ("sincro-dynamics", &["sincro-math", "sincro-geometry"]),
+    ("sincro-aero", &["sincro-math", "sincro-geometry"]),
+    ("sincro-dynamics", &["sincro-math", "sincro-geometry", "sincro-aero"]),
     ("sincro-blocks", &["sincro-math"]),
     ("sincro-scene", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
@@ -88,7 +89,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 4] = ["sincro-math", "sincro-geometry", "sincro-dynamics", "sincro-blocks"];
+const THINKING: [&str; 5] = ["sincro-math", "sincro-geometry", "sincro-aero", "sincro-dynamics", "sincro-blocks"];
 
 /// Names that must not stand in them: no files, clock, threads, unordered maps.
 const IMPURE: [&str; 6] = ["std::fs", "std::time", "std::thread", "std::net", "HashMap", "HashSet"];

@@ -283,3 +283,40 @@ fn the_sampled_flight_has_the_poles_of_its_measured_growth() {
     let flight = scene("quadrotor-flight-2", &[]);
     assert_poles_of_growth(&flight, 8.0, 2, (20, 60), 2e-3);
 }
+
+#[test]
+fn a_spring_and_damper_between_two_points_has_the_stiffness_of_its_law() {
+    // free body of 2 kg on a line of 1 m under tension: along it −∂F/∂x and −∂F/∂v, across it F/ℓ
+    let scene = r#"
+gravity = [0.0, 0.0, 0.0]
+[[joint]]
+name = "rail"
+kind = "planar"
+initial = { position = [1.0, 0.0, 0.0] }
+[[body]]
+name = "ring"
+parent = "/rail"
+mass = 2.0
+inertia = { xx = 1.0, yy = 1.0, zz = 1.0 }
+[[force]]
+name = "pull"
+parent = "/rail/ring"
+force = [6.0, 0.0, 0.0]
+[[spring_damper]]
+name = "line"
+between = ["/", "/rail/ring"]
+free_length = 0.5
+damping = 0.3
+law = "-10*x - 4*x^2"
+"#;
+    let experiment = "title = \"t\"\nduration = 1.0\nstep = 0.01\nrecord = [\"/line.force\"]\n";
+    let loaded = sincro_testing::SceneFolder::of(scene, experiment).load(&[]).unwrap();
+    let (_, linear) = at_start(&loaded, &Request::default());
+    let expected = [[-14.0 / 2.0, 0.0, 0.0], [0.0, -6.0 / 2.0, 0.0], [0.0, 0.0, 0.0]];
+    for i in 0..3 {
+        for j in 0..3 {
+            assert!((linear.a[(3 + i, j)] - expected[i][j]).abs() < 1e-12, "{i} {j}: {}", linear.a[(3 + i, j)]);
+        }
+    }
+    assert!((linear.a[(3, 3)] + 0.15).abs() < 1e-12 && linear.a[(4, 4)].abs() < 1e-12);
+}

@@ -10,7 +10,7 @@
 use sincro_math::Real;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
-use crate::aero::rotor::SpeedFrom;
+use crate::aero::rotor::SpeedSource;
 use crate::aero::wind::Wind;
 use crate::coupled::StateView;
 use crate::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
@@ -93,7 +93,7 @@ pub fn obstacle_to_lanes(model: &Model<f64>) -> Option<&'static str> {
         return Some("a drive with a limit or friction");
     }
     // particles are counted for each world
-    if model.rotors.iter().any(|r| matches!(r.speed, SpeedFrom::Particles { .. })) {
+    if model.rotors.iter().any(|r| matches!(r.speed, SpeedSource::Particles { .. })) {
         return Some("a rotor of particles");
     }
     (!model.constraints().is_empty()).then_some("contacts, loop joints or limits of joints")

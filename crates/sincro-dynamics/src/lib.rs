@@ -6,15 +6,17 @@
 //! | module | content |
 //! |---|---|
 //! | [`spatial`], [`geometry`] | spatial algebra; shapes, distances, ray casts: the crate `sincro-geometry` |
+//! | [`aero`] | rotors, drag, wind: the crate `sincro-aero` |
 //! | [`signal`], [`ids`], [`error`] | functions of time; ids; refused parameters |
 //! | [`joint`] | joints, links, passive properties of degrees of freedom |
 //! | [`contact`] | colliders, materials, broad and narrow phase, contact manifolds |
-//! | [`actuation`], [`aero`] | motors, drives, friction, springs, dampers; rotors, drag, wind |
+//! | [`actuation`] | motors, drives, friction, springs, dampers |
 //! | [`model`] | the compiled tree and its builder |
 //! | [`state`], [`scratch`] | generalized coordinates and all else that changes; working memory |
 //! | [`recursions`] | forward and inverse dynamics, mass matrix, kinematics |
-//! | [`energy`], [`stiffness`] | energies and momentum; rates of springs and dampers |
+//! | [`energy`] | energies and momentum |
 //! | [`constraint`] | loop joints, joint limits, contacts with friction: one complementarity problem |
+//! | [`stiffness`] | rates of springs and dampers |
 //! | [`integrate`] | fixed-step and error-controlled methods |
 //! | [`mechanism`], [`coupled`] | the system to integrate; systems integrated along with it |
 //! | [`initial`] | consistency of an initial state |
@@ -25,14 +27,12 @@
 //! be set between steps; every algorithm below it is a function of the three.
 
 pub mod actuation;
-pub mod aero;
 pub mod batch;
 mod compile;
 pub mod constraint;
 pub mod contact;
 pub mod coupled;
 pub mod energy;
-pub mod error;
 pub mod ids;
 pub mod initial;
 pub mod integrate;
@@ -47,6 +47,8 @@ pub mod state;
 pub mod stiffness;
 pub mod world;
 
+pub use sincro_aero as aero;
 pub use sincro_geometry::{self as geometry, spatial};
+pub use sincro_math::error;
 
 pub use recursions::{aba, crba, kinematics, rnea};

@@ -4,6 +4,7 @@
 
 pub mod dual;
 pub mod elementary;
+pub mod error;
 pub mod expression;
 pub mod lanes;
 pub mod random;

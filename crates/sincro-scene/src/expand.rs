@@ -26,7 +26,7 @@ const MAX_DEPTH: usize = 16;
 /// Most objects that instances inside instances may come to.
 const MAX_OBJECTS: usize = 100_000;
 /// Lists of a scene file that an instance brings along.
-const LISTS: [&str; 12] = [
+const LISTS: [&str; 13] = [
     "joint",
     "body",
     "frame",
@@ -37,6 +37,7 @@ const LISTS: [&str; 12] = [
     "camera",
     "closure",
     "coupling",
+    "spring_damper",
     "contact_pair",
     "script",
 ];
@@ -335,7 +336,7 @@ fn prefix(document: &mut Document, path: &str) {
         let n = document.get(&format!("/{list}")).and_then(Value::as_array).map_or(0, Vec::len);
         for k in 0..n {
             let pointer = format!("/{list}/{k}");
-            if matches!(list, "closure" | "coupling") {
+            if matches!(list, "closure" | "coupling" | "spring_damper") {
                 // their path is `/` and the name, wherever they stand
                 let own = document.text(&format!("{pointer}/name")).unwrap_or("").to_owned();
                 let flat = path.trim_start_matches('/').replace('/', "-");

@@ -5,8 +5,8 @@ use serde_json::Value;
 use crate::document::Document;
 
 /// The lists of a scene file that hold objects.
-pub const KINDS: [&str; 10] =
-    ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera", "closure", "coupling"];
+pub const KINDS: [&str; 11] =
+    ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera", "closure", "coupling", "spring_damper"];
 
 /// An object as the file has it.
 #[derive(Clone, Debug)]

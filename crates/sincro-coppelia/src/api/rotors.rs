@@ -1,7 +1,7 @@
 //! Rotors, as clients and scripts know them: joints with an ideal motor that have a speed and no position. What V-REP's
 //! propellers have as the joint that turns them.
 
-use sincro_dynamics::aero::rotor::SpeedFrom;
+use sincro_dynamics::aero::rotor::SpeedSource;
 
 use super::registry::{Handle, Kind};
 use super::{ApiError, SimApi};
@@ -34,7 +34,7 @@ impl SimApi<'_> {
         let Some(command) = model.rotors()[rotor].speed.command() else {
             let path = &model.names().rotors[rotor];
             let joint = match model.rotors()[rotor].speed {
-                SpeedFrom::Joint { dof, .. } => model.names().dof_name(dof),
+                SpeedSource::Joint { dof, .. } => model.names().dof_name(dof),
                 _ => "",
             };
             return Err(ApiError(format!(

@@ -7,6 +7,7 @@
 //! | [`friction`] | locked: any torque within the limit; sliding: ∓ limit(q̇) | | limit(q̇)·\|q̇\| |
 //! | [`motor`] | by mode | | −τ q̇ |
 //! | [`applied`] | a signal of time | | −τ q̇ |
+//! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
 //!
 //! Gravity enters the recursions as an acceleration of the base ([`crate::energy`] has its potential energy); elements
 //! in the air are in [`crate::aero`].
@@ -14,10 +15,14 @@
 pub mod applied;
 pub mod damper;
 pub mod drive;
+pub mod force_law;
 pub mod friction;
 pub mod motor;
 pub mod spring;
+pub mod spring_damper;
 
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use drive::{Drive, DriveKind};
+pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
 pub use motor::{Motor, MotorMode};
+pub use spring_damper::SpringDamper;

@@ -1,6 +1,6 @@
 //! Checks of the builder's objects: errors, for which no model is built, and warnings.
 
-use crate::actuation::DriveKind;
+use crate::actuation::{DriveKind, SpringDamper};
 use crate::aero::rotor::RotorLaw;
 use crate::joint::{Friction, JointKind};
 use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
@@ -39,6 +39,12 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
             NodeKind::Rotor(spec) => check_rotor(&mut found, id, node, spec, &builder.nodes),
             NodeKind::Drag(spec) => check_drag(&mut found, id, node, spec),
             NodeKind::Force(_) | NodeKind::Frame | NodeKind::World => {}
+        }
+    }
+    for (name, spec) in &builder.spring_dampers {
+        for (_, message, help) in spec.problems(name) {
+            let (severity, help) = (Severity::Error, help.into());
+            found.0.push(Diagnostic { severity, node: None, field: "spring_damper", message, help });
         }
     }
     found.0
@@ -221,6 +227,7 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
     let lists = [
         ("armature", spec.armature.len()),
         ("spring", spec.spring.len()),
+        ("spring", spec.spring_law.len()),
         ("damping", spec.damping.len()),
         ("friction", spec.friction.len()),
         ("torque", spec.torque.len()),
@@ -245,6 +252,10 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
             let message = format!("spring of `{name}` (stiffness {stiffness}, rest {rest}) is negative or not finite");
             found.error(id, "spring", message, "stiffness is zero or more, the rest position finite");
         }
+    }
+    if matches!(spec.kind, JointKind::Ball | JointKind::Free) && spec.spring_law.iter().any(Option::is_some) {
+        let message = format!("the spring of `{name}` has a law: rotations in three directions have no deflection");
+        found.error(id, "spring", message, "give `stiffness` and `rest` alone");
     }
     check_motor(found, id, name, spec, n);
     if !carries_a_body(builder, id) {
@@ -320,6 +331,20 @@ fn carries_a_body(builder: &ModelBuilder, joint: NodeId) -> bool {
         carried[k] = carried[builder.nodes[k].parent.0 as usize];
         carried[k] && matches!(builder.nodes[k].kind, NodeKind::Body(_))
     })
+}
+
+/// Springs and dampers between points of one body.
+pub(super) fn idle_lines(model: &Model<f64>) -> Vec<Diagnostic> {
+    let is_idle = |(element, _): &(&SpringDamper<f64>, &String)| element.ends[0].link == element.ends[1].link;
+    let lines = model.spring_dampers.iter().zip(&model.names.spring_dampers);
+    let diagnostic = |(_, name): (&SpringDamper<f64>, &String)| Diagnostic {
+        severity: Severity::Error,
+        node: None,
+        field: "spring_damper",
+        message: format!("both ends of spring_damper `{name}` are fixed in one another: it moves nothing"),
+        help: "join points that move against each other".into(),
+    };
+    lines.filter(is_idle).map(diagnostic).collect()
 }
 
 /// Joints along which no inertia can be felt: a point mass on its own axis, say.

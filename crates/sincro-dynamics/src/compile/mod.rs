@@ -7,9 +7,11 @@ mod check;
 
 use std::sync::Arc;
 
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::spring::NonlinearSpring;
+use crate::actuation::spring_damper::{LineActuator, LinkPoint};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
 use crate::aero::AirDrag;
-use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedFrom};
+use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedSource};
 use crate::contact::{self, Collider, PairLaw};
 use crate::ids::{BodyId, JointId, MotorId};
 use crate::joint::{Dof, Friction, JointKind, Link, Shift, StageKind, WORLD};
@@ -76,11 +78,13 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             wrenches: Vec::new(),
             rotors: Vec::new(),
             drags: Vec::new(),
+            spring_dampers: Vec::new(),
             wind: builder.wind.clone(),
             drives: Vec::new(),
             constraints: Arc::default(),
             n_q: 0,
             sprung: Vec::new(),
+            nonlinear_springs: Vec::new(),
             names: Arc::default(),
         },
         names: Names::default(),
@@ -89,6 +93,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
         compiler.node(id);
     }
     let constraints = compiler.constraints(builder);
+    compiler.spring_dampers(builder);
     let Compiler { mut model, names, .. } = compiler;
     model.constraints = Arc::new(constraints);
     // commands of motors come first
@@ -99,10 +104,15 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
     for rotor in &mut model.rotors {
         rotor.speed.shift_command(n_motors + 6 * names.inputs.len());
     }
+    let n_before = model.n_commands_before_lines(names.inputs.len());
+    for (k, actuator) in model.spring_dampers.iter_mut().filter_map(|s| s.actuator.as_mut()).enumerate() {
+        actuator.command = n_before + k;
+    }
     model.names = Arc::new(names);
     mark_children(&mut model.links);
     model.drives = model.find_drives();
     problems.extend(check::massless_joints(&model));
+    problems.extend(check::idle_lines(&model));
     if problems.iter().any(|p| p.severity == Severity::Error) {
         return Err(BuildError(problems));
     }
@@ -177,13 +187,13 @@ impl Compiler<'_> {
         let command = self.model.rotors.iter().filter(|r| r.speed.command().is_some()).count();
         let state = self.model.n_rotor_states();
         let speed = match spec.drive {
-            RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedFrom::Particles { command, state },
-            RotorDrive::Command => SpeedFrom::Command(command),
-            RotorDrive::Lag { time_constant, initial } => SpeedFrom::Lag { command, state, time_constant, initial },
+            RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedSource::Particles { command, state },
+            RotorDrive::Command => SpeedSource::Command(command),
+            RotorDrive::Lag { time_constant, initial } => SpeedSource::Lag { command, state, time_constant, initial },
             RotorDrive::Joint(joint) => {
                 let info = self.names.joints.iter().find(|j| j.node == joint);
                 let along = check::turn_of_rotor(self.nodes, node, joint).expect("checked before");
-                SpeedFrom::Joint {
+                SpeedSource::Joint {
                     dof: info.expect("a revolute joint has a name").v_idx,
                     sign: along * spec.law.spin().map_or(1.0, |spin| spin.sign()),
                 }
@@ -206,6 +216,32 @@ impl Compiler<'_> {
         let Attached { link, pose } = at.attached();
         let name = self.nodes[node.0 as usize].name.clone();
         self.names.frames.push(FrameInfo { name, node, link, pose, body });
+    }
+
+    /// Springs and dampers between two points; where their commands begin is known at the end.
+    fn spring_dampers(&mut self, builder: &ModelBuilder) {
+        let zero = crate::state::State::new(&self.model).q;
+        let mut scratch = crate::scratch::Scratch::new(&self.model);
+        crate::recursions::kinematics::poses(&self.model, &zero, &mut scratch);
+        for (name, spec) in &builder.spring_dampers {
+            let point = |k: usize| {
+                let at = self.carriers[spec.ends[k].0 as usize];
+                LinkPoint { link: at.attached().link, position: at.pose.point(Vec3(spec.points[k])) }
+            };
+            let ends = [point(0), point(1)];
+            let [one, two] = ends.map(|end| match end.link {
+                None => end.position,
+                Some(link) => scratch.poses[link].point(end.position),
+            });
+            self.model.spring_dampers.push(SpringDamper {
+                ends,
+                free_length: spec.free_length.unwrap_or((two - one).norm()),
+                law: spec.law.clone(),
+                tension_only: spec.tension_only,
+                actuator: spec.actuator.map(|max_force| LineActuator { command: 0, max_force }),
+            });
+            self.names.spring_dampers.push(name.clone());
+        }
     }
 
     /// Closures, couplings, limits and surfaces, with the links that carry them.
@@ -312,6 +348,9 @@ impl Compiler<'_> {
         entry.damping = at(&spec.damping);
         entry.friction = spec.friction.get(k).copied().unwrap_or(Friction::none());
         (entry.stiffness, entry.rest) = spec.spring.get(k).copied().unwrap_or((0.0, 0.0));
+        if let Some(Some(law)) = spec.spring_law.get(k) {
+            self.model.nonlinear_springs.push(NonlinearSpring { dof, law: Arc::clone(law) });
+        }
         match spec.torque.get(k) {
             None => {}
             Some(signal) => match signal.constant() {

@@ -176,6 +176,11 @@ impl<R: Real> Delassus<R> {
         &self.values
     }
 
+    /// Factors last computed by [`Delassus::products`].
+    pub fn values(&self) -> &[R] {
+        &self.values
+    }
+
     /// Takes the factors of the degrees of freedom from the scratch, for [`Delassus::factor_row`].
     pub fn place(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
         for (i, link) in model.links.iter().enumerate() {

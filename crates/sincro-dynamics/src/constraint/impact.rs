@@ -58,7 +58,7 @@ impl Constraints<f64> {
     fn apply_impulses(&mut self, model: &Model<f64>, v: &mut [f64], scratch: &mut Scratch<f64>, has_drives: bool) {
         let mut change = core::mem::take(&mut self.velocity_change);
         change.fill(0.0);
-        self.push(model, scratch, &mut change, has_drives);
+        self.push(model, scratch, &mut change, has_drives, None);
         for (v, change) in v.iter_mut().zip(&change) {
             *v += *change;
         }

@@ -27,6 +27,7 @@
 //! | `kink` | limited drives at the kink of their law, as constraints of the contact problem |
 //! | `held` | solution with held contact modes; laws that it may violate |
 //! | `admm` | ADMM for the same problem, without an active set |
+//! | `implicit_forces` | forces along lines between two points at the new state of a linearly implicit step |
 //! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
 //! | `solver` | solution of one problem: active set first, then ADMM |
 //! | `time_stepping` | problem of a whole step at velocity level with many contacts |
@@ -50,6 +51,7 @@ mod engage;
 mod gauss_seidel;
 mod held;
 mod impact;
+pub(crate) mod implicit_forces;
 pub(crate) mod kink;
 mod load_share;
 mod loop_joint;
@@ -77,6 +79,7 @@ use active_set::ContactProblem;
 use cone::{SlowSliding, UnilateralConstraint};
 pub(crate) use held::HeldLaw;
 use held::{Solution, is_observable};
+use implicit_forces::ImplicitForces;
 use kink::Kink;
 use row::{Motions, Row};
 use solver::Solver;
@@ -276,8 +279,8 @@ impl<R: Real> Constraints<R> {
         self.solver.reserve(m);
     }
 
-    /// Adds the constraint forces to the accelerations that forward dynamics found. Out of line, so that mechanisms
-    /// without constraints do not carry it in their loop.
+    /// Adds the constraint forces to the accelerations that forward dynamics found, and with them those of lines at the
+    /// new state (`implicit`). Out of line, so that mechanisms without constraints do not carry it in their loop.
     #[allow(clippy::too_many_arguments)]
     #[inline(never)]
     pub fn apply(
@@ -288,6 +291,7 @@ impl<R: Real> Constraints<R> {
         scratch: &mut Scratch<R>,
         v_dot: &mut [R],
         has_drives: bool,
+        mut implicit: Option<&mut ImplicitForces<R>>,
     ) {
         if level == Level::Acceleration {
             kinematics::chain_poses(model, scratch);
@@ -298,6 +302,9 @@ impl<R: Real> Constraints<R> {
         self.add_kinks();
         if self.rows.is_empty() {
             self.is_swept = false;
+            if let Some(implicit) = implicit {
+                implicit.respond(model, scratch, v_dot, has_drives);
+            }
             return;
         }
         if let (true, Level::Velocity(h)) = (self.sweeps, level) {
@@ -316,11 +323,14 @@ impl<R: Real> Constraints<R> {
                 self.aim_at_targets(h);
             }
         }
+        if let Some(implicit) = implicit.as_deref_mut() {
+            implicit.reduce(self.delassus_factors.values(), &mut self.a, &mut self.b);
+        }
         let vanishing = self.drop_vanishing_rows(SINGULAR);
         self.solve();
         // redundant contacts are no singular position
         self.conditioning = if self.blocks.is_empty() { vanishing * self.solver.smallest_pivot } else { 1.0 };
-        self.push(model, scratch, v_dot, has_drives);
+        self.push(model, scratch, v_dot, has_drives, implicit);
         self.take_drive_torques(level == Level::Acceleration, scratch, v_dot);
     }
 
@@ -407,12 +417,24 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Adds the response to the constraint forces to accelerations and reactions.
-    fn push(&mut self, model: &Model<R>, scratch: &mut Scratch<R>, v_dot: &mut [R], has_drives: bool) {
+    fn push(
+        &mut self,
+        model: &Model<R>,
+        scratch: &mut Scratch<R>,
+        v_dot: &mut [R],
+        has_drives: bool,
+        implicit: Option<&mut ImplicitForces<R>>,
+    ) {
         let n = model.n_v();
         self.torque.fill(R::zero());
         for (i, lambda) in self.lambda.iter().enumerate() {
             for (t, j) in self.torque.iter_mut().zip(&self.jacobian[i * n..(i + 1) * n]) {
                 *t += *lambda * *j;
+            }
+        }
+        if let Some(implicit) = implicit {
+            for (torque, of_lines) in self.torque.iter_mut().zip(implicit.torque(model, &self.lambda)) {
+                *torque += *of_lines;
             }
         }
         self.respond(model, scratch, v_dot, has_drives);

@@ -81,6 +81,17 @@ pub enum Implicit {
     SpringsAndDampers,
 }
 
+impl Implicit {
+    /// Steps `[s]` over which dampers and springs are taken implicitly in a step of length `h` `[s]`.
+    #[must_use]
+    pub fn steps(self, h: f64) -> (f64, f64) {
+        match self {
+            Self::Dampers => (h, 0.0),
+            Self::SpringsAndDampers => (h, h),
+        }
+    }
+}
+
 /// A fixed-step method: y is in a fresh chart before and after.
 pub trait FixedStep<R: Real> {
     /// Advances `y` from time `t` `[s]` by `h` `[s]`.

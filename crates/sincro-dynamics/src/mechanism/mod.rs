@@ -14,7 +14,9 @@ mod analysis;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
 mod kinks;
+mod lines;
 mod loop_rank;
+mod reaction;
 mod singular;
 mod slopes;
 mod torques;
@@ -22,7 +24,7 @@ mod torques;
 use sincro_math::Real;
 
 use crate::actuation::{Drive, DriveKind, ExternalForce, Motor, damper, friction};
-use crate::aero::rotor::{RotorLaw, SpeedFrom};
+use crate::aero::rotor::{RotorLaw, SpeedSource};
 use crate::constraint::{Constraints, Level};
 use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Implicit, SingularStages, System};
@@ -66,6 +68,8 @@ pub struct Mechanism<R> {
     external_forces: Vec<ExternalForce<R>>,
     /// Power dissipated by drag elements in the last evaluation `[W]`.
     air_dissipation: R,
+    /// Springs and dampers between two points in the last evaluation.
+    lines: lines::Lines<R>,
     /// First rotor whose load was not a number in the last evaluation.
     without_load: Option<RotorId>,
     motor_torque: Vec<R>,
@@ -101,6 +105,7 @@ impl<R: Real> Mechanism<R> {
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
             external_forces: Vec::new(),
             air_dissipation: R::zero(),
+            lines: lines::Lines::new(&model),
             without_load: None,
             motor_torque: vec![R::zero(); model.motors.len()],
             scratch: Scratch::new(&model),
@@ -137,6 +142,7 @@ impl<R: Real> Mechanism<R> {
         numbers.iter().map(|v| size_of_val(&***v)).sum::<usize>()
             + size_of_val(&*self.external)
             + size_of_val(&*self.external_forces)
+            + self.lines.heap_bytes()
             + self.scratch.heap_bytes()
     }
 
@@ -258,7 +264,7 @@ impl<R: Real> Mechanism<R> {
         let at = TorqueInput { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
         let external = if self.has_external() {
-            self.external_wrenches(t, v, rotors);
+            self.external_wrenches(t, v, rotors, implicit);
             Some(&*self.external)
         } else {
             None
@@ -278,6 +284,11 @@ impl<R: Real> Mechanism<R> {
             gravity: true,
         };
         aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
+        let has_drives = !self.drives.is_empty();
+        let implicit_forces = match implicit {
+            Some(_) => self.lines.factor(&self.model, &self.scratch, v_dot),
+            None => None,
+        };
         if R::LANES == 1
             && let Some(constraints) = &mut self.constraints
         {
@@ -286,21 +297,27 @@ impl<R: Real> Mechanism<R> {
                 Some((h, Implicit::Dampers)) => Level::Velocity(h),
                 _ => Level::Acceleration,
             };
-            let has_drives = !self.drives.is_empty();
-            constraints.apply(&self.model, (&self.q, v), level, &mut self.scratch, v_dot, has_drives);
+            let at = (&*self.q, v);
+            constraints.apply(&self.model, at, level, &mut self.scratch, v_dot, has_drives, implicit_forces);
+        } else if let Some(forces) = implicit_forces {
+            forces.respond(&self.model, &mut self.scratch, v_dot, has_drives);
         }
     }
 
     #[inline(always)]
-    fn external_wrenches(&mut self, t: f64, v: &[R], rotors: &[R]) {
+    fn external_wrenches(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>) {
         self.external.fill(Force::zero());
-        if self.model.feels_air() {
+        if self.model.feels_air() || !self.model.spring_dampers.is_empty() {
             // only poses and twists are looked at: any accelerations will do
             kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
         } else if !self.external_forces.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
             kinematics::poses(&self.model, &self.q, &mut self.scratch);
         }
         self.air_wrenches(t, v, rotors);
+        if !self.model.spring_dampers.is_empty() {
+            let implicit = implicit.map(|(h, implicit)| implicit.steps(h));
+            self.lines.add_wrenches(&self.model, &self.scratch, (v, &self.commands), implicit, &mut self.external);
+        }
         for wrench in &self.model.wrenches {
             self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);
         }
@@ -392,12 +409,12 @@ impl<R: Real> Mechanism<R> {
     fn rotor_rates(&self, x: &[R], h: f64, rates: &mut [R]) {
         for rotor in &self.model.rotors {
             match rotor.speed {
-                SpeedFrom::Lag { command, state, time_constant, .. } => {
+                SpeedSource::Lag { command, state, time_constant, .. } => {
                     rates[state] = (self.commands[command] - x[state]) / (time_constant + R::splat(h));
                 }
                 // particles are counted once a tick
-                SpeedFrom::Particles { state, .. } => rates[state] = R::zero(),
-                SpeedFrom::Command(_) | SpeedFrom::Joint { .. } => {}
+                SpeedSource::Particles { state, .. } => rates[state] = R::zero(),
+                SpeedSource::Command(_) | SpeedSource::Joint { .. } => {}
             }
         }
     }
@@ -410,6 +427,11 @@ impl<R: Real> Mechanism<R> {
             work += dof.torque * v[k];
             dissipation += damper::dissipation(dof, v[k]);
         }
+        for spring in &self.model.nonlinear_springs {
+            let dof = &self.model.dofs[spring.dof];
+            let v = v[spring.dof];
+            dissipation -= spring.torques(dof, self.q[dof.q_idx as usize], v).1 * v;
+        }
         for applied in &self.model.applied {
             work += applied.torque::<R>(t) * v[applied.dof];
         }
@@ -420,6 +442,12 @@ impl<R: Real> Mechanism<R> {
             // drag's power is in `work` already: what it takes as heat, and what the wind does, add up to it
             work += self.air_dissipation;
             dissipation += self.air_dissipation;
+        }
+        if !self.model.spring_dampers.is_empty() {
+            let (of_actuators, heat) =
+                self.lines.power(&self.model, &self.commands, (steps.0.lane(0) != 0.0).then_some(v));
+            work += of_actuators;
+            dissipation += heat;
         }
         self.find_motor_torques(v_at, steps);
         for (i, drive) in self.model.drives.iter().enumerate() {

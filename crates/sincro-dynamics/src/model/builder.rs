@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::LoopJointKind;
 use super::MassProperties;
-use crate::actuation::Motor;
+use crate::actuation::{ForceLaw, Motor, NonlinearLaw};
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
 use crate::contact::{Material, PairLaw, Surface};
@@ -37,6 +37,9 @@ pub struct JointSpec {
     /// components of the rotation vector of the rest orientation, then, of free ones, along the axes of the joint frame
     /// (see [`crate::actuation::spring`]).
     pub spring: Vec<(f64, f64)>,
+    /// Nonlinear laws of the springs and dampers, of the deflection from the rest position, added to the linear ones;
+    /// not of ball and free joints.
+    pub spring_law: Vec<Option<Arc<NonlinearLaw>>>,
     /// Viscous coefficient [N·m·s/rad] or [N·s/m].
     pub damping: Vec<f64>,
     /// Friction [N·m] or `[N]`.
@@ -62,6 +65,7 @@ impl JointSpec {
             kind,
             armature: Vec::new(),
             spring: Vec::new(),
+            spring_law: Vec::new(),
             damping: Vec::new(),
             friction: Vec::new(),
             torque: Vec::new(),
@@ -157,6 +161,59 @@ pub struct LoopJointSpec {
     pub poses: [Pose<f64>; 2],
 }
 
+/// Spring, damper and actuator between two points to be added.
+#[derive(Clone, Debug)]
+pub struct SpringDamperSpec {
+    /// The two bodies or frames that carry the points; either may be the world.
+    pub ends: [NodeId; 2],
+    /// The points in their frames `[m]`.
+    pub points: [[f64; 3]; 2],
+    /// Length at which the deflection is zero `[m]`; none: the distance of the points with all coordinates zero.
+    pub free_length: Option<f64>,
+    /// Force `[N]` over deflection `[m]` and rate [m/s]; positive forces push the points apart.
+    pub law: ForceLaw<f64>,
+    /// True for a rope, which never pushes.
+    pub tension_only: bool,
+    /// Largest force of its actuator `[N]`, whose command is an input of the world; none: it has no actuator.
+    pub actuator: Option<f64>,
+}
+
+impl SpringDamperSpec {
+    /// Problems of the numbers: key of the number, message about the element `name`, help.
+    #[must_use]
+    pub fn problems(&self, name: &str) -> Vec<(&'static str, String, &'static str)> {
+        let mut found = Vec::new();
+        let not_negative = "give a finite number, zero or more";
+        let numbers = [
+            ("stiffness", Some(self.law.stiffness), "N/m"),
+            ("damping", Some(self.law.damping), "N·s/m"),
+            ("free_length", self.free_length, "m"),
+        ];
+        for (key, x, unit) in numbers {
+            if let Some(x) = x.filter(|x| !(x.is_finite() && *x >= 0.0)) {
+                let message = format!("{key} {x} {unit} of spring_damper `{name}` is negative or not finite");
+                found.push((key, message, not_negative));
+            }
+        }
+        if !self.law.preload.is_finite() {
+            let message = format!("preload {} N of spring_damper `{name}` is not finite", self.law.preload);
+            found.push(("preload", message, "give a number in N; a positive one pushes the points apart"));
+        } else if self.tension_only && self.law.preload > 0.0 {
+            let message = format!("spring_damper `{name}` pulls only, but its preload {} N pushes", self.law.preload);
+            found.push(("preload", message, "leave `tension_only` out, or give a preload that pulls, below zero"));
+        }
+        if let Some(x) = self.actuator.filter(|x| x.is_nan() || *x < 0.0) {
+            let message = format!("max_force {x} N of spring_damper `{name}` is negative or not a number");
+            found.push(("actuator", message, "give zero or more, or inf for none"));
+        }
+        if !self.points.iter().flatten().all(|x| x.is_finite()) {
+            let message = format!("points {:?} of spring_damper `{name}` are not finite", self.points);
+            found.push(("points", message, "give two points, three numbers in m each"));
+        }
+        found
+    }
+}
+
 /// Gear (mimic) constraint of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
 #[derive(Clone, Debug)]
 pub struct GearSpec {
@@ -198,6 +255,7 @@ pub struct ModelBuilder {
     pub(crate) contact_pairs: Vec<([NodeId; 2], PairLaw)>,
     pub(crate) loop_joints: Vec<(String, LoopJointSpec)>,
     pub(crate) gears: Vec<(String, GearSpec)>,
+    pub(crate) spring_dampers: Vec<(String, SpringDamperSpec)>,
     pub(crate) rest_speed: f64,
 }
 
@@ -214,6 +272,7 @@ impl ModelBuilder {
             contact_pairs: Vec::new(),
             loop_joints: Vec::new(),
             gears: Vec::new(),
+            spring_dampers: Vec::new(),
             rest_speed: REST_SPEED,
         }
     }
@@ -277,6 +336,11 @@ impl ModelBuilder {
     /// Adds a gear (mimic) constraint between two joints.
     pub fn gear(&mut self, name: &str, spec: GearSpec) {
         self.gears.push((name.into(), spec));
+    }
+
+    /// Adds a spring, damper and actuator between two points.
+    pub fn spring_damper(&mut self, name: &str, spec: SpringDamperSpec) {
+        self.spring_dampers.push((name.into(), spec));
     }
 
     /// Sets the rest speed [m/s]: slower approach has no restitution.

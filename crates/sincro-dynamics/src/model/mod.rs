@@ -27,7 +27,7 @@ pub use crate::ids::{BodyId, JointId, MotorId, RotorId};
 pub use crate::joint::{Dof, Link};
 pub use builder::{
     BodySpec, DragSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
-    RotorSpec,
+    RotorSpec, SpringDamperSpec,
 };
 pub(crate) use constraints::RESERVED_SLOTS;
 pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
@@ -36,8 +36,9 @@ pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
 
 use crate::actuation::Drive;
-use crate::actuation::spring;
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::damper;
+use crate::actuation::spring::{self, NonlinearSpring};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
@@ -56,12 +57,14 @@ pub struct Model<R> {
     pub(crate) wrenches: Vec<AppliedWrench<R>>,
     pub(crate) rotors: Vec<MountedRotor<R>>,
     pub(crate) drags: Vec<AirDrag<R>>,
+    pub(crate) spring_dampers: Vec<SpringDamper<R>>,
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) drives: Vec<Drive>,
     pub(crate) constraints: Arc<ConstraintSet>,
     pub(crate) n_q: usize,
     /// Links of ball and free joints with springs.
     pub(crate) sprung: Vec<usize>,
+    pub(crate) nonlinear_springs: Vec<NonlinearSpring>,
     pub(crate) names: Arc<Names>,
 }
 
@@ -97,11 +100,19 @@ impl<R: Real> Model<R> {
     }
 
     /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them,
-    /// then one for each rotor that does not turn with a joint: its speed [rad/s].
+    /// then one for each rotor that does not turn with a joint: its speed [rad/s], then one for each spring and damper
+    /// with an actuator: its force `[N]`.
     #[must_use]
     pub fn n_commands(&self) -> usize {
+        let of_lines = self.spring_dampers.iter().filter(|s| s.actuator.is_some()).count();
+        self.n_commands_before_lines(self.names.inputs.len()) + of_lines
+    }
+
+    /// Number of commands before those of springs and dampers between two points, for so many external forces that take
+    /// commands.
+    pub(crate) fn n_commands_before_lines(&self, n_inputs: usize) -> usize {
         let of_rotors = self.rotors.iter().filter(|r| r.speed.command().is_some()).count();
-        self.motors.len() + 6 * self.names.inputs.len() + of_rotors
+        self.motors.len() + 6 * n_inputs + of_rotors
     }
 
     /// Number of states of rotors: [`crate::state::State::rotors`].
@@ -142,6 +153,12 @@ impl<R: Real> Model<R> {
         &self.drags
     }
 
+    /// Springs, dampers and actuators between two points, in the order in which they were added.
+    #[must_use]
+    pub fn spring_dampers(&self) -> &[SpringDamper<R>] {
+        &self.spring_dampers
+    }
+
     /// The wind, if the air moves.
     #[must_use]
     pub fn wind(&self) -> Option<&Wind> {
@@ -167,7 +184,7 @@ impl<R: Real> Model<R> {
 
     /// Returns true if external forces may act on links.
     pub(crate) fn has_external(&self) -> bool {
-        !self.wrenches.is_empty() || self.feels_air()
+        !self.wrenches.is_empty() || self.feels_air() || !self.spring_dampers.is_empty()
     }
 
     /// Velocity motors and joints with Coulomb friction.
@@ -239,7 +256,9 @@ impl<R: Real> Model<R> {
     #[must_use]
     pub fn spring_torque(&self, dof: usize, q: &[R]) -> R {
         if let Some(coordinate) = self.dofs[dof].coordinate() {
-            return spring::torque(&self.dofs[dof], q[coordinate]);
+            let linear = spring::torque(&self.dofs[dof], q[coordinate]);
+            let laws = self.nonlinear_springs.iter().filter(|spring| spring.dof == dof);
+            return laws.fold(linear, |sum, s| sum + s.torques(&self.dofs[dof], q[coordinate], R::zero()).0);
         }
         let (zero, mut all) = ([R::zero(); 6], [R::zero(); 6]);
         for link in self.sprung.iter().map(|&link| &self.links[link]) {
@@ -252,6 +271,21 @@ impl<R: Real> Model<R> {
         R::zero()
     }
 
+    /// Torque [N·m] or force `[N]` of the damper on a degree of freedom at coordinates `q` (n_q) and velocities `v`
+    /// (n_v), with the part of a nonlinear spring that depends on the rate.
+    #[must_use]
+    pub fn damping_torque(&self, dof: usize, q: &[R], v: &[R]) -> R {
+        let linear = damper::torque(&self.dofs[dof], v[dof]);
+        let laws = self.nonlinear_springs.iter().filter(|spring| spring.dof == dof);
+        laws.fold(linear, |sum, s| sum + s.torques(&self.dofs[dof], q[self.dofs[dof].q_idx as usize], v[dof]).1)
+    }
+
+    /// Nonlinear springs and dampers of joints.
+    #[must_use]
+    pub fn nonlinear_springs(&self) -> &[NonlinearSpring] {
+        &self.nonlinear_springs
+    }
+
     /// Applied torque [N·m] or force `[N]` on a degree of freedom at time `t` `[s]`.
     #[must_use]
     pub fn applied_torque(&self, dof: usize, t: f64) -> R {
@@ -261,6 +295,15 @@ impl<R: Real> Model<R> {
 }
 
 impl Model<f64> {
+    /// Sets the free length `[m]` of the spring and damper `k` between two points.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such element.
+    pub fn set_free_length(&mut self, k: usize, length: f64) {
+        self.spring_dampers[k].free_length = length;
+    }
+
     /// Next time event: the first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if
     /// there is none.
     #[must_use]

@@ -76,6 +76,8 @@ pub struct Names {
     pub rotors: Vec<String>,
     /// Drag elements, in the order of [`super::Model::drags`].
     pub drags: Vec<String>,
+    /// Springs and dampers between two points, in the order of the model's.
+    pub spring_dampers: Vec<String>,
     /// Sensors, which are frames too; the model does not measure, it only knows what they are called.
     pub sensors: Vec<SensorInfo>,
     /// For each degree of freedom, the joint it belongs to.

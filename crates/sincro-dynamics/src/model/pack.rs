@@ -5,9 +5,11 @@ use std::sync::Arc;
 use sincro_math::Real;
 
 use super::{Dof, Link, Model};
+use crate::actuation::spring_damper::{LineActuator, LinkPoint};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::{ForceLaw, SpringDamper};
 use crate::aero::AirDrag;
-use crate::aero::rotor::{MountedRotor, SpeedFrom};
+use crate::aero::rotor::{MountedRotor, SpeedSource};
 use crate::joint::Friction;
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
@@ -98,19 +100,19 @@ impl<R: Real> Model<R> {
             pose: Pose { rot: mat3(&|m| m.rotors[i].pose.rot), pos: vec3(&|m| m.rotors[i].pose.pos) },
             law: first.rotors[i].law.clone(),
             speed: match first.rotors[i].speed {
-                SpeedFrom::Lag { command, state, .. } => {
+                SpeedSource::Lag { command, state, .. } => {
                     let lag =
                         |k: usize, pick: fn((f64, f64)) -> f64| pick(of(k).rotors[i].speed.lag().unwrap_or((1.0, 0.0)));
-                    SpeedFrom::Lag {
+                    SpeedSource::Lag {
                         command,
                         state,
                         time_constant: R::from_lanes(|k| lag(k, |x| x.0)),
                         initial: R::from_lanes(|k| lag(k, |x| x.1)),
                     }
                 }
-                SpeedFrom::Command(k) => SpeedFrom::Command(k),
-                SpeedFrom::Particles { command, state } => SpeedFrom::Particles { command, state },
-                SpeedFrom::Joint { dof, sign } => SpeedFrom::Joint { dof, sign },
+                SpeedSource::Command(k) => SpeedSource::Command(k),
+                SpeedSource::Particles { command, state } => SpeedSource::Particles { command, state },
+                SpeedSource::Joint { dof, sign } => SpeedSource::Joint { dof, sign },
             },
             density: first.rotors[i].density,
             inertia: first.rotors[i].inertia,
@@ -123,6 +125,28 @@ impl<R: Real> Model<R> {
             linear: vec3(&|m| m.drags[i].linear),
             density: first.drags[i].density,
         });
+        let spring_dampers = (0..first.spring_dampers.len()).map(|i| {
+            let of_first = &first.spring_dampers[i];
+            let number = |f: &dyn Fn(&SpringDamper<f64>) -> f64| R::from_lanes(|k| f(&of(k).spring_dampers[i]));
+            SpringDamper {
+                ends: core::array::from_fn(|e| LinkPoint {
+                    link: of_first.ends[e].link,
+                    position: vec3(&|m| m.spring_dampers[i].ends[e].position),
+                }),
+                free_length: number(&|s| s.free_length),
+                law: ForceLaw {
+                    stiffness: number(&|s| s.law.stiffness),
+                    damping: number(&|s| s.law.damping),
+                    preload: number(&|s| s.law.preload),
+                    nonlinear: of_first.law.nonlinear.clone(),
+                },
+                tension_only: of_first.tension_only,
+                actuator: of_first.actuator.map(|a| LineActuator {
+                    command: a.command,
+                    max_force: number(&|s| s.actuator.map_or(f64::INFINITY, |a| a.max_force)),
+                }),
+            }
+        });
         Ok(Self {
             drives: first.drives.clone(),
             constraints: Arc::clone(&first.constraints),
@@ -134,9 +158,11 @@ impl<R: Real> Model<R> {
             wrenches: wrenches.collect(),
             rotors: rotors.collect(),
             drags: drags.collect(),
+            spring_dampers: spring_dampers.collect(),
             wind: first.wind.clone(),
             n_q: first.n_q,
             sprung: first.sprung.clone(),
+            nonlinear_springs: first.nonlinear_springs.clone(),
             names: Arc::clone(&first.names),
         })
     }
@@ -156,6 +182,12 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
             .collect()
     };
     let drags = |m: &Model<f64>| -> Vec<_> { m.drags.iter().map(|x| (x.link, x.density)).collect() };
+    let lines = |m: &Model<f64>| -> Vec<_> {
+        let structure = |s: &SpringDamper<f64>| {
+            (s.ends.map(|e| e.link), s.tension_only, s.law.nonlinear.clone(), s.actuator.map(|a| a.command))
+        };
+        m.spring_dampers.iter().map(structure).collect()
+    };
     let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction.at_rest > 0.0).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),
@@ -164,9 +196,11 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (wrenches(a) == wrenches(b), "external forces"),
         (rotors(a) == rotors(b), "rotors"),
         (drags(a) == drags(b), "drag elements"),
+        (lines(a) == lines(b), "springs and dampers between two points"),
         (a.wind == b.wind, "wind"),
         (a.constraints == b.constraints, "loop joints, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
+        (a.nonlinear_springs == b.nonlinear_springs, "nonlinear springs of joints"),
         (a.sprung == b.sprung, "set of ball and free joints with springs"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))

@@ -319,8 +319,14 @@ fn advance<S: Stage, R: Real>(
 /// explicit integrator.
 #[must_use]
 pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
-    let n = model.n_v();
     let mut scratch = Scratch::new(model);
+    factor_at_rest(model, state, &mut scratch);
+    scratch.dofs.iter().map(|d| d.d).collect()
+}
+
+/// Factors of the mass matrix at the coordinates of a state, with all velocities and forces zero.
+pub(crate) fn factor_at_rest(model: &Model<f64>, state: &State<f64>, scratch: &mut Scratch<f64>) {
+    let n = model.n_v();
     let diagonal: Vec<f64> = model.dofs.iter().map(|d| d.armature).collect();
     let (torque, mut v_dot, mut mask) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     for drive in model.drives.iter().filter(|drive| drive.kind == DriveKind::Lock) {
@@ -335,6 +341,5 @@ pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
         external: None,
         gravity: false,
     };
-    forward_dynamics(model, &input, &mut scratch, &mut v_dot);
-    scratch.dofs.iter().map(|d| d.d).collect()
+    forward_dynamics(model, &input, scratch, &mut v_dot);
 }

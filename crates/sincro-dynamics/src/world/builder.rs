@@ -100,7 +100,7 @@ impl WorldBuilder {
     pub fn build(self) -> Result<World, InvalidParameters> {
         let problems = self.problems();
         if !problems.is_empty() {
-            return Err(InvalidParameters(problems));
+            return Err(InvalidParameters::new(problems));
         }
         let control = Control::new(self.accuracy, self.step_size);
         let mut world = World::with_totals(self.model, self.state, self.method, control, self.tracks_totals);

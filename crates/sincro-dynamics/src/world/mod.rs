@@ -27,7 +27,7 @@ pub use observation::Observation;
 pub use step::{StepError, StepReport};
 
 use crate::actuation::{ExternalForce, Motor};
-use crate::aero::rotor::{RotorLaw, SpeedFrom};
+use crate::aero::rotor::{RotorLaw, SpeedSource};
 use crate::constraint::kink::Kink;
 use crate::constraint::{ContactPoint, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
@@ -383,7 +383,7 @@ impl World {
     /// Sets the mass flow of each stock propeller for this tick.
     fn count_particles(&mut self, h: f64) {
         for rotor in &self.mechanism.model.rotors {
-            if let (RotorLaw::Stock(propeller), SpeedFrom::Particles { state, .. }) = (&rotor.law, rotor.speed) {
+            if let (RotorLaw::Stock(propeller), SpeedSource::Particles { state, .. }) = (&rotor.law, rotor.speed) {
                 self.state.rotors[state] = propeller.flow(self.state.tick, h);
             }
         }

@@ -193,6 +193,13 @@ impl<'a> Tree<'a> {
             };
             self.note(&object.path, &format!("{words} is not written"));
         }
+        for name in &scene.model.names().spring_dampers {
+            self.note(name, "a spring and damper between two points is not written");
+        }
+        for spring in scene.model.nonlinear_springs() {
+            let joint = scene.model.names().dof_joint[spring.dof];
+            self.note(&scene.model.names().joint_info(joint).name, "the law of its spring is not written");
+        }
         for script in &scene.scripts {
             self.note(&script.path, "a script is not written");
         }

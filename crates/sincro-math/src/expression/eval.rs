@@ -106,6 +106,17 @@ pub(super) fn run<R: Real>(program: &[Op], values: &[R], stack: &mut Vec<R>) -> 
     stack[0]
 }
 
+/// Runs a program on a stack of given length.
+pub(super) fn run_in<R: Real>(program: &[Op], values: &[R], stack: &mut [R]) -> R {
+    let mut top = 0;
+    for op in program {
+        let base = top - op.takes();
+        stack[base] = op.apply(&stack[base..top], values);
+        top = base + 1;
+    }
+    stack[0]
+}
+
 /// Largest number of values on the stack of a program.
 pub(super) fn stack_depth(program: &[Op]) -> usize {
     let (mut depth, mut deepest) = (0, 0);

@@ -122,6 +122,16 @@ impl Expression {
         eval::run(&self.program, values, stack)
     }
 
+    /// The value of the formula, as [`Expression::eval`] gives it, with a stack of given length.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer values than names, or the stack is shorter than [`Expression::stack_depth`].
+    pub fn eval_in<R: Real>(&self, values: &[R], stack: &mut [R]) -> R {
+        assert!(values.len() >= self.n_names, "{} values for {} names", values.len(), self.n_names);
+        eval::run_in(&self.program, values, stack)
+    }
+
     /// Scratch memory for [`Expression::eval`].
     #[must_use]
     pub fn scratch<R: Real>(&self) -> Vec<R> {

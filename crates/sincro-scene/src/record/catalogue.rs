@@ -4,10 +4,11 @@ use std::borrow::Cow;
 
 use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::aero::rotor::RotorLaw;
+use sincro_dynamics::ids::JointId;
 use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
-use super::{ContactQuantity, EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
+use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
 
 /// A signal that can be recorded: its name, its unit, how it is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +44,11 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     let mut list = List(Vec::new());
     for joint in &model.names().joints {
         joint_signals(&mut list, joint, model);
+    }
+    for (k, joint) in model.names().joints.iter().enumerate().filter(|(_, joint)| joint.kind != JointKind::Fixed) {
+        let (name, id) = (&joint.name, JointId::new(k));
+        list.vector(&format!("{name}.reaction_force"), &XYZ, "N", |c| Probe::JointReaction(id, 3 + c));
+        list.vector(&format!("{name}.reaction_torque"), &XYZ, "N·m", |c| Probe::JointReaction(id, c));
     }
     for (i, frame) in model.names().frames.iter().enumerate() {
         frame_signals(&mut list, &frame.name, i, frame.body.is_some());
@@ -83,6 +89,15 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     }
     for (k, name) in model.names().drags.iter().enumerate() {
         list.vector(&format!("{name}.force"), &XYZ, "N", |c| Probe::Drag(k, c));
+    }
+    for (k, name) in model.names().spring_dampers.iter().enumerate() {
+        use LineQuantity as Q;
+        for (what, unit, quantity) in [("length", "m", Q::Length), ("rate", "m/s", Q::Rate), ("force", "N", Q::Force)] {
+            list.add(format!("{name}.{what}"), unit, Probe::SpringDamper(quantity, k));
+        }
+        if let Some(actuator) = model.spring_dampers()[k].actuator {
+            list.add(format!("{name}.command"), "N", Probe::Command(actuator.command));
+        }
     }
     if model.wind().is_some() {
         list.vector("wind", &XYZ, "m/s", Probe::Wind);

@@ -1,7 +1,6 @@
 //! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is
 //! linearised.
 
-use sincro_dynamics::actuation::damper;
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
 use sincro_dynamics::coupled::{MechanismResponse, StateView};
 use sincro_dynamics::energy::{energy, momentum};
@@ -13,7 +12,7 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::Observation;
 use sincro_math::Real;
 
-use super::{EnergyQuantity, FrameQuantity, Probe, RotorQuantity};
+use super::{EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
 
 /// State of which a measurement is taken.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +51,15 @@ impl<'a> View<'a, f64> {
 
 /// Returns true if a probe needs the poses and twists of links.
 pub fn needs_kinematics(probe: Probe) -> bool {
-    matches!(probe, Probe::Frame(..) | Probe::Energy(_) | Probe::Momentum(_) | Probe::Rotor(..) | Probe::Drag(..))
+    matches!(
+        probe,
+        Probe::Frame(..)
+            | Probe::Energy(_)
+            | Probe::Momentum(_)
+            | Probe::Rotor(..)
+            | Probe::Drag(..)
+            | Probe::SpringDamper(..)
+    )
 }
 
 /// Value in SI units of a measurement that the state alone decides; after kinematics, if it needs them. None for what
@@ -63,7 +70,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Coordinate(i) => at.q[i],
         Probe::Rate(k) => at.v[k],
         Probe::SpringTorque(k) => model.spring_torque(k, at.q),
-        Probe::DampingTorque(k) => damper::torque(&model.dofs()[k], at.v[k]),
+        Probe::DampingTorque(k) => model.damping_torque(k, at.q, at.v),
         Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
         Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),
         Probe::Energy(EnergyQuantity::Kinetic) => energy(model, at.q, at.v, at.scratch).kinetic,
@@ -73,6 +80,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
         Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
         Probe::Drag(k, component) => drag(at, k)[component],
+        Probe::SpringDamper(quantity, k) if !has_actuated_force(model, quantity, k) => of_line(at, quantity, k),
         Probe::Wind(k) => {
             let wind = model.wind()?;
             wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
@@ -88,6 +96,7 @@ pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>
         Probe::Acceleration(k) => response.accelerations[k],
         Probe::MotorTorqueNow(m) => response.motor_torque[m],
         Probe::Rotor(quantity, k) => of_rotor(at, quantity, k),
+        Probe::SpringDamper(quantity, k) => of_line(at, quantity, k),
         Probe::Frame(FrameQuantity::Acceleration, frame, k) => {
             kinematics::frame_acceleration(at.scratch, &attached(at.model, frame)).lin[k]
         }
@@ -134,6 +143,21 @@ pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     let air = at.model.wind().map(|wind| wind.at(at.t));
     let force = drag.resistance(drag.velocity(&at.scratch.twist(drag.link), x_wl, air.as_ref())).force;
     x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))
+}
+
+/// Returns true for the force of a spring and damper with an actuator, which depends on its present command.
+pub fn has_actuated_force<R: Real>(model: &Model<R>, quantity: LineQuantity, k: usize) -> bool {
+    quantity == LineQuantity::Force && model.spring_dampers()[k].actuator.is_some()
+}
+
+fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
+    let element = &at.model.spring_dampers()[k];
+    let line = element.line(|link| (at.scratch.twist(link), at.scratch.link_poses()[link]));
+    match quantity {
+        LineQuantity::Length => line.length,
+        LineQuantity::Rate => line.rate,
+        LineQuantity::Force => element.forces(line.length, line.rate, at.commands).total(),
+    }
 }
 
 /// Attachment of a frame of the model.

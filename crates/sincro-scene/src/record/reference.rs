@@ -5,14 +5,14 @@
 
 use std::fmt::Write as _;
 
-use super::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, Probe, RotorQuantity, catalogue};
+use super::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, LineQuantity, Probe, RotorQuantity, catalogue};
 use crate::scene::from_text;
 
 /// A scene that has all signals.
 const SAMPLE: &str = include_str!("sample.toml");
 
 /// Objects of the sample with the headings of their tables; `""` takes the rest.
-const SECTIONS: [(&str, &str); 17] = [
+const SECTIONS: [(&str, &str); 18] = [
     ("/slide", "Prismatic joint"),
     ("/hinge", "Revolute joint, with a motor, a spring and stops; a screw joint has the same"),
     ("/universal", "Universal joint: two angles"),
@@ -27,6 +27,7 @@ const SECTIONS: [(&str, &str); 17] = [
     ("/free/solid/push", "External force that takes commands"),
     ("/free/solid/rotor", "Rotor; without a lag there is no command beside the speed"),
     ("/free/solid/hull", "Drag element"),
+    ("/cable", "Spring, damper and actuator between two points; without an actuator there is no command"),
     ("/free/solid/imu", "Inertial measurement unit; this and all other sensors also have the signals of a frame"),
     ("/free/solid/pose", "Pose sensor"),
     ("/free/solid/speed", "Velocity sensor"),
@@ -140,8 +141,12 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Command(_) => "command as it was latched, held until the next one",
         Probe::MotorTorqueMean(_) => "mean torque of the motor over the step that ends at this row, impulses included",
         Probe::MotorTorqueNow(_) => "smooth torque of the motor at this instant",
-        Probe::SpringTorque(_) => "torque of the spring on the joint: −stiffness·(q − rest)",
-        Probe::DampingTorque(_) => "torque of the damper on the joint: −damping·q̇",
+        Probe::SpringTorque(_) => {
+            "torque of the spring on the joint: −stiffness·(q − rest), with the elastic part of its law"
+        }
+        Probe::DampingTorque(_) => {
+            "torque of the damper on the joint: −damping·q̇, with the part of a law that depends on the rate"
+        }
         Probe::FrictionTorque(_) => "torque of Coulomb friction on the joint",
         Probe::AppliedTorque(_) => "torque that the signal `torque` applies",
         Probe::Frame(F::Position, ..) => "origin of the frame in the world",
@@ -167,6 +172,9 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Rotor(R::Power, _) => "power of the shaft",
         Probe::Rotor(R::Valid, _) => "1 where the theory holds, else 0",
         Probe::Drag(..) => "force of the air, world axes",
+        Probe::SpringDamper(LineQuantity::Length, _) => "distance of its ends",
+        Probe::SpringDamper(LineQuantity::Rate, _) => "rate of that distance",
+        Probe::SpringDamper(LineQuantity::Force, _) => "force along the line, positive where it pushes the ends apart",
         Probe::Wind(_) => "velocity of the air at the reference height, world axes; where the scene has wind",
         Probe::Contact(C::Force, ..) => "sum of the contact forces on the body, world axes",
         Probe::Contact(C::Torque, ..) => "sum of their moments about the origin of the world, world axes",
@@ -177,6 +185,12 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Contact(C::Count, ..) => "number of points that press",
         Probe::LimitTorque(_) => "torque of the stops on the joint",
         Probe::Opening(_) => "residual of the constraint: zero where it is closed",
+        Probe::JointReaction(_, 0..3) => {
+            "torque of the parent on the child through the joint, motor and springs included, about the origin of the child's joint frame, axes of the parent's"
+        }
+        Probe::JointReaction(..) => {
+            "force of the parent on the child through the joint, axes of the parent's joint frame"
+        }
         Probe::Reaction(_) => "force and torque of the parent on what hangs on the cell, in its axes",
         Probe::Sensor(_) | Probe::Signal(_) | Probe::FloatSignal(_) => "value of a sensor, a diagram or a script",
     }

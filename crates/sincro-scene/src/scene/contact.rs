@@ -175,11 +175,17 @@ pub(super) struct Joiner<'a> {
 }
 
 impl Joiner<'_> {
-    pub fn closure(&mut self, file: &ClosureFile, pointer: &str) -> Option<LoopJointSpec> {
+    /// The two bodies or frames of `between`, notes what is none.
+    pub fn ends(&mut self, between: &[String; 2], pointer: &str) -> Option<[NodeId; 2]> {
         let fits =
             |kind: &Object| matches!(kind.kind, ObjectKind::Body { .. } | ObjectKind::Frame | ObjectKind::Fixture);
-        let ends =
-            [0, 1].map(|k| self.find(&file.between[k], &format!("{pointer}/between/{k}"), fits, "body or frame"));
+        let ends = [0, 1].map(|k| self.find(&between[k], &format!("{pointer}/between/{k}"), fits, "body or frame"));
+        let [Some(a), Some(b)] = ends else { return None };
+        Some([a, b])
+    }
+
+    pub fn closure(&mut self, file: &ClosureFile, pointer: &str) -> Option<LoopJointSpec> {
+        let ends = self.ends(&file.between, pointer);
         let length = file.length.filter(|_| file.kind == ClosureKindFile::Distance);
         if (file.kind == ClosureKindFile::Distance) != file.length.is_some() {
             let at = self.document.title_at(pointer);
@@ -208,8 +214,7 @@ impl Joiner<'_> {
             ClosureKindFile::Distance => LoopJointKind::Distance(length?),
         };
         let pose = Pose { rot: with_z_along(axis), pos: Vec3::zero() };
-        let [Some(a), Some(b)] = ends else { return None };
-        Some(LoopJointSpec { kind, ends: [a, b], poses: [pose, pose] })
+        Some(LoopJointSpec { kind, ends: ends?, poses: [pose, pose] })
     }
 
     /// The pairs of bodies that a contact law is meant for.

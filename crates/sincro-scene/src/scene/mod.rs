@@ -21,6 +21,7 @@ mod schema;
 mod script;
 mod sensor;
 mod signal_file;
+mod spring_damper;
 mod stills;
 mod text;
 mod tree;
@@ -66,7 +67,7 @@ pub struct Scene {
     /// Initial state.
     pub initial: State<f64>,
     /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of
-    /// rotors.
+    /// rotors, forces of springs and dampers.
     pub commands: Vec<Signal>,
     /// Its sensors, in the order in which their values are kept.
     pub sensors: Vec<SensorSpec>,
@@ -150,6 +151,7 @@ pub(crate) fn compile(
         assembly.objects.last_mut().expect("the object was added").visuals = visuals;
     }
     assembly.join(&file, document, &mut diagnostics);
+    assembly.join_by_springs(&file, document, folder, &mut diagnostics);
     contact::warn_of_idle(&file, document, &mut diagnostics);
     let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut diagnostics);
     assembly.finish(&entries, &file, scripts, document, diagnostics)
@@ -254,6 +256,8 @@ struct Assembly {
     objects: Vec<Object>,
     /// Command of the motor of the joint, or speed of the rotor, that is object k.
     commands: BTreeMap<usize, Signal>,
+    /// Commands of springs and dampers with an actuator, by their paths.
+    line_commands: BTreeMap<String, Signal>,
     sensors: Vec<SensorSpec>,
     /// Entry that is object k.
     entry_of: Vec<usize>,
@@ -266,6 +270,7 @@ impl Assembly {
             nodes: Vec::new(),
             objects: Vec::new(),
             commands: BTreeMap::new(),
+            line_commands: BTreeMap::new(),
             sensors: Vec::new(),
             entry_of: Vec::new(),
         }
@@ -351,6 +356,28 @@ impl Assembly {
         }
     }
 
+    /// Springs and dampers between points of objects, which are named by their paths.
+    fn join_by_springs(
+        &mut self,
+        file: &SceneFile,
+        document: &Document,
+        folder: &Folder,
+        diagnostics: &mut Diagnostics,
+    ) {
+        spring_damper::check_names(file, self.objects.iter().map(|o| o.path.as_str()), document, diagnostics);
+        for (k, own) in file.spring_damper.iter().enumerate() {
+            let pointer = format!("/spring_damper/{k}");
+            let (objects, nodes) = (&self.objects, &self.nodes);
+            let ends = contact::Joiner { objects, nodes, document, diagnostics }.ends(&own.between, &pointer);
+            let mut signals = SignalReader { document, folder, diagnostics };
+            let made = ends.and_then(|ends| spring_damper::spec(own, ends, &pointer, &mut signals));
+            let Some((spec, command)) = made else { continue };
+            let path = format!("/{}", own.name);
+            self.builder.spring_damper(&path, spec);
+            self.line_commands.extend(command.map(|command| (path, command)));
+        }
+    }
+
     fn finish(
         mut self,
         entries: &[Entry<'_>],
@@ -377,6 +404,7 @@ impl Assembly {
             }
         }
         let initial = initial::state(&model, &starts, document, &mut diagnostics);
+        spring_damper::set_free_lengths(&mut model, &initial, file, document, &mut diagnostics);
         self.check_fixtures(&model, &mut diagnostics);
         contact::check_start(&model, &initial, file, &self.objects, document, &mut diagnostics);
         let commands = self.motors(&model);
@@ -409,6 +437,11 @@ impl Assembly {
             let speed = self.objects.iter().position(|o| o.path == *name).and_then(|k| self.commands.remove(&k));
             if let Some(command) = rotor.speed.command() {
                 commands[command] = speed.expect("a rotor that takes a command has one");
+            }
+        }
+        for (line, name) in model.spring_dampers().iter().zip(&model.names().spring_dampers) {
+            if let Some(actuator) = line.actuator {
+                commands[actuator.command] = self.line_commands.remove(name).expect("an actuator has a command");
             }
         }
         for joint in &model.names().joints {

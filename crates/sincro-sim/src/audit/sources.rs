@@ -4,7 +4,7 @@
 //! base step. Steps, pulses and ramps are exempt: their jumps and corners are located as events.
 
 use sincro_blocks::program::Rate;
-use sincro_dynamics::actuation::Motor;
+use sincro_dynamics::actuation::{Motor, SpringDamper};
 use sincro_dynamics::signal::Signal;
 
 use super::{Finding, help};
@@ -68,11 +68,14 @@ pub fn sources(loaded: &Loaded) -> Vec<Finding> {
     found
 }
 
-/// Name of the motor or rotor of a command.
+/// Name of the motor, rotor or spring and damper of a command.
 fn command_name(loaded: &Loaded, command: usize) -> String {
     let model = &loaded.scene.model;
     let joint = model.names().joints.iter().find(|joint| joint.motor.is_some_and(|motor| motor.index() == command));
     let rotor = model.rotors().iter().position(|rotor| rotor.speed.command() == Some(command));
+    let is_its_own = |line: &SpringDamper<f64>| line.actuator.is_some_and(|a| a.command == command);
+    let line = model.spring_dampers().iter().position(is_its_own);
     let name = joint.map(|joint| &joint.name).or_else(|| rotor.map(|rotor| &model.names().rotors[rotor]));
+    let name = name.or_else(|| line.map(|line| &model.names().spring_dampers[line]));
     name.map_or_else(|| format!("command {command}"), String::clone)
 }

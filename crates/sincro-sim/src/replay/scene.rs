@@ -256,7 +256,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Closures and couplings, which stand beside the tree, as objects after it.
+    /// Closures, springs between points and couplings, which stand beside the tree, as objects after it.
     fn closures(&self, objects: &mut Vec<ObjectView>) {
         let (set, n) = (self.model.constraints(), objects.len());
         let of_anchor = |anchor: &Anchor, objects: &[ObjectView]| {
@@ -273,6 +273,13 @@ impl Maker<'_> {
             let (mover, pose) = of_anchor(&closure.a, objects);
             let other_end = Some(of_anchor(&closure.b, objects));
             objects.push(ObjectView { mover, pose, other_end, ..beside(&closure.name, kind) });
+        }
+        for (element, name) in self.model.spring_dampers().iter().zip(&self.model.names().spring_dampers) {
+            let [(mover, pose), other_end] = element.ends.map(|end| {
+                let mover = end.link.and_then(|link| self.links.iter().position(|l| *l == link));
+                (mover, seven(&Pose::translation(end.position)))
+            });
+            objects.push(ObjectView { mover, pose, other_end: Some(other_end), ..beside(name, "spring_damper") });
         }
         objects.extend(set.gears.iter().map(|coupling| beside(&coupling.name, "coupling")));
     }

@@ -15,7 +15,7 @@ mod streams;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use sincro_dynamics::aero::rotor::{MountedRotor, SpeedFrom};
+use sincro_dynamics::aero::rotor::{MountedRotor, SpeedSource};
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{MethodKind, StepStatistics, World};
@@ -167,7 +167,7 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
 /// The rotor that follows its command fastest with a lag, and how fast [1/s].
 fn fastest_lag(scene: &Scene) -> Option<(usize, f64)> {
     let rate = |(k, rotor): (usize, &MountedRotor<f64>)| match rotor.speed {
-        SpeedFrom::Lag { time_constant, .. } => Some((k, 1.0 / time_constant)),
+        SpeedSource::Lag { time_constant, .. } => Some((k, 1.0 / time_constant)),
         _ => None,
     };
     scene.model.rotors().iter().enumerate().filter_map(rate).max_by(|a, b| a.1.total_cmp(&b.1))
@@ -238,11 +238,11 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     (kind, warnings)
 }
 
-/// A fast degree of freedom in words.
+/// A fast element in words.
 fn describe(scene: &Scene, s: &Stiffness) -> String {
     format!(
-        "joint `{}` (stiffness {:.3e}, damping {:.3e} on an inertia of {:.3e}: {:.3e} 1/s)",
-        scene.model.names().dof_name(s.dof),
+        "{} (stiffness {:.3e}, damping {:.3e} on an inertia of {:.3e}: {:.3e} 1/s)",
+        s.element_name(&scene.model),
         s.stiffness,
         s.damping,
         s.inertia,

@@ -104,9 +104,9 @@ fn help(world: &World, experiment: &Experiment, method: MethodKind) -> Option<St
     let product = s.rate * experiment.step;
     (method == MethodKind::Rk4 && product > RK4_LIMIT).then(|| {
         format!(
-            "spring and damper of joint `{}` act at {:.2e} 1/s, too fast for `rk4` at {} s: use integrator = \"implicit\" or \
+            "spring and damper of {} act at {:.2e} 1/s, too fast for `rk4` at {} s: use integrator = \"implicit\" or \
              \"auto\", or a step below {:.1e} s",
-            world.model().names().dof_name(s.dof),
+            s.element_name(world.model()),
             s.rate,
             experiment.step,
             RK4_LIMIT / s.rate

@@ -21,7 +21,7 @@ mod stock;
 
 pub use blade::{Drag, Rotor, RotorSpec, Validity};
 pub use coefficients::{CoefficientTable, ConstantCoefficients, TableRow};
-pub use mounted::{Hub, MountedRotor, RotorLaw, SpeedFrom};
+pub use mounted::{Hub, MountedRotor, RotorLaw, SpeedSource};
 pub use printed::PrintedScript;
 pub use stock::StockPropeller;
 

@@ -1,4 +1,5 @@
-//! Aerodynamic force elements: rotors, drag, and the wind that both see.
+#![doc = include_str!("../README.md")]
+//! # Elements
 //!
 //! | element | wrench on its link | power |
 //! |---|---|---|

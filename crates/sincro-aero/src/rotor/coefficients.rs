@@ -9,13 +9,13 @@ use core::f64::consts::TAU;
 use sincro_math::Real;
 
 use super::{Load, Spin, Validity, outside};
-use crate::error::InvalidParameters;
-use crate::spatial::Vec3;
+use sincro_geometry::spatial::Vec3;
+use sincro_math::error::InvalidParameters;
 
 /// Thrust and torque that grow with the square of the speed and depend on nothing else.
 ///
 /// ```
-/// use sincro_dynamics::aero::rotor::{ConstantCoefficients, Spin};
+/// use sincro_aero::rotor::{ConstantCoefficients, Spin};
 ///
 /// let rotor = ConstantCoefficients { thrust: 5e-5, torque: 9e-7, spin: Spin::CounterClockwise };
 /// let load = rotor.evaluate(-100.0);
@@ -92,7 +92,7 @@ impl CoefficientTable {
                 problems.push(message);
             }
         }
-        if problems.is_empty() { Ok(Self { diameter, spin, rows }) } else { Err(InvalidParameters(problems)) }
+        if problems.is_empty() { Ok(Self { diameter, spin, rows }) } else { Err(InvalidParameters::new(problems)) }
     }
 
     /// Sense of rotation at positive speed.

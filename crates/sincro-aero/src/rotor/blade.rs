@@ -32,8 +32,8 @@ use sincro_math::Real;
 
 use super::momentum::Balance;
 use super::{Load, Spin, limited, outside};
-use crate::error::InvalidParameters;
-use crate::spatial::Vec3;
+use sincro_geometry::spatial::Vec3;
+use sincro_math::error::InvalidParameters;
 
 /// Drag of a blade's section: c₀ + c₂ α².
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,8 +112,8 @@ impl Validity {
 /// A rotor, ready to be evaluated.
 ///
 /// ```
-/// use sincro_dynamics::aero::rotor::{Drag, Rotor, RotorSpec, Spin};
-/// use sincro_dynamics::spatial::Vec3;
+/// use sincro_aero::rotor::{Drag, Rotor, RotorSpec, Spin};
+/// use sincro_geometry::spatial::Vec3;
 ///
 /// let rotor = Rotor::new(RotorSpec {
 ///     radius: 0.2032,
@@ -164,7 +164,7 @@ impl Rotor {
     pub fn new(spec: RotorSpec) -> Result<Self, InvalidParameters> {
         let problems = problems(&spec);
         if !problems.is_empty() {
-            return Err(InvalidParameters(problems));
+            return Err(InvalidParameters::new(problems));
         }
         let solidity = f64::from(spec.n_blades) * spec.chord / (PI * spec.radius);
         let pitch = spec.collective_pitch;

@@ -60,7 +60,7 @@ impl ExactStep {
 /// The propeller; [`StockPropeller::default`] has V-REP's numbers.
 ///
 /// ```
-/// use sincro_dynamics::aero::rotor::StockPropeller;
+/// use sincro_aero::rotor::StockPropeller;
 ///
 /// let propeller = StockPropeller::default();
 /// let counts: Vec<u64> = (0..4).map(|tick| propeller.count(tick, 0.05)).collect();

@@ -5,7 +5,15 @@ use core::ops::Deref;
 
 /// Parameters that were refused: all that is wrong with them, one sentence each.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct InvalidParameters(pub(crate) Vec<String>);
+pub struct InvalidParameters(Vec<String>);
+
+impl InvalidParameters {
+    /// Error with its findings, one sentence each.
+    #[must_use]
+    pub fn new(findings: Vec<String>) -> Self {
+        Self(findings)
+    }
+}
 
 impl Deref for InvalidParameters {
     type Target = [String];

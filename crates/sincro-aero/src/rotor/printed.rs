@@ -18,8 +18,8 @@ use sincro_math::Real;
 use sincro_math::elementary::{asin, pow};
 
 use super::{Load, RotorSpec};
-use crate::error::InvalidParameters;
-use crate::spatial::{Mat3, Vec3};
+use sincro_geometry::spatial::{Mat3, Vec3};
+use sincro_math::error::InvalidParameters;
 
 /// A rotor that is computed by the script.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -33,8 +33,8 @@ use sincro_math::Real;
 use sincro_math::elementary::{atan, ln, pow, sin_cos};
 use sincro_math::random::SplitMix64;
 
-use crate::error::InvalidParameters;
-use crate::spatial::Vec3;
+use sincro_geometry::spatial::Vec3;
+use sincro_math::error::InvalidParameters;
 
 /// Mean wind over height.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,7 +135,7 @@ pub fn horizontal_speed(mean: [f64; 3]) -> f64 {
 /// The air's velocity over time and height.
 ///
 /// ```
-/// use sincro_dynamics::aero::wind::{Profile, Wind};
+/// use sincro_aero::wind::{Profile, Wind};
 ///
 /// let shear = Profile::Logarithmic { reference: 6.096, roughness: 0.0457 };
 /// let wind = Wind::new([5.0, 0.0, 0.0], shear, vec![], None).unwrap();
@@ -182,7 +182,7 @@ impl Wind {
     ) -> Result<Self, InvalidParameters> {
         let problems = problems(mean, profile, &gusts, turbulence);
         if !problems.is_empty() {
-            return Err(InvalidParameters(problems));
+            return Err(InvalidParameters::new(problems));
         }
         let turbulence = turbulence.map(|spec| Turbulence::new(&spec, mean));
         Ok(Self { mean, profile, gusts, turbulence })

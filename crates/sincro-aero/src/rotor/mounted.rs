@@ -4,9 +4,9 @@ use sincro_math::Real;
 
 use super::printed::PrintedScript;
 use super::{CoefficientTable, ConstantCoefficients, Load, Rotor, Spin, StockPropeller, Validity};
-use crate::aero::drag::velocity_in_air;
-use crate::aero::wind::Air;
-use crate::spatial::{Force, Motion, Pose, Vec3};
+use crate::drag::velocity_in_air;
+use crate::wind::Air;
+use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
 
 /// Aerodynamic law of a rotor: thrust and torque from speed and motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl RotorLaw {
 
 /// Source of a rotor's speed [rad/s].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SpeedFrom<R> {
+pub enum SpeedSource<R> {
     /// It is this command.
     Command(usize),
     /// It follows a command with a first-order lag, Ω' = (command − Ω)/τ.
@@ -68,7 +68,7 @@ pub enum SpeedFrom<R> {
     },
 }
 
-impl<R: Real> SpeedFrom<R> {
+impl<R: Real> SpeedSource<R> {
     /// Speed of the rotor `[rad/s]` for velocities `v` (n_v), commands and states of rotors.
     #[inline(always)]
     pub fn value(&self, v: &[R], commands: &[R], rotors: &[R]) -> R {
@@ -113,16 +113,19 @@ impl<R: Real> SpeedFrom<R> {
         }
     }
 
-    /// Time constant and initial speed of a lag.
-    pub(crate) fn lag(&self) -> Option<(R, R)> {
+    /// Time constant `[s]` and initial speed `[rad/s]` of a lag.
+    #[must_use]
+    pub fn lag(&self) -> Option<(R, R)> {
         match *self {
             Self::Lag { time_constant, initial, .. } => Some((time_constant, initial)),
             _ => None,
         }
     }
 
-    /// Without its numbers: what the worlds of a batch share.
-    pub(crate) fn structure(&self) -> (Option<usize>, Option<usize>, Option<(usize, u64)>) {
+    /// Structure without numbers, which the worlds of a batch share: index of the command, index of the state, and
+    /// degree of freedom with the bits of its sign.
+    #[must_use]
+    pub fn structure(&self) -> (Option<usize>, Option<usize>, Option<(usize, u64)>) {
         let joint = match *self {
             Self::Joint { dof, sign } => Some((dof, sign.to_bits())),
             _ => None,
@@ -131,7 +134,7 @@ impl<R: Real> SpeedFrom<R> {
     }
 
     /// Counts the command from `by` on.
-    pub(crate) fn shift_command(&mut self, by: usize) {
+    pub fn shift_command(&mut self, by: usize) {
         match self {
             Self::Command(command) | Self::Particles { command, .. } | Self::Lag { command, .. } => *command += by,
             Self::Joint { .. } => {}
@@ -160,7 +163,7 @@ pub struct MountedRotor<R> {
     /// Its law.
     pub law: RotorLaw,
     /// Source of its speed.
-    pub speed: SpeedFrom<R>,
+    pub speed: SpeedSource<R>,
     /// Density of the air [kg/m³].
     pub density: f64,
     /// Moment of inertia of the turning part about its axis [kg·m²]: that of the gyroscopic moment alone, the airframe

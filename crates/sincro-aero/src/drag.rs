@@ -18,8 +18,8 @@
 
 use sincro_math::Real;
 
-use crate::aero::wind::Air;
-use crate::spatial::{Force, Motion, Pose, Vec3};
+use crate::wind::Air;
+use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
 
 /// A drag element on a link.
 #[derive(Clone, Debug)]

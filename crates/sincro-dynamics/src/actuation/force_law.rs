@@ -1,0 +1,304 @@
+//! Force law of a spring and damper over a deflection x and its rate ẋ: F = preload − k x − c ẋ + N(x, ẋ).
+//!
+//! A positive force acts towards larger x. N is a table over x or a formula of x and ẋ. The elastic part F(x, 0) is
+//! conservative, U(x) = −∫₀ˣ F(s, 0) ds; the rest, F(x, ẋ) − F(x, 0), is dissipated.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | x, ẋ | deflection, its rate | m, m/s or rad, rad/s |
+//! | k, c | stiffness, damping | N/m, N·s/m or N·m/rad, N·m·s/rad |
+//! | F, U | force or torque, potential energy | N or N·m, J |
+
+use std::sync::Arc;
+
+use sincro_math::Real;
+use sincro_math::dual::Dual;
+use sincro_math::error::InvalidParameters;
+use sincro_math::expression::Expression;
+
+/// Names that the formula of a force law may use: deflection and rate.
+pub const FORMULA_NAMES: [&str; 2] = ["x", "v"];
+
+/// Largest number of intermediate values of a formula: its stack stands in the function that evaluates it.
+const MAX_STACK: usize = 16;
+
+/// Largest number of bisections of an interval of quadrature.
+const MAX_BISECTIONS: u32 = 12;
+
+/// Force law of a spring and damper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForceLaw<R> {
+    /// Stiffness k.
+    pub stiffness: R,
+    /// Damping coefficient c.
+    pub damping: R,
+    /// Force at zero deflection and rate.
+    pub preload: R,
+    /// Nonlinear part N, added to the linear one.
+    pub nonlinear: Option<Arc<NonlinearLaw>>,
+}
+
+/// Nonlinear part of a force law.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NonlinearLaw {
+    /// Force over the deflection.
+    Table(ForceTable),
+    /// Force as a formula of deflection and rate ([`FORMULA_NAMES`]).
+    Formula(Expression),
+}
+
+impl NonlinearLaw {
+    /// Law from a formula.
+    ///
+    /// # Errors
+    ///
+    /// A formula that is nested too deeply.
+    ///
+    /// # Panics
+    ///
+    /// If the formula was read with other names than [`FORMULA_NAMES`].
+    pub fn formula(formula: Expression) -> Result<Self, InvalidParameters> {
+        if formula.stack_depth() > MAX_STACK {
+            let message = format!(
+                "the formula needs {} intermediate values at once, more than {MAX_STACK}: give names to its parts, or a table",
+                formula.stack_depth()
+            );
+            return Err(InvalidParameters::new(vec![message]));
+        }
+        assert!(!(2..8).any(|slot| formula.uses(slot)), "the formula has names beside x and v");
+        Ok(Self::Formula(formula))
+    }
+
+    /// N(x, ẋ).
+    #[inline]
+    pub fn force<R: Real>(&self, x: R, v: R) -> R {
+        match self {
+            Self::Table(table) => x.map(|x| table.value(x)),
+            Self::Formula(formula) => formula.eval_in(&[x, v], &mut [R::zero(); MAX_STACK]),
+        }
+    }
+
+    /// −∫₀ˣ N(s, 0) ds `[J]`.
+    pub fn potential<R: Real>(&self, x: R) -> R {
+        let of = |x: f64| match self {
+            Self::Table(table) => table.integral(0.0) - table.integral(x),
+            Self::Formula(_) => -integrate(&|s| self.force(s, 0.0), 0.0, x),
+        };
+        x.map(|x| (of(x), -self.force(x, 0.0)))
+    }
+
+    /// −∂N/∂x and −∂N/∂ẋ, without derivatives of their own.
+    #[inline]
+    pub(crate) fn negated_partials<R: Real>(&self, x: R, v: R) -> (R, R) {
+        let partial = |i: usize| {
+            R::from_lanes(|l| {
+                let at = [Dual::<2>::variable(x.lane(l), 0), Dual::<2>::variable(v.lane(l), 1)];
+                -self.force(at[0], at[1]).partials[i]
+            })
+        };
+        (partial(0), partial(1))
+    }
+}
+
+/// Force over the deflection, linear between given points and continued beyond the first and the last.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForceTable {
+    deflections: Vec<f64>,
+    forces: Vec<f64>,
+    /// ∫ of the force from the first deflection to each `[J]`.
+    integrals: Vec<f64>,
+}
+
+impl ForceTable {
+    /// Table of points (deflection `[m]` or `[rad]`, force `[N]` or torque [N·m]).
+    ///
+    /// # Errors
+    ///
+    /// Fewer than two points, numbers that are not finite, deflections that do not increase.
+    pub fn new(points: &[[f64; 2]]) -> Result<Self, InvalidParameters> {
+        let mut problems = Vec::new();
+        if points.len() < 2 {
+            problems.push(format!("a table needs two points or more, not {}", points.len()));
+        }
+        if let Some(k) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+            problems.push(format!("point {} of the table, {:?}, is not finite", k + 1, points[k]));
+        } else if let Some(k) = points.windows(2).position(|p| p[1][0] <= p[0][0]) {
+            problems.push(format!(
+                "the deflections of a table increase: {} is followed by {}",
+                points[k][0],
+                points[k + 1][0]
+            ));
+        }
+        if !problems.is_empty() {
+            return Err(InvalidParameters::new(problems));
+        }
+        let mut integrals = vec![0.0];
+        for p in points.windows(2) {
+            integrals.push(integrals[integrals.len() - 1] + 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0]));
+        }
+        Ok(Self {
+            deflections: points.iter().map(|p| p[0]).collect(),
+            forces: points.iter().map(|p| p[1]).collect(),
+            integrals,
+        })
+    }
+
+    /// Interval that a deflection is in, the first and the last one continued, and the slope there.
+    fn interval(&self, x: f64) -> (usize, f64) {
+        let k = self.deflections.partition_point(|d| *d <= x).clamp(1, self.deflections.len() - 1) - 1;
+        (k, (self.forces[k + 1] - self.forces[k]) / (self.deflections[k + 1] - self.deflections[k]))
+    }
+
+    /// Force and its slope.
+    fn value(&self, x: f64) -> (f64, f64) {
+        let (k, slope) = self.interval(x);
+        (self.forces[k] + slope * (x - self.deflections[k]), slope)
+    }
+
+    /// ∫ of the force from the first deflection.
+    fn integral(&self, x: f64) -> f64 {
+        let (k, slope) = self.interval(x);
+        let d = x - self.deflections[k];
+        self.integrals[k] + (self.forces[k] + 0.5 * slope * d) * d
+    }
+}
+
+impl<R: Real> ForceLaw<R> {
+    /// F(x, ẋ).
+    #[inline(always)]
+    pub fn force(&self, x: R, v: R) -> R {
+        let linear = self.preload - self.stiffness * x - self.damping * v;
+        match &self.nonlinear {
+            None => linear,
+            Some(law) => linear + law.force(x, v),
+        }
+    }
+
+    /// U(x) `[J]`, zero at x = 0.
+    pub fn potential(&self, x: R) -> R {
+        let linear = (R::splat(0.5) * self.stiffness * x - self.preload) * x;
+        match &self.nonlinear {
+            None => linear,
+            Some(law) => linear + law.potential(x),
+        }
+    }
+
+    /// −∂F/∂x and −∂F/∂ẋ, negative ones taken as zero: what a linearly implicit step evaluates at the new state. They
+    /// carry no derivatives themselves.
+    #[inline(always)]
+    pub fn implicit_terms(&self, x: R, v: R) -> (R, R) {
+        let (mut k, mut c) = (self.stiffness, self.damping);
+        if let Some(law) = &self.nonlinear {
+            let (of_x, of_v) = law.negated_partials(x, v);
+            k += of_x;
+            c += of_v;
+        }
+        (k.max(R::zero()), c.max(R::zero()))
+    }
+}
+
+/// Nodes and weights of the Gauss–Legendre rule of seven points on [−1, 1], by symmetry.
+const GAUSS: [(f64, f64); 4] = [
+    (0.0, 0.417_959_183_673_469_4),
+    (0.405_845_151_377_397_2, 0.381_830_050_505_118_94),
+    (0.741_531_185_599_394_4, 0.279_705_391_489_276_7),
+    (0.949_107_912_342_758_5, 0.129_484_966_168_869_7),
+];
+
+/// ∫ f from `a` to `b` by the Gauss–Legendre rule of seven points, and ∫ |f|.
+fn gauss(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let (mut sum, mut size) = (0.0, 0.0);
+    for (k, (node, weight)) in GAUSS.into_iter().enumerate() {
+        for side in [1.0, -1.0].into_iter().take(if k == 0 { 1 } else { 2 }) {
+            let y = f(middle + side * half * node);
+            sum += weight * y;
+            size += weight * y.abs();
+        }
+    }
+    (sum * half, size * half.abs())
+}
+
+/// ∫ f from `a` to `b`, bisected where the rule of seven points is not exact to rounding.
+pub(crate) fn integrate(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+    let (whole, size) = gauss(f, a, b);
+    refine(f, (a, b), whole, 1e-14 * size, MAX_BISECTIONS)
+}
+
+fn refine(f: &impl Fn(f64) -> f64, (a, b): (f64, f64), whole: f64, tolerance: f64, left: u32) -> f64 {
+    let middle = 0.5 * (a + b);
+    let (one, two) = (gauss(f, a, middle).0, gauss(f, middle, b).0);
+    // not a number: no use in going on
+    if left == 0 || !((one + two - whole).abs() > tolerance) {
+        return one + two;
+    }
+    refine(f, (a, middle), one, tolerance, left - 1) + refine(f, (middle, b), two, tolerance, left - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn formula(text: &str) -> ForceLaw<f64> {
+        let formula = Expression::parse(text, &FORMULA_NAMES).unwrap();
+        let nonlinear = Some(Arc::new(NonlinearLaw::formula(formula).unwrap()));
+        ForceLaw { stiffness: 3.0, damping: 0.5, preload: 2.0, nonlinear }
+    }
+
+    #[test]
+    fn the_potential_of_a_formula_is_its_integral() {
+        // −∫ (2 − 3 s − 10 |s| s) ds = −2 x + 3/2 x² + 10/3 |x|³
+        let law = formula("-10*abs(x)*x - 5*v");
+        for x in [-1.3, -0.2, 0.0, 0.7, 2.4] {
+            let exact = -2.0 * x + 1.5 * x * x + 10.0 / 3.0 * f64::abs(x * x * x);
+            assert!((law.potential(x) - exact).abs() < 1e-13 * (1.0 + exact.abs()), "{x}");
+        }
+        let law = formula("sin(3*x)");
+        let exact = -2.0 * 1.7 + 1.5 * 1.7 * 1.7 - (1.0 - libm::cos(5.1)) / 3.0;
+        assert!((law.potential(1.7) - exact).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_table_is_linear_between_its_points_and_beyond() {
+        let table = ForceTable::new(&[[-1.0, 4.0], [0.0, 0.0], [2.0, -6.0]]).unwrap();
+        let nonlinear = Some(Arc::new(NonlinearLaw::Table(table)));
+        let law = ForceLaw { stiffness: 0.0, damping: 0.0, preload: 0.0, nonlinear };
+        for (x, force) in [(-2.0, 8.0), (-0.5, 2.0), (1.0, -3.0), (3.0, -9.0)] {
+            assert_eq!(law.force(x, 7.0), force);
+        }
+        // ½·4·x² on the left, ½·3·x² on the right
+        for (x, energy) in [(-2.0, 8.0), (-0.5, 0.5), (1.0, 1.5), (3.0, 13.5)] {
+            assert!((law.potential(x) - energy).abs() < 1e-15, "{x}: {}", law.potential(x));
+        }
+        assert_eq!(law.implicit_terms(-0.5, 0.0), (4.0, 0.0));
+    }
+
+    #[test]
+    fn implicit_terms_are_the_negated_partial_derivatives_where_positive() {
+        let law = formula("-10*x^3 + 2*v*x");
+        let (k, c) = law.implicit_terms(0.5, 1.0);
+        assert!((k - (3.0 + 7.5 - 2.0)).abs() < 1e-15 && c == 0.0);
+    }
+
+    #[test]
+    fn derivatives_pass_through() {
+        let law = formula("-10*abs(x)*x");
+        let wide = ForceLaw {
+            stiffness: Dual::<1>::constant(3.0),
+            damping: Dual::constant(0.5),
+            preload: Dual::constant(2.0),
+            nonlinear: law.nonlinear.clone(),
+        };
+        let x = Dual::<1>::variable(0.4, 0);
+        assert!((wide.force(x, Dual::constant(0.0)).partials[0] + 3.0 + 8.0).abs() < 1e-14);
+        assert!((wide.potential(x).partials[0] + law.force(0.4, 0.0)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn tables_that_cannot_be_are_refused() {
+        let refused = |points: &[[f64; 2]]| ForceTable::new(points).unwrap_err().to_string();
+        assert!(refused(&[[0.0, 1.0]]).contains("two points"));
+        assert!(refused(&[[0.0, 1.0], [0.0, 2.0]]).contains("0 is followed by 0"));
+        assert!(refused(&[[0.0, f64::NAN], [1.0, 2.0]]).contains("point 1"));
+    }
+}
