@@ -18,7 +18,6 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[4]
@@ -229,7 +228,7 @@ def write_page(page, text):
     page.write_text(before + BEGIN + '\n\n' + text + '\n' + END + after)
 
 
-def peer_of(work):
+def find_peer():
     """The function that runs a problem in MuJoCo, and words about it; none where the package is missing."""
     try:
         import accuracy_mujoco
@@ -249,23 +248,20 @@ def main():
     shutil.rmtree(arguments.work / 'runs', ignore_errors=True)
     arguments.work.mkdir(parents=True, exist_ok=True)
     program = str(Path(arguments.sincro).resolve())
-    peer, words = peer_of(arguments.work)
+    peer, words = find_peer()
     folders = sorted(p for p in SCENES.iterdir() if (p / 'experiment.toml').is_file())
     folders = [p for p in folders if not arguments.only or p.name in arguments.only]
 
-    def one(folder):
-        try:
-            return judge(program, arguments.work / 'runs' / folder.name, folder, peer)
-        except Failure as failure:
-            return None, [str(failure)]
-
     rows, wrong = [], []
-    with ThreadPoolExecutor(1) as pool:
-        for found, complaints in pool.map(one, folders):
-            wrong += complaints
-            if found:
-                rows.append(found)
-                print(row(found), flush=True)
+    for folder in folders:
+        try:
+            found, complaints = judge(program, arguments.work / 'runs' / folder.name, folder, peer)
+        except Failure as failure:
+            wrong.append(str(failure))
+            continue
+        wrong += complaints
+        rows.append(found)
+        print(row(found), flush=True)
     for line in wrong:
         print('FAIL  ' + line)
     version = sincro(program, '--version').split()[1]

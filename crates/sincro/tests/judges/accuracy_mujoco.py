@@ -85,16 +85,18 @@ def four_bar(n):
 
 
 def bar(joint, path, inertia='0.04 0.1 0.1', pos='0 0 0', com='2 0 0', more=''):
+    # the sites that a tendon needs
+    eye, ground = (f'<site name="eye" pos="{com}"/>', '<site name="ground"/>') if more else ('', '')
+
     def run(wanted):
-        m = model(f'<body name="bar" pos="{pos}">{joint}<inertial pos="{com}" mass="1" diaginertia="{inertia}"/>{"<site name=eye pos=%r/>" % com if more else ""}</body>'.replace('name=eye', 'name="eye"').replace("'", '"')
-                  + ('<site name="ground"/>' if more else ''), '0 0 -9.80665', more)
+        m = model(f'<body name="bar" pos="{pos}">{joint}<inertial pos="{com}" mass="1" diaginertia="{inertia}"/>{eye}</body>{ground}', '0 0 -9.80665', more)
         return simulate(m, still, at(path, lambda d: d.body('bar')), wanted)
     return run
 
 
 # ---- free bodies
 
-def free_box(gravity, w, v, size=None, inertia=BOX_INERTIA, mass=10, path='/air/box', joint='/air'):
+def free_box(gravity, w, v, inertia=BOX_INERTIA, mass=10, path='/air/box', joint='/air'):
     def run(wanted):
         m = model(f'<body><freejoint/><inertial pos="0 0 0" mass="{mass}" diaginertia="{inertia}"/></body>', gravity)
 
