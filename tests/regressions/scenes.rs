@@ -15,11 +15,28 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
+/// Problems of `scenes/third-party` that are tested here: each kind once. `.ci/run` runs all of them.
+const THIRD_PARTY: [&str; 12] = [
+    "a01-pendulum",
+    "a03-andrews",
+    "a04-bricard",
+    "adams-distance",
+    "adams-revolute-skew",
+    "bicycle",
+    "coulomb-incline",
+    "gazebo-boxes-complex",
+    "hover-bemt",
+    "nasa-08-wind-shear",
+    "pinched-capsule",
+    "slider-crank-universal",
+];
+
 fn folders() -> Vec<PathBuf> {
     let entries = std::fs::read_dir(root().join("scenes")).unwrap();
     let mut folders: Vec<PathBuf> =
         entries.map(|e| e.unwrap().path()).filter(|p| p.join("experiment.toml").is_file()).collect();
     folders.sort();
+    folders.extend(THIRD_PARTY.map(|name| root().join("scenes/third-party").join(name)));
     folders
 }
 

@@ -8,8 +8,13 @@ use std::process::Command;
 type Judge = fn(&Path) -> bool;
 
 /// The judges by name.
-const JUDGES: &[(&str, Judge)] =
-    &[("campaigns", campaigns), ("error-bars", error_bars), ("import", import), ("processors", processors)];
+const JUDGES: &[(&str, Judge)] = &[
+    ("accuracy", accuracy),
+    ("campaigns", campaigns),
+    ("error-bars", error_bars),
+    ("import", import),
+    ("processors", processors),
+];
 
 /// Runs a judge; true if its bounds hold.
 pub fn run(root: &Path, name: Option<&str>) -> bool {
@@ -21,6 +26,24 @@ pub fn run(root: &Path, name: Option<&str>) -> bool {
             false
         }
     }
+}
+
+/// Runs the problems of third parties, compares them with their truths and with MuJoCo, and writes the table of
+/// `docs/accuracy.md`.
+fn accuracy(root: &Path) -> bool {
+    let work = root.join("target/judges/accuracy");
+    let venv = work.join("venv");
+    let python = venv.join("bin/python");
+    crate::runs(&mut crate::cargo(&["build", "--release", "--package", "sincro"]))
+        && crate::runs(Command::new("python3").args(["-m", "venv"]).arg(&venv))
+        && crate::runs(Command::new(&python).args(["-m", "pip", "install", "-q", "mujoco==4.0.0", "numpy"]))
+        && crate::runs(
+            Command::new(&python)
+                .arg(root.join("crates/sincro/tests/judges/accuracy.py"))
+                .args([root.join("target/release/sincro"), work])
+                .arg("--markdown")
+                .arg(root.join("docs/accuracy.md")),
+        )
 }
 
 /// Makes 10,000 runs in 1, 2 and 7 shards that are killed at random times, and compares the bytes of their tables.

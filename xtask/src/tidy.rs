@@ -245,13 +245,26 @@ fn arrows(root: &Path, found: &mut Vec<String>) {
     }
 }
 
-/// Every scene folder is whole. (The scene file may be that of another folder: who loads the experiment finds it.)
+/// Every scene folder is whole. (The scene file may be that of another folder: who loads the experiment finds it.) A
+/// folder of scene folders needs a `README.md`.
 fn scenes(root: &Path, found: &mut Vec<String>) {
     for folder in children(&root.join("scenes")).into_iter().filter(|p| p.is_dir()) {
-        for file in ["README.md", "experiment.toml"] {
-            if !folder.join(file).is_file() {
-                found.push(format!("{} has no {file}", folder.display()));
+        let nested: Vec<PathBuf> = children(&folder).into_iter().filter(|p| p.is_dir()).collect();
+        let is_group = nested.iter().any(|p| p.join("experiment.toml").is_file());
+        whole(&folder, if is_group { &["README.md"] } else { &["README.md", "experiment.toml"] }, found);
+        if is_group {
+            for scene in &nested {
+                whole(scene, &["README.md", "experiment.toml"], found);
             }
+        }
+    }
+}
+
+/// Reports the files that a folder lacks.
+fn whole(folder: &Path, files: &[&str], found: &mut Vec<String>) {
+    for file in files {
+        if !folder.join(file).is_file() {
+            found.push(format!("{} has no {file}", folder.display()));
         }
     }
 }

@@ -7,7 +7,7 @@ import pytest
 import sincro
 
 ROOT = Path(__file__).resolve().parents[3]
-SCENES = sorted(path.name for path in (ROOT / "scenes").iterdir() if path.is_dir())
+SCENES = sorted(path.name for path in (ROOT / "scenes").iterdir() if (path / "experiment.toml").is_file())
 TRACES = dict(line.split() for line in (ROOT / "tests/regressions/traces.txt").read_text().splitlines() if line.strip())
 
 

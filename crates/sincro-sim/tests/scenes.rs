@@ -6,9 +6,9 @@ use sincro_scene::overrides::Override;
 use sincro_sim::load;
 
 fn scenes() -> Vec<PathBuf> {
-    let all = sincro_testing::repository_scene("");
-    let mut found: Vec<PathBuf> = std::fs::read_dir(all)
-        .unwrap()
+    let mut found: Vec<PathBuf> = ["", "third-party"]
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(sincro_testing::repository_scene(folder)).unwrap())
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.join("experiment.toml").is_file())
         .collect();
