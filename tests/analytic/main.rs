@@ -7,6 +7,7 @@ mod loops;
 mod mechanisms;
 mod orders;
 mod power;
+mod reactions;
 mod rotors;
 mod sensors;
 mod spring_dampers;

@@ -73,7 +73,7 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     for joint in &model.names().joints {
         for k in 0..joint.n_v {
             let (i, dof) = (joint.v_idx + k, &model.dofs()[joint.v_idx + k]);
-            passive[i] = model.spring_torque(i, &q) + damper::torque(dof, v[i]);
+            passive[i] = model.spring_torque(i, &q) + model.damping_torque(i, &q, &v);
         }
     }
     Ok(EquationTerms { mass_matrix: mass, inverse_dynamics: inverse, forward_dynamics: forward, passive })

@@ -39,6 +39,10 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
             e.potential += spring::energy(dof, q[dof.q_idx as usize]);
         }
     }
+    for spring in &model.nonlinear_springs {
+        let dof = &model.dofs[spring.dof];
+        e.potential += spring.law.potential(q[dof.q_idx as usize] - dof.rest);
+    }
     for element in &model.spring_dampers {
         let line = element.line(|link| (scratch.links[link].v, scratch.poses[link]));
         e.potential += element.potential(line.length);

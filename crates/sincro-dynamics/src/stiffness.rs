@@ -63,6 +63,12 @@ pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     let held = |dof: usize| model.drives().iter().any(|d| d.dof == dof && model.drive_limit(d).is_none());
     let of_joints = model.dofs().iter().enumerate().filter(|(k, _)| !held(*k)).map(|(k, dof)| {
         let (mut stiffness, mut damping) = (dof.stiffness, dof.damping);
+        for spring in model.nonlinear_springs.iter().filter(|spring| spring.dof == k) {
+            let x = state.q[dof.q_idx as usize] - dof.rest;
+            let (of_x, of_v) = spring.law.negated_partials(x, state.v[k]);
+            stiffness += of_x.max(0.0);
+            damping += of_v.max(0.0);
+        }
         for motor in model.motors().iter().filter(|m| m.dof == k && m.mode == MotorMode::Spring) {
             stiffness += motor.stiffness;
             damping += motor.damping;

@@ -69,20 +69,34 @@ impl NonlinearLaw {
         Ok(Self::Formula(formula))
     }
 
+    /// N(x, ẋ).
     #[inline]
-    fn force<R: Real>(&self, x: R, v: R) -> R {
+    pub fn force<R: Real>(&self, x: R, v: R) -> R {
         match self {
             Self::Table(table) => x.map(|x| table.value(x)),
             Self::Formula(formula) => formula.eval_in(&[x, v], &mut [R::zero(); MAX_STACK]),
         }
     }
 
-    /// −∫₀ˣ N(s, 0) ds.
-    fn potential(&self, x: f64) -> f64 {
-        match self {
+    /// −∫₀ˣ N(s, 0) ds `[J]`.
+    pub fn potential<R: Real>(&self, x: R) -> R {
+        let of = |x: f64| match self {
             Self::Table(table) => table.integral(0.0) - table.integral(x),
             Self::Formula(_) => -integrate(&|s| self.force(s, 0.0), 0.0, x),
-        }
+        };
+        x.map(|x| (of(x), -self.force(x, 0.0)))
+    }
+
+    /// −∂N/∂x and −∂N/∂ẋ, without derivatives of their own.
+    #[inline]
+    pub(crate) fn negated_partials<R: Real>(&self, x: R, v: R) -> (R, R) {
+        let partial = |i: usize| {
+            R::from_lanes(|l| {
+                let at = [Dual::<2>::variable(x.lane(l), 0), Dual::<2>::variable(v.lane(l), 1)];
+                -self.force(at[0], at[1]).partials[i]
+            })
+        };
+        (partial(0), partial(1))
     }
 }
 
@@ -165,7 +179,7 @@ impl<R: Real> ForceLaw<R> {
         let linear = (R::splat(0.5) * self.stiffness * x - self.preload) * x;
         match &self.nonlinear {
             None => linear,
-            Some(law) => linear + x.map(|x| (law.potential(x), -law.force(x, 0.0))),
+            Some(law) => linear + law.potential(x),
         }
     }
 
@@ -175,14 +189,9 @@ impl<R: Real> ForceLaw<R> {
     pub fn implicit_terms(&self, x: R, v: R) -> (R, R) {
         let (mut k, mut c) = (self.stiffness, self.damping);
         if let Some(law) = &self.nonlinear {
-            let partial = |i: usize| {
-                R::from_lanes(|l| {
-                    let at = [Dual::<2>::variable(x.lane(l), 0), Dual::<2>::variable(v.lane(l), 1)];
-                    law.force(at[0], at[1]).partials[i]
-                })
-            };
-            k -= partial(0);
-            c -= partial(1);
+            let (of_x, of_v) = law.negated_partials(x, v);
+            k += of_x;
+            c += of_v;
         }
         (k.max(R::zero()), c.max(R::zero()))
     }

@@ -6,10 +6,43 @@
 //! has such a spring, and one along each axis of its joint frame, −kᵢ (rᵢ − restᵢ), where r is the position of its
 //! child frame.
 
+use std::sync::Arc;
+
 use sincro_math::Real;
 
+use super::force_law::NonlinearLaw;
 use crate::joint::{Dof, Link, StageKind};
 use crate::spatial::{Quat, Vec3};
+
+/// Nonlinear spring and damper of a degree of freedom with a coordinate of its own, beside its linear ones; its
+/// deflection is that of the linear spring, from the same rest position.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NonlinearSpring {
+    /// The degree of freedom.
+    pub dof: usize,
+    /// Torque [N·m] or force `[N]` over deflection and rate.
+    pub law: Arc<NonlinearLaw>,
+}
+
+impl NonlinearSpring {
+    /// Elastic and dissipating torque [N·m] or force `[N]` at the coordinate `q` and rate `v`.
+    #[inline(always)]
+    pub fn torques<R: Real>(&self, dof: &Dof<R>, q: R, v: R) -> (R, R) {
+        let x = q - dof.rest;
+        let elastic = self.law.force(x, R::zero());
+        (elastic, self.law.force(x, v) - elastic)
+    }
+
+    /// Torque known before a linearly implicit step over `steps` of dampers and springs `[s]`, and its term in the
+    /// diagonal; at no step the torque now.
+    #[inline(always)]
+    pub(crate) fn implicit_torque<R: Real>(&self, dof: &Dof<R>, q: R, v: R, steps: (R, R)) -> (R, R) {
+        let x = q - dof.rest;
+        let (k, c) = self.law.negated_partials(x, v);
+        let (k, c) = (k.max(R::zero()), c.max(R::zero()));
+        (self.law.force(x, v) - steps.1 * k * v, steps.0 * (c + steps.1 * k))
+    }
+}
 
 /// Torque [N·m] or force `[N]` at coordinate `q`.
 #[inline(always)]

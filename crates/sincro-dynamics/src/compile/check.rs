@@ -227,6 +227,7 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
     let lists = [
         ("armature", spec.armature.len()),
         ("spring", spec.spring.len()),
+        ("spring", spec.spring_law.len()),
         ("damping", spec.damping.len()),
         ("friction", spec.friction.len()),
         ("torque", spec.torque.len()),
@@ -251,6 +252,10 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
             let message = format!("spring of `{name}` (stiffness {stiffness}, rest {rest}) is negative or not finite");
             found.error(id, "spring", message, "stiffness is zero or more, the rest position finite");
         }
+    }
+    if matches!(spec.kind, JointKind::Ball | JointKind::Free) && spec.spring_law.iter().any(Option::is_some) {
+        let message = format!("the spring of `{name}` has a law: rotations in three directions have no deflection");
+        found.error(id, "spring", message, "give `stiffness` and `rest` alone");
     }
     check_motor(found, id, name, spec, n);
     if !carries_a_body(builder, id) {

@@ -7,6 +7,7 @@ mod check;
 
 use std::sync::Arc;
 
+use crate::actuation::spring::NonlinearSpring;
 use crate::actuation::spring_damper::{LineActuator, LinkPoint};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
 use crate::aero::AirDrag;
@@ -83,6 +84,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             constraints: Arc::default(),
             n_q: 0,
             sprung: Vec::new(),
+            nonlinear_springs: Vec::new(),
             names: Arc::default(),
         },
         names: Names::default(),
@@ -346,6 +348,9 @@ impl Compiler<'_> {
         entry.damping = at(&spec.damping);
         entry.friction = spec.friction.get(k).copied().unwrap_or(Friction::none());
         (entry.stiffness, entry.rest) = spec.spring.get(k).copied().unwrap_or((0.0, 0.0));
+        if let Some(Some(law)) = spec.spring_law.get(k) {
+            self.model.nonlinear_springs.push(NonlinearSpring { dof, law: Arc::clone(law) });
+        }
         match spec.torque.get(k) {
             None => {}
             Some(signal) => match signal.constant() {

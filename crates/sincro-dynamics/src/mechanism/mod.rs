@@ -16,6 +16,7 @@ pub(crate) mod drive_monitor;
 mod kinks;
 mod lines;
 mod loop_rank;
+mod reaction;
 mod singular;
 mod torques;
 
@@ -423,6 +424,11 @@ impl<R: Real> Mechanism<R> {
         for (k, dof) in self.model.dofs.iter().enumerate() {
             work += dof.torque * v[k];
             dissipation += damper::dissipation(dof, v[k]);
+        }
+        for spring in &self.model.nonlinear_springs {
+            let dof = &self.model.dofs[spring.dof];
+            let v = v[spring.dof];
+            dissipation -= spring.torques(dof, self.q[dof.q_idx as usize], v).1 * v;
         }
         for applied in &self.model.applied {
             work += applied.torque::<R>(t) * v[applied.dof];

@@ -40,6 +40,12 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
         let k = model.links[link].v_idx as usize;
         spring::add_torques(&model.links[link], &model.dofs[k..], (at.q, &at.v[k..]), steps.1, &mut torque[k..]);
     }
+    for spring in &model.nonlinear_springs {
+        let (k, dof) = (spring.dof, &model.dofs[spring.dof]);
+        let (tau, implicit) = spring.implicit_torque(dof, at.q[dof.q_idx as usize], at.v[k], steps);
+        torque[k] += tau;
+        diagonal[k] += implicit;
+    }
     for applied in &model.applied {
         torque[applied.dof] += applied.torque(at.t);
     }

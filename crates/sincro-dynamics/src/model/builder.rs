@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::LoopJointKind;
 use super::MassProperties;
-use crate::actuation::{ForceLaw, Motor};
+use crate::actuation::{ForceLaw, Motor, NonlinearLaw};
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
 use crate::contact::{Material, PairLaw, Surface};
@@ -37,6 +37,9 @@ pub struct JointSpec {
     /// components of the rotation vector of the rest orientation, then, of free ones, along the axes of the joint frame
     /// (see [`crate::actuation::spring`]).
     pub spring: Vec<(f64, f64)>,
+    /// Nonlinear laws of the springs and dampers, of the deflection from the rest position, added to the linear ones;
+    /// not of ball and free joints.
+    pub spring_law: Vec<Option<Arc<NonlinearLaw>>>,
     /// Viscous coefficient [N·m·s/rad] or [N·s/m].
     pub damping: Vec<f64>,
     /// Friction [N·m] or `[N]`.
@@ -62,6 +65,7 @@ impl JointSpec {
             kind,
             armature: Vec::new(),
             spring: Vec::new(),
+            spring_law: Vec::new(),
             damping: Vec::new(),
             friction: Vec::new(),
             torque: Vec::new(),

@@ -36,7 +36,8 @@ pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
 
 use crate::actuation::Drive;
-use crate::actuation::spring;
+use crate::actuation::damper;
+use crate::actuation::spring::{self, NonlinearSpring};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
@@ -63,6 +64,7 @@ pub struct Model<R> {
     pub(crate) n_q: usize,
     /// Links of ball and free joints with springs.
     pub(crate) sprung: Vec<usize>,
+    pub(crate) nonlinear_springs: Vec<NonlinearSpring>,
     pub(crate) names: Arc<Names>,
 }
 
@@ -254,7 +256,9 @@ impl<R: Real> Model<R> {
     #[must_use]
     pub fn spring_torque(&self, dof: usize, q: &[R]) -> R {
         if let Some(coordinate) = self.dofs[dof].coordinate() {
-            return spring::torque(&self.dofs[dof], q[coordinate]);
+            let linear = spring::torque(&self.dofs[dof], q[coordinate]);
+            let laws = self.nonlinear_springs.iter().filter(|spring| spring.dof == dof);
+            return laws.fold(linear, |sum, s| sum + s.torques(&self.dofs[dof], q[coordinate], R::zero()).0);
         }
         let (zero, mut all) = ([R::zero(); 6], [R::zero(); 6]);
         for link in self.sprung.iter().map(|&link| &self.links[link]) {
@@ -265,6 +269,21 @@ impl<R: Real> Model<R> {
             }
         }
         R::zero()
+    }
+
+    /// Torque [N·m] or force `[N]` of the damper on a degree of freedom at coordinates `q` (n_q) and velocities `v`
+    /// (n_v), with the part of a nonlinear spring that depends on the rate.
+    #[must_use]
+    pub fn damping_torque(&self, dof: usize, q: &[R], v: &[R]) -> R {
+        let linear = damper::torque(&self.dofs[dof], v[dof]);
+        let laws = self.nonlinear_springs.iter().filter(|spring| spring.dof == dof);
+        laws.fold(linear, |sum, s| sum + s.torques(&self.dofs[dof], q[self.dofs[dof].q_idx as usize], v[dof]).1)
+    }
+
+    /// Nonlinear springs and dampers of joints.
+    #[must_use]
+    pub fn nonlinear_springs(&self) -> &[NonlinearSpring] {
+        &self.nonlinear_springs
     }
 
     /// Applied torque [N·m] or force `[N]` on a degree of freedom at time `t` `[s]`.

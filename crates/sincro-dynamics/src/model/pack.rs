@@ -162,6 +162,7 @@ impl<R: Real> Model<R> {
             wind: first.wind.clone(),
             n_q: first.n_q,
             sprung: first.sprung.clone(),
+            nonlinear_springs: first.nonlinear_springs.clone(),
             names: Arc::clone(&first.names),
         })
     }
@@ -199,6 +200,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (a.wind == b.wind, "wind"),
         (a.constraints == b.constraints, "loop joints, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
+        (a.nonlinear_springs == b.nonlinear_springs, "nonlinear springs of joints"),
         (a.sprung == b.sprung, "set of ball and free joints with springs"),
     ];
     checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))

@@ -4,6 +4,7 @@ use super::{SAME_INSTANT, World};
 use crate::actuation::DriveKind;
 use crate::constraint::ContactPoint;
 use crate::energy::{Energy, energy, momentum};
+use crate::ids::JointId;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::scratch::Scratch;
@@ -64,6 +65,17 @@ impl Observation<'_> {
                 (q2 - gear.ratio * q1 - gear.offset).abs()
             }
         }
+    }
+
+    /// Wrench of the parent of a joint on its child, whatever transmits it: torque [N·m] about the origin of the joint
+    /// frame of the child and force `[N]`, axes of the joint frame of the parent. Costs a pass over what is beyond it.
+    ///
+    /// # Panics
+    ///
+    /// If the model has no such joint.
+    #[must_use]
+    pub fn joint_wrench(&self, joint: JointId) -> Force<f64> {
+        self.mechanism.joint_wrench(self.model().names().joint_info(joint))
     }
 
     /// Torque [N·m] or force `[N]` of the joint limits on a degree of freedom.

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::aero::rotor::RotorLaw;
+use sincro_dynamics::ids::JointId;
 use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
@@ -43,6 +44,11 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     let mut list = List(Vec::new());
     for joint in &model.names().joints {
         joint_signals(&mut list, joint, model);
+    }
+    for (k, joint) in model.names().joints.iter().enumerate().filter(|(_, joint)| joint.kind != JointKind::Fixed) {
+        let (name, id) = (&joint.name, JointId::new(k));
+        list.vector(&format!("{name}.reaction_force"), &XYZ, "N", |c| Probe::JointReaction(id, 3 + c));
+        list.vector(&format!("{name}.reaction_torque"), &XYZ, "N·m", |c| Probe::JointReaction(id, c));
     }
     for (i, frame) in model.names().frames.iter().enumerate() {
         frame_signals(&mut list, &frame.name, i, frame.body.is_some());

@@ -14,6 +14,7 @@ pub use reference::signal_reference;
 
 use sincro_dynamics::coupled::MechanismResponse;
 use sincro_dynamics::energy::Energy;
+use sincro_dynamics::ids::JointId;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::Observation;
 
@@ -65,6 +66,8 @@ pub enum Probe {
     LimitTorque(usize),
     /// Constraint residual of a closure.
     Opening(usize),
+    /// Component 0–2 of the torque, 3–5 of the force of the parent of a joint on its child.
+    JointReaction(JointId, usize),
     /// Constraint force of a degree of freedom of a force sensor.
     Reaction(usize),
     /// Value of a sensor, as it was last sampled.
@@ -259,6 +262,10 @@ impl Recorder {
             Probe::LimitTorque(k) => seen.limit_torque(k),
             Probe::Contact(quantity, frame, k) => contact::read(seen.model(), seen.contacts(), quantity, frame, k),
             Probe::Opening(k) => seen.residual(k),
+            Probe::JointReaction(joint, k) => {
+                let wrench = seen.joint_wrench(joint);
+                if k < 3 { wrench.ang[k] } else { wrench.lin[k - 3] }
+            }
             Probe::Reaction(k) => seen.scratch().reaction()[k],
             probe => {
                 let view = View::observed(seen, t);

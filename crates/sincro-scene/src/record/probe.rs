@@ -1,7 +1,6 @@
 //! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is
 //! linearised.
 
-use sincro_dynamics::actuation::damper;
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
 use sincro_dynamics::coupled::{MechanismResponse, StateView};
 use sincro_dynamics::energy::{energy, momentum};
@@ -71,7 +70,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Coordinate(i) => at.q[i],
         Probe::Rate(k) => at.v[k],
         Probe::SpringTorque(k) => model.spring_torque(k, at.q),
-        Probe::DampingTorque(k) => damper::torque(&model.dofs()[k], at.v[k]),
+        Probe::DampingTorque(k) => model.damping_torque(k, at.q, at.v),
         Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
         Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),
         Probe::Energy(EnergyQuantity::Kinetic) => energy(model, at.q, at.v, at.scratch).kinetic,

@@ -141,8 +141,12 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Command(_) => "command as it was latched, held until the next one",
         Probe::MotorTorqueMean(_) => "mean torque of the motor over the step that ends at this row, impulses included",
         Probe::MotorTorqueNow(_) => "smooth torque of the motor at this instant",
-        Probe::SpringTorque(_) => "torque of the spring on the joint: −stiffness·(q − rest)",
-        Probe::DampingTorque(_) => "torque of the damper on the joint: −damping·q̇",
+        Probe::SpringTorque(_) => {
+            "torque of the spring on the joint: −stiffness·(q − rest), with the elastic part of its law"
+        }
+        Probe::DampingTorque(_) => {
+            "torque of the damper on the joint: −damping·q̇, with the part of a law that depends on the rate"
+        }
         Probe::FrictionTorque(_) => "torque of Coulomb friction on the joint",
         Probe::AppliedTorque(_) => "torque that the signal `torque` applies",
         Probe::Frame(F::Position, ..) => "origin of the frame in the world",
@@ -181,6 +185,12 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Contact(C::Count, ..) => "number of points that press",
         Probe::LimitTorque(_) => "torque of the stops on the joint",
         Probe::Opening(_) => "residual of the constraint: zero where it is closed",
+        Probe::JointReaction(_, 0..3) => {
+            "torque of the parent on the child through the joint, motor and springs included, about the origin of the child's joint frame, axes of the parent's"
+        }
+        Probe::JointReaction(..) => {
+            "force of the parent on the child through the joint, axes of the parent's joint frame"
+        }
         Probe::Reaction(_) => "force and torque of the parent on what hangs on the cell, in its axes",
         Probe::Sensor(_) | Probe::Signal(_) | Probe::FloatSignal(_) => "value of a sensor, a diagram or a script",
     }

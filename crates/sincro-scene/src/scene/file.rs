@@ -446,13 +446,25 @@ pub(crate) struct StribeckFile {
 /// A linear spring.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("not" = {"required": ["law", "table"]}))]
 pub(crate) struct SpringFile {
-    /// Torque a radian, or force a metre [N·m/rad] or [N/m].
+    /// Torque a radian, or force a metre; default 0 with a `law` or a `table` [N·m/rad] or [N/m].
     #[schemars(range(min = 0.0))]
-    pub stiffness: f64,
+    pub stiffness: Option<f64>,
     /// Coordinate without torque [rad] or [m].
     #[serde(default)]
     pub rest: f64,
+    /// Formula of x = q − rest and v = q̇ for a torque that is added [N·m] or [N].
+    pub law: Option<String>,
+    /// Points (x, torque) of a torque that is added, linear between them and beyond: rad and N·m, or m and N.
+    pub table: Option<Vec<[f64; 2]>>,
+}
+
+impl SpringFile {
+    /// Returns true if it has a stiffness or a law.
+    pub fn has_force(&self) -> bool {
+        self.stiffness.is_some() || self.law.is_some() || self.table.is_some()
+    }
 }
 
 /// A motor.

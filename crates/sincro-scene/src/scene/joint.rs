@@ -7,6 +7,7 @@ use sincro_dynamics::signal::Signal;
 
 use super::file::{FrictionFile, JointFile, JointKindFile, MotorFile, MotorModeFile, OneOrList, StribeckFile};
 use super::signal_file::SignalReader;
+use super::spring_damper::nonlinear;
 use crate::diagnostic::Diagnostic;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
@@ -21,7 +22,24 @@ pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'
     let frictions = file.friction.as_ref().map(OneOrList::as_slice).unwrap_or_default();
     spec.friction = frictions.iter().map(friction).collect();
     let springs = file.spring.as_ref().map(OneOrList::as_slice).unwrap_or_default();
-    spec.spring = springs.iter().map(|s| (s.stiffness, s.rest)).collect();
+    spec.spring = springs.iter().map(|s| (s.stiffness.unwrap_or(0.0), s.rest)).collect();
+    for (k, _) in springs.iter().enumerate().filter(|(_, s)| !s.has_force()) {
+        let written = format!("{pointer}/spring/{k}");
+        let at = if signals.document.get(&written).is_some() { written } else { format!("{pointer}/spring") };
+        let diagnostic = Diagnostic::error(&signals.document.at(&at), "`stiffness` is missing in `spring`");
+        let help =
+            format!("give `stiffness` [N·m/rad] or [N/m] to the spring of `{}`, or a `law` or `table`", file.name);
+        signals.diagnostics.push(diagnostic.with_help(help));
+    }
+    if springs.iter().any(|s| s.law.is_some() || s.table.is_some()) {
+        let is_list = matches!(file.spring, Some(OneOrList::List(_)));
+        let of = format!("the spring of `{}`", file.name);
+        for (k, spring) in springs.iter().enumerate() {
+            let pointer = if is_list { format!("{pointer}/spring/{k}") } else { format!("{pointer}/spring") };
+            let (law, table) = (spring.law.as_deref(), spring.table.as_deref());
+            spec.spring_law.push(nonlinear(law, table, &of, &pointer, signals).flatten());
+        }
+    }
     spec.sensor = file.force_sensor;
     if file.force_sensor && file.kind != JointKindFile::Fixed {
         let word = kind_word(file.kind);
