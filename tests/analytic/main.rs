@@ -3,6 +3,7 @@
 mod air;
 mod contacts;
 mod drives;
+mod loop_kinds;
 mod loops;
 mod mechanisms;
 mod orders;

@@ -43,7 +43,7 @@ fn pendulum(kinds: &[JointSpec], place: [f64; 3], turn: [f64; 3], com: [f64; 3],
 struct Seen {
     com: Vec3<f64>,
     angular_velocity: Vec3<f64>,
-    /// Of the child on the joint, world axes.
+    /// Force of the child on the joint, world axes.
     reaction: Vec3<f64>,
 }
 

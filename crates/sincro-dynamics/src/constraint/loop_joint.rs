@@ -5,6 +5,10 @@
 //! | point | xₐ·(pₐ − p_b), yₐ·(pₐ − p_b), zₐ·(pₐ − p_b) | 3 |
 //! | hinge | the point's, and xₐ·z_b, yₐ·z_b | 5 |
 //! | weld | the point's, and xₐ·y_b, yₐ·z_b, zₐ·x_b | 6 |
+//! | slider | xₐ·(pₐ − p_b), yₐ·(pₐ − p_b), and the weld's last three | 5 |
+//! | cylindrical | xₐ·(pₐ − p_b), yₐ·(pₐ − p_b), and xₐ·z_b, yₐ·z_b | 4 |
+//! | universal | the point's, and zₐ·z_b | 4 |
+//! | planar | zₐ·(pₐ − p_b), and xₐ·z_b, yₐ·z_b | 3 |
 //! | distance | \|pₐ − p_b\| − length | 1 |
 //! | gear (in `mod.rs`) | q₂ − ratio·q₁ − offset | 1 |
 //!
@@ -36,6 +40,33 @@ fn end<R: Real>(anchor: &Anchor, scratch: &Scratch<R>, motions: &Motions<R>) -> 
     End { link: anchor.link, p_dot: motions.velocity_of(anchor.link, pose.pos), pose, w }
 }
 
+impl LoopJointKind {
+    /// Axes of the first end along which the origins coincide.
+    fn closed_axes(self) -> core::ops::Range<usize> {
+        match self {
+            Self::Point | Self::Hinge | Self::Weld | Self::Universal => 0..3,
+            Self::Slider | Self::Cylindrical => 0..2,
+            Self::Planar => 2..3,
+            Self::Distance(_) => 0..0,
+        }
+    }
+
+    /// Number of rows of translations, which come first.
+    pub(crate) fn n_translations(self) -> usize {
+        if matches!(self, Self::Distance(_)) { 1 } else { self.closed_axes().len() }
+    }
+
+    /// Pairs of axes, of the first and of the second end, that are kept perpendicular.
+    fn perpendicular_axes(self) -> &'static [(usize, usize)] {
+        match self {
+            Self::Hinge | Self::Cylindrical | Self::Planar => &[(0, 2), (1, 2)],
+            Self::Weld | Self::Slider => &[(0, 1), (1, 2), (2, 0)],
+            Self::Universal => &[(2, 2)],
+            Self::Point | Self::Distance(_) => &[],
+        }
+    }
+}
+
 impl LoopJoint {
     /// Appends rows and residuals at the poses of `scratch` and the twists of `motions`.
     pub(crate) fn rows<R: Real>(
@@ -56,19 +87,14 @@ impl LoopJoint {
             residual.push(size - R::splat(length));
             return;
         }
-        for k in 0..3 {
+        for k in self.kind.closed_axes() {
             // e fixed in a: d/dt e·(p_a − p_b) is the velocity of p_b, as a point of a, against that of b
             let e = a.pose.rot.col(k);
             let w = force_rate(b.pose.pos, e, b.p_dot, a.w.cross(e));
             rows.push(Row::between(a.link, b.link, force_at(b.pose.pos, e), w));
             residual.push(e.dot(a.pose.pos - b.pose.pos));
         }
-        let pairs: &[(usize, usize)] = match self.kind {
-            LoopJointKind::Hinge => &[(0, 2), (1, 2)],
-            LoopJointKind::Weld => &[(0, 1), (1, 2), (2, 0)],
-            _ => &[],
-        };
-        for &(i, j) in pairs {
+        for &(i, j) in self.kind.perpendicular_axes() {
             // d/dt (u_a·w_b) = (ω_a − ω_b)·(u × w)
             let (u, w) = (a.pose.rot.col(i), b.pose.rot.col(j));
             let (u_dot, w_dot) = (a.w.cross(u), b.w.cross(w));
@@ -104,16 +130,19 @@ impl LoopJoint {
             if x.link == WORLD { x.pose } else { scratch.poses[x.link as usize].compose(&x.pose) }
         };
         let (a, b) = (pose(&self.a), pose(&self.b));
-        let distance = (a.pos - b.pos).norm();
+        let apart = a.rot.tr_mul_vec(a.pos - b.pos);
+        let closed = self.kind.closed_axes();
+        let distance = Vec3(core::array::from_fn(|k| if closed.contains(&k) { apart[k] } else { 0.0 })).norm();
         let angle = |k: usize| {
             let (u, w) = (a.rot.col(k), b.rot.col(k));
             sincro_math::elementary::atan2(u.cross(w).norm(), u.dot(w)).0
         };
         match self.kind {
-            LoopJointKind::Distance(length) => ((distance - length).abs(), 0.0),
+            LoopJointKind::Distance(length) => (((a.pos - b.pos).norm() - length).abs(), 0.0),
             LoopJointKind::Point => (distance, 0.0),
-            LoopJointKind::Hinge => (distance, angle(2)),
-            LoopJointKind::Weld => (distance, angle(0).max(angle(1)).max(angle(2))),
+            LoopJointKind::Universal => (distance, (angle(2) - core::f64::consts::FRAC_PI_2).abs()),
+            LoopJointKind::Hinge | LoopJointKind::Cylindrical | LoopJointKind::Planar => (distance, angle(2)),
+            LoopJointKind::Weld | LoopJointKind::Slider => (distance, angle(0).max(angle(1)).max(angle(2))),
         }
     }
 }

@@ -81,7 +81,7 @@ impl Constraints<f64> {
             };
             let (translation, rotation) = (square(0..6), square(6..12));
             for k in 0..joint.kind.rows() {
-                sizes.push(if k < 3 { translation } else { rotation });
+                sizes.push(if k < joint.kind.n_translations() { translation } else { rotation });
             }
         }
         let first = sizes.len();

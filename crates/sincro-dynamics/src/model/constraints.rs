@@ -29,6 +29,14 @@ pub enum LoopJointKind {
     Hinge,
     /// Coincident frames (a fixed joint).
     Weld,
+    /// Common z axis, along which the ends slide without turning against each other (a prismatic joint).
+    Slider,
+    /// Common z axis, along which the ends slide and about which they turn.
+    Cylindrical,
+    /// Coincident origins and perpendicular z axes: a cross with one arm along the z axis of each end.
+    Universal,
+    /// Common plane through both origins, perpendicular to the z axes of both ends.
+    Planar,
     /// Constant distance of the origins `[m]`.
     Distance(f64),
 }
@@ -38,8 +46,9 @@ impl LoopJointKind {
     #[must_use]
     pub fn rows(self) -> usize {
         match self {
-            Self::Point => 3,
-            Self::Hinge => 5,
+            Self::Point | Self::Planar => 3,
+            Self::Cylindrical | Self::Universal => 4,
+            Self::Hinge | Self::Slider => 5,
             Self::Weld => 6,
             Self::Distance(_) => 1,
         }

@@ -67,8 +67,8 @@ impl Observation<'_> {
         }
     }
 
-    /// Wrench of the parent of a joint on its child, whatever transmits it: torque about the origin of the joint frame of
-    /// the child [N·m], force `[N]`; axes of the joint frame of the parent. Costs a pass over the links beyond the joint.
+    /// Wrench of the parent of a joint on its child, whatever transmits it: torque [N·m] about the origin of the joint
+    /// frame of the child and force `[N]`, axes of the joint frame of the parent. Costs a pass over what is beyond it.
     ///
     /// # Panics
     ///

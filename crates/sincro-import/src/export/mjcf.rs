@@ -207,10 +207,7 @@ fn equality(out: &mut String, tree: &mut Tree<'_>) {
             (LoopJointKind::Point, Some(a), Some(b)) => format!("<connect site1=\"{a}\" site2=\"{b}\"/>"),
             (LoopJointKind::Weld, Some(a), Some(b)) => format!("<weld site1=\"{a}\" site2=\"{b}\"/>"),
             _ => {
-                tree.note(
-                    &closure.name,
-                    "MJCF has no hinges and distances that close loops, and its loops join frames",
-                );
+                tree.note(&closure.name, "MJCF closes loops by points and welds of frames only");
                 continue;
             }
         };

@@ -193,28 +193,47 @@ impl Joiner<'_> {
                 format!("closure `{}`: `length` belongs to the kind `distance`, and is needed there", file.name);
             self.diagnostics.push(Diagnostic::error(&at, message).with_help("give `length` [m] for `distance` only"));
         }
-        if file.axis.is_some() && file.kind != ClosureKindFile::Hinge {
-            let at = self.document.key_at(&format!("{pointer}/axis"));
-            let diagnostic =
-                Diagnostic::error(&at, format!("closure `{}`: `axis` belongs to the kind `hinge`", file.name));
-            self.diagnostics.push(diagnostic.with_help("leave it out"));
-        }
-        let axis = Vec3(file.axis.unwrap_or([0.0, 0.0, 1.0]));
-        if axis.norm() < 1e-12 || !axis.norm().is_finite() {
-            let at = self.document.at(&format!("{pointer}/axis"));
-            let diagnostic =
-                Diagnostic::error(&at, format!("axis {:?} of closure `{}` has no direction", axis.0, file.name));
-            self.diagnostics.push(diagnostic.with_help("give three finite numbers, not all zero"));
-            return None;
-        }
+        let axes = self.closure_axes(file, pointer)?;
         let kind = match file.kind {
             ClosureKindFile::Point => LoopJointKind::Point,
             ClosureKindFile::Hinge => LoopJointKind::Hinge,
             ClosureKindFile::Weld => LoopJointKind::Weld,
+            ClosureKindFile::Slider => LoopJointKind::Slider,
+            ClosureKindFile::Cylindrical => LoopJointKind::Cylindrical,
+            ClosureKindFile::Universal => LoopJointKind::Universal,
+            ClosureKindFile::Planar => LoopJointKind::Planar,
             ClosureKindFile::Distance => LoopJointKind::Distance(length?),
         };
-        let pose = Pose { rot: with_z_along(axis), pos: Vec3::zero() };
-        Some(LoopJointSpec { kind, ends: ends?, poses: [pose, pose] })
+        let poses = axes.map(|axis| Pose { rot: with_z_along(axis), pos: Vec3::zero() });
+        Some(LoopJointSpec { kind, ends: ends?, poses })
+    }
+
+    /// Axes of a closure in its two frames; notes keys that its kind has not, and axes without direction.
+    fn closure_axes(&mut self, file: &ClosureFile, pointer: &str) -> Option<[Vec3<f64>; 2]> {
+        use ClosureKindFile as K;
+        let is_universal = file.kind == K::Universal;
+        let has_axis = matches!(file.kind, K::Hinge | K::Slider | K::Cylindrical | K::Planar) || is_universal;
+        let keys = [
+            ("axis", file.axis, has_axis, "`hinge`, `slider`, `cylindrical`, `planar` and `universal`"),
+            ("axis2", file.axis2, is_universal, "`universal`"),
+        ];
+        for (key, _, _, kinds) in keys.iter().filter(|(_, axis, fits, _)| axis.is_some() && !fits) {
+            let at = self.document.key_at(&format!("{pointer}/{key}"));
+            let message = format!("closure `{}`: `{key}` belongs to {kinds}", file.name);
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help("leave it out"));
+        }
+        let axis = file.axis.unwrap_or([0.0, 0.0, 1.0]);
+        let axes = [axis, if is_universal { file.axis2.unwrap_or([1.0, 0.0, 0.0]) } else { axis }].map(Vec3);
+        for (axis, key) in axes.iter().zip(["axis", "axis2"]) {
+            if axis.norm() < 1e-12 || !axis.norm().is_finite() {
+                let at = self.document.at(&format!("{pointer}/{key}"));
+                let message = format!("{key} {:?} of closure `{}` has no direction", axis.0, file.name);
+                let diagnostic = Diagnostic::error(&at, message);
+                self.diagnostics.push(diagnostic.with_help("give three finite numbers, not all zero"));
+                return None;
+            }
+        }
+        Some(axes)
     }
 
     /// The pairs of bodies that a contact law is meant for.
@@ -320,7 +339,7 @@ pub(super) fn check_start(
         let k = file.closure.iter().position(|c| format!("/{}", c.name) == opening.name);
         let at = document.title_at(&k.map_or(String::new(), |k| format!("/closure/{k}")));
         let gap = if opening.angle > CLOSED && opening.distance <= CLOSED {
-            format!("its axes are {:.6e} rad apart", opening.angle)
+            format!("its axes are off by {:.6e} rad", opening.angle)
         } else {
             format!("its ends are {:.6e} m apart", opening.distance)
         };

@@ -348,8 +348,10 @@ pub(crate) struct ClosureFile {
     /// Kind `distance`: the distance [m].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub length: Option<f64>,
-    /// Kind `hinge`: axis that the two frames share, in the axes of each; default z.
+    /// Kinds `hinge`, `slider` and `cylindrical`: axis that the two frames share, in the axes of each; `planar`: normal of the plane; `universal`: axis of the cross in the first frame; default z.
     pub axis: Option<[f64; 3]>,
+    /// Kind `universal`: axis of the cross in the second frame, perpendicular to the first at the start; default x.
+    pub axis2: Option<[f64; 3]>,
 }
 
 /// How two objects are kept together.
@@ -362,6 +364,14 @@ pub(crate) enum ClosureKindFile {
     Hinge,
     /// Their frames coincide.
     Weld,
+    /// Their frames coincide but for a translation along `axis`.
+    Slider,
+    /// Their frames coincide but for a translation along `axis` and a rotation about it.
+    Cylindrical,
+    /// Their origins coincide, and `axis` of the first stays perpendicular to `axis2` of the second.
+    Universal,
+    /// Their origins stay in one plane perpendicular to `axis`, which they share.
+    Planar,
     /// Their origins keep the distance `length`.
     Distance,
 }
@@ -456,7 +466,7 @@ pub(crate) struct SpringFile {
     pub rest: f64,
     /// Formula of x = q − rest and v = q̇ for a torque that is added [N·m] or [N].
     pub law: Option<String>,
-    /// Points (x, torque) of a torque that is added, linear between them and beyond [rad] or [m], [N·m] or [N].
+    /// Points (x, torque) of a torque that is added, linear between them and beyond: rad and N·m, or m and N.
     pub table: Option<Vec<[f64; 2]>>,
 }
 

@@ -268,6 +268,10 @@ impl Maker<'_> {
                 LoopJointKind::Point => "point closure",
                 LoopJointKind::Hinge => "hinge closure",
                 LoopJointKind::Weld => "weld closure",
+                LoopJointKind::Slider => "slider closure",
+                LoopJointKind::Cylindrical => "cylindrical closure",
+                LoopJointKind::Universal => "universal closure",
+                LoopJointKind::Planar => "planar closure",
                 LoopJointKind::Distance(_) => "distance closure",
             };
             let (mover, pose) = of_anchor(&closure.a, objects);
