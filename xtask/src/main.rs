@@ -9,7 +9,9 @@
 //! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
 mod dist;
+mod examples;
 mod glossary;
+mod items;
 mod judge;
 mod modules;
 mod package;

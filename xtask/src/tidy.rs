@@ -109,6 +109,7 @@ pub fn check(root: &Path) -> bool {
     sizes(root, &texts, &mut found);
     crate::package::inclusions(root, &texts, &mut found);
     crate::package::manifests(root, &mut found);
+    crate::examples::check(root, &mut found);
     let relative = |path: &Path| path.strip_prefix(root).unwrap_or(path).display().to_string();
     let named: Vec<(String, String)> = texts.iter().map(|(path, text)| (relative(path), text.clone())).collect();
     modules::check(&named, &mut found);

@@ -53,6 +53,46 @@ use crate::reader::Reader;
 use crate::unit::{Unit, common};
 
 /// A block: an immutable set of parameters with its equations. All that changes is in the state that it is handed.
+///
+/// ```
+/// use sincro_blocks::prelude::*;
+///
+/// declare_block! {
+///     /// Keeps the largest value since the start.
+///     pub struct Maximum("maximum", Discrete): "y(k+1) = max(y(k), u(k)), y(0) = initial" {
+///         /// y at the start.
+///         pub initial: f64 as Number = "0",
+///     }
+/// }
+///
+/// impl Block for Maximum {
+///     type Work<R: Real> = ();
+///     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
+///     const STATE: Memory = Memory::DISCRETE;
+///
+///     fn has_direct_feedthrough(&self, _input: usize) -> bool {
+///         false // so that it breaks algebraic loops
+///     }
+///     fn start<R: Real>(&self, _node: &Node, _states: &mut [R], memory: &mut [R]) {
+///         memory.fill(R::splat(self.initial));
+///     }
+///     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+///         y.copy_from_slice(at.memory);
+///     }
+///     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _states: &mut [R]) {
+///         for (i, m) in memory.iter_mut().enumerate() {
+///             *m = m.if_less(at.component(0, i), at.component(0, i), *m);
+///         }
+///     }
+/// }
+///
+/// let mut diagram = Diagram::new();
+/// diagram.block("wave", sincro_blocks::library::sources::Sine::new(2.0, std::f64::consts::TAU));
+/// diagram.block("peak", Maximum { initial: -1.0 }).wire("wave", "peak");
+/// let peak = Simulator::new(&diagram, 0.25)?.record("peak", 4); // u = 0, 2, 0, −2, 0
+/// assert_eq!(peak, [-1.0, 0.0, 2.0, 2.0, 2.0]);
+/// # Ok::<(), CompileError>(())
+/// ```
 pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
     /// Buffers for intermediate results, such as the stack of a formula; their content never matters. `()` for most
     /// blocks.
@@ -176,6 +216,14 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
 }
 
 /// Names of ports, in their order.
+///
+/// ```
+/// use sincro_blocks::prelude::*;
+///
+/// assert_eq!(Ports::single(), Ports::new(&["u"], &["y"]));
+/// assert_eq!(Ports::numbered(3).inputs, ["u1", "u2", "u3"]);
+/// assert!(Ports::source().inputs.is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ports {
     /// Names of the inputs.
@@ -213,6 +261,16 @@ impl Ports {
 }
 
 /// Sample time of a block, as far as its kind determines it.
+///
+/// ```
+/// use sincro_blocks::library::continuous::Integrator;
+/// use sincro_blocks::library::discrete::UnitDelay;
+/// use sincro_blocks::prelude::*;
+///
+/// // states are integrated with the plant, memory changes at ticks
+/// assert_eq!(Integrator::new(0.0).sample_time_kind(), SampleTimeKind::Continuous);
+/// assert_eq!(UnitDelay::new(0.0).sample_time_kind(), SampleTimeKind::Discrete);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleTimeKind {
     /// Evaluated once, at the start.
@@ -229,6 +287,16 @@ pub enum SampleTimeKind {
 }
 
 /// Lengths of the vectors of a block's state.
+///
+/// ```
+/// use sincro_blocks::library::continuous::Integrator;
+/// use sincro_blocks::prelude::*;
+///
+/// assert_eq!(Memory::CONTINUOUS, Memory { continuous: 1, discrete: 0 });
+/// // an integrator of a vector has a state for each component
+/// let node = Node { inputs: vec![3], outputs: vec![3], step: 0.001, every: 1, seed: 0 };
+/// assert_eq!(Integrator::new(0.0).memory(&node), Memory { continuous: 3, discrete: 0 });
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
     /// States that are integrated together with the world.
@@ -247,6 +315,14 @@ impl Memory {
 }
 
 /// Sizes and sample time of a block in a compiled diagram.
+///
+/// ```
+/// use sincro_blocks::prelude::*;
+///
+/// // a block that is evaluated every fifth base step of 1 ms
+/// let node = Node { inputs: vec![1], outputs: vec![3, 1], step: 0.001, every: 5, seed: 0 };
+/// assert_eq!((node.period(), node.n_out()), (0.005, 4)); // [s], numbers
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// Widths of the inputs.
@@ -276,6 +352,37 @@ impl Node {
 }
 
 /// Time, inputs and state of a block at the instant of evaluation.
+///
+/// ```
+/// use sincro_blocks::library::sources::Constant;
+/// use sincro_blocks::prelude::*;
+///
+/// declare_block! {
+///     /// Mechanical power of a motor.
+///     pub struct Power("power", Maths): "y = efficiency·u·i" {
+///         /// Share that the windings leave.
+///         pub efficiency: f64 as Positive,
+///     }
+/// }
+///
+/// impl Block for Power {
+///     type Work<R: Real> = ();
+///
+///     fn ports(&self) -> Ports {
+///         Ports::new(&["u", "i"], &["y"])
+///     }
+///     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
+///         y[0] = R::splat(self.efficiency) * at.scalar(0) * at.scalar(1); // the first component of each input
+///     }
+/// }
+///
+/// let mut diagram = Diagram::new();
+/// diagram.block("voltage", Constant::new(24.0)).block("current", Constant::new(1.5));
+/// diagram.block("power", Power { efficiency: 0.75 });
+/// diagram.wire("voltage", "power.u").wire("current", "power.i");
+/// assert_eq!(Simulator::new(&diagram, 0.001)?.output("power"), [27.0]); // [W]
+/// # Ok::<(), CompileError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a, R> {
     /// Time `[s]`.

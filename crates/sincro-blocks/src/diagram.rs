@@ -22,6 +22,20 @@ use crate::endpoint::Endpoint;
 use crate::instance::DynBlock;
 
 /// Blocks and wires; on its own or inside another diagram.
+///
+/// ```
+/// use sincro_blocks::library::continuous::Integrator;
+/// use sincro_blocks::library::maths::Gain;
+/// use sincro_blocks::prelude::*;
+///
+/// // a harmonic oscillator: x' = v, v' = −4 x
+/// let mut diagram = Diagram::new();
+/// diagram.block("x", Integrator::new(1.0)).block("v", Integrator::new(0.0)).block("stiffness", Gain::new(-4.0));
+/// diagram.wire("v", "x").wire("x", "stiffness").wire("stiffness", "v");
+/// let x = Simulator::new(&diagram, 0.001)?.record("x", 1000);
+/// assert!((x[1000] - f64::cos(2.0)).abs() < 1e-10); // cos(ω t), ω = 2 rad/s, t = 1 s
+/// # Ok::<(), CompileError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Diagram {
     /// Blocks and inner diagrams, in the order in which they were added: it decides among blocks that could be
@@ -79,12 +93,38 @@ impl Diagram {
     }
 
     /// Adds a block with a sample time `[s]`.
+    ///
+    /// ```
+    /// use sincro_blocks::library::maths::Gain;
+    /// use sincro_blocks::library::sources::Ramp;
+    /// use sincro_blocks::prelude::*;
+    ///
+    /// let mut diagram = Diagram::new();
+    /// diagram.block("ramp", Ramp::new(1.0)).sampled("held", 0.02, Gain::new(1.0)).wire("ramp", "held");
+    /// let held = Simulator::new(&diagram, 0.01)?.record("held", 4);
+    /// assert_eq!(held, [0.0, 0.0, 0.02, 0.02, 0.04]);
+    /// # Ok::<(), CompileError>(())
+    /// ```
     pub fn sampled(&mut self, name: &str, sample_time: f64, block: impl DynBlock + 'static) -> &mut Self {
         self.add(name, Content::Block(Box::new(block)), Some(sample_time))
     }
 
     /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it
     /// that have none of their own.
+    ///
+    /// ```
+    /// use sincro_blocks::library::maths::Gain;
+    /// use sincro_blocks::library::sources::Constant;
+    /// use sincro_blocks::prelude::*;
+    ///
+    /// let mut degrees = Diagram { inputs: vec!["rad".into()], outputs: vec!["deg".into()], ..Diagram::new() };
+    /// degrees.block("factor", Gain::new(180.0 / std::f64::consts::PI)).wire("rad", "factor").wire("factor", "deg");
+    /// let mut diagram = Diagram::new();
+    /// diagram.block("angle", Constant::new(std::f64::consts::PI)).diagram("degrees", degrees, None);
+    /// diagram.wire("angle", "degrees.rad");
+    /// assert_eq!(Simulator::new(&diagram, 0.001)?.output("degrees/factor"), [180.0]);
+    /// # Ok::<(), CompileError>(())
+    /// ```
     pub fn diagram(&mut self, name: &str, inner: Self, sample_time: Option<f64>) -> &mut Self {
         self.add(name, Content::Diagram(name.to_owned(), Box::new(inner)), sample_time)
     }

@@ -7,6 +7,15 @@ use crate::reader::{NoFiles, Reader, Value};
 /// A block with a description, that can be made from named parameters.
 ///
 /// [`declare_block!`](crate::declare_block) implements it.
+///
+/// ```
+/// use sincro_blocks::library::nonlinear::Saturation;
+/// use sincro_blocks::prelude::*;
+///
+/// // what a file format needs: the name of the block and those of its parameters
+/// let names: Vec<&str> = Saturation::KIND.parameters.iter().map(|parameter| parameter.name).collect();
+/// assert_eq!((Saturation::KIND.name, names), ("saturation", vec!["lower", "upper", "report"]));
+/// ```
 pub trait Described: Sized {
     /// Description of the kind of block.
     const KIND: &'static Kind;
@@ -30,6 +39,15 @@ pub trait Described: Sized {
 }
 
 /// Description of a kind of block.
+///
+/// ```
+/// use sincro_blocks::library::continuous::Integrator;
+/// use sincro_blocks::prelude::*;
+///
+/// let kind: &Kind = Integrator::KIND;
+/// assert_eq!((kind.name, kind.category), ("integrator", Category::Continuous));
+/// assert!(kind.parameters.iter().any(|parameter| parameter.name == "initial" && parameter.default == Some("0")));
+/// ```
 #[derive(Debug, PartialEq, Eq)]
 pub struct Kind {
     /// Name in files, such as `transfer-function`.
@@ -45,6 +63,14 @@ pub struct Kind {
 }
 
 /// Categories of the library.
+///
+/// ```
+/// use sincro_blocks::library::continuous::Pid;
+/// use sincro_blocks::prelude::*;
+///
+/// assert_eq!(Pid::KIND.category, Category::Continuous);
+/// assert_eq!(Category::Logic.title(), "Logic and comparison");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs)]
 pub enum Category {

@@ -111,6 +111,32 @@ impl<T, P: ParameterType<T>> ParameterType<Option<T>> for OptionalParameter<P> {
 }
 
 /// One of the words of an enum that is declared by [`choice!`](crate::choice).
+///
+/// ```
+/// use sincro_blocks::prelude::*;
+///
+/// choice! {
+///     /// Edge of a signal.
+///     pub enum Edge {
+///         /// From false to true.
+///         Rising = "rising",
+///         /// From true to false.
+///         Falling = "falling",
+///     }
+/// }
+/// declare_block! {
+///     /// Counts edges.
+///     pub struct EdgeCount("edge-count", Logic): "y = number of edges of u" {
+///         /// Edge that counts.
+///         pub edge: Edge as Choice = "rising",
+///     }
+/// }
+/// # impl Block for EdgeCount {
+/// #     type Work<R: Real> = ();
+/// #     fn output<R: Real>(&self, _: &At<'_, R>, (): &mut (), _: &mut [R]) {}
+/// # }
+/// assert_eq!(EdgeCount::with_defaults().edge, Edge::Rising);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Choice {}
 

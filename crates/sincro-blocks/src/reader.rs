@@ -11,6 +11,14 @@ use crate::kind::{Kind, ValueKind};
 use crate::suggest;
 
 /// A parameter as it is given: what every file format can say.
+///
+/// ```
+/// use sincro_blocks::prelude::*;
+///
+/// assert_eq!(Value::from(2.5), Value::Number(2.5));
+/// assert_eq!(Value::from("2·mass"), Value::Text("2·mass".into())); // a formula, where a number is wanted
+/// assert_eq!(Value::from(vec![1.0, 2.0]), Value::List(vec![Value::Number(1.0), Value::Number(2.0)]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number.
@@ -50,6 +58,19 @@ impl<T: Into<Value>> From<Vec<T>> for Value {
 }
 
 /// Something wrong with a parameter.
+///
+/// ```
+/// use sincro_blocks::library::continuous::LowPass;
+/// use sincro_blocks::prelude::*;
+/// use sincro_blocks::reader::NoFiles;
+/// use std::collections::BTreeMap;
+///
+/// let (given, names) = (BTreeMap::from([("time_constant".to_owned(), Value::from(-1.0))]), BTreeMap::new());
+/// let mut reader = Reader::new(LowPass::KIND, &given, &names, &NoFiles);
+/// let _filter = LowPass::read(&mut reader);
+/// let errors: Vec<ParameterError> = reader.finish();
+/// assert_eq!((errors.len(), &errors[0].path[..]), (1, &["time_constant".to_owned()][..]));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterError {
     /// Steps to the value: the parameter's key, then indices and names inside it.
@@ -112,6 +133,21 @@ impl Files for NoFiles {
 pub const MAX_PORTS: usize = 10_000;
 
 /// Reads the parameters of one block.
+///
+/// ```
+/// use sincro_blocks::library::maths::Gain;
+/// use sincro_blocks::prelude::*;
+/// use sincro_blocks::reader::NoFiles;
+/// use std::collections::BTreeMap;
+///
+/// // a gain that is given by a formula of the diagram's parameters
+/// let given = BTreeMap::from([("gain".to_owned(), Value::from("2*mass*g"))]);
+/// let names = BTreeMap::from([("mass".to_owned(), 1.5), ("g".to_owned(), 9.81)]);
+/// let mut reader = Reader::new(Gain::KIND, &given, &names, &NoFiles);
+/// let weight = Gain::read(&mut reader);
+/// assert!(reader.finish().is_empty());
+/// assert_eq!(weight.gain, [2.0 * 1.5 * 9.81]);
+/// ```
 pub struct Reader<'a> {
     kind: &'static Kind,
     given: &'a BTreeMap<String, Value>,
@@ -521,7 +557,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads the parameter `column` of a block that takes a series from `file`: the finite numbers of that column, row
-    /// by row.
+    /// by row; none, with a fault noted at `key`, if they cannot be read.
     pub fn column(&mut self, key: &str, file: &str, column: &str) -> Vec<f64> {
         match self.files.column(file, column) {
             Ok(numbers) => numbers,

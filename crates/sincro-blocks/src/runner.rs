@@ -28,6 +28,31 @@ pub struct State<R> {
 }
 
 /// A compiled diagram with its state.
+///
+/// ```
+/// use sincro_blocks::compile::Terminal;
+/// use sincro_blocks::library::maths::Gain;
+/// use sincro_blocks::prelude::*;
+///
+/// let terminal = |name: &str| Terminal { names: vec![name.into()], width: 1, unit: None, is_special: false };
+/// let mut world = Interface::new(0.01);
+/// world.measurements.push(terminal("/cart.position"));
+/// let mut diagram = Diagram::new();
+/// diagram.block("controller", Gain::new(-5.0)).wire("/cart.position", "controller");
+/// let mut runner = Runner::<f64>::new(compile(&diagram, &world)?.into());
+/// let controller = runner.program().outputs().find(|(name, ..)| name == "controller").unwrap().1;
+/// // the plant is one's own: x' = u, from x = 1
+/// let mut x = 1.0;
+/// for tick in 0..100 {
+///     let t = tick as f64 * 0.01;
+///     runner.signals_mut()[0] = x; // the measurement
+///     runner.evaluate(tick, t);
+///     x += 0.01 * runner.signals()[controller.start];
+///     runner.update(tick, t);
+/// }
+/// assert!((x - f64::powi(1.0 - 0.05, 100)).abs() < 1e-15);
+/// # Ok::<(), CompileError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Runner<R: Number> {
     program: Arc<Program>,

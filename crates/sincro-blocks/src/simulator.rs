@@ -10,6 +10,22 @@ use crate::diagram::Diagram;
 use crate::runner::Runner;
 
 /// A diagram that runs alone.
+///
+/// ```
+/// use sincro_blocks::library::continuous::LowPass;
+/// use sincro_blocks::library::sources::Constant;
+/// use sincro_blocks::prelude::*;
+///
+/// // a first-order lag with a time constant of 0.5 s
+/// let mut diagram = Diagram::new();
+/// diagram.block("one", Constant::new(1.0)).block("lag", LowPass::new(0.5)).wire("one", "lag");
+/// let mut simulator = Simulator::new(&diagram, 0.01)?;
+/// while simulator.t() < 1.0 {
+///     simulator.advance();
+/// }
+/// assert!((simulator.output("lag")[0] - (1.0 - f64::exp(-1.0 / 0.5))).abs() < 1e-8);
+/// # Ok::<(), CompileError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Simulator {
     /// The diagram.

@@ -39,7 +39,7 @@ impl Shard {
         }
     }
 
-    /// Returns true if the part belongs to it.
+    /// Returns true if part number `part` of the campaign, counted from 0, belongs to this share.
     #[must_use]
     pub fn has(self, part: u64) -> bool {
         part % self.count == self.index - 1

@@ -137,7 +137,8 @@ fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> f64 {
     front * fraction
 }
 
-/// Quantile of ascending values, between neighbours on a straight line.
+/// Quantile `share` (0 to 1; 0.5 is the median) of ascending values, in their unit: between neighbours on a straight
+/// line. NaN if there is no value.
 #[must_use]
 pub fn quantile(ascending: &[f64], share: f64) -> f64 {
     let Some(last) = ascending.len().checked_sub(1) else { return f64::NAN };

@@ -9,6 +9,22 @@ use crate::scratch::Scratch;
 use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 
 /// Mechanical energy of all bodies, by kind `[J]`.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// let slide = JointSpec::new(JointKind::Prismatic { axis: [0.0, 0.0, 1.0] });
+/// let slide = builder.joint("slide", NodeId::WORLD, Pose::translation(Vec3([0.0, 0.0, 3.0])), slide);
+/// let mass = MassProperties { mass: 2.0, center_of_mass: [0.0; 3], inertia: [0.01, 0.0, 0.0, 0.01, 0.0, 0.01] };
+/// builder.body("hammer", slide, Pose::identity(), BodySpec { mass });
+/// let (model, _warnings) = builder.build()?;
+/// let slide = model.names().joint_id("slide").unwrap();
+/// let energy = World::builder(model).velocities(slide, &[-5.0]).build()?.energy();
+/// assert!((energy.kinetic - 0.5 * 2.0 * 25.0).abs() < 1e-12); // m v²/2 [J]
+/// assert!((energy.potential - 2.0 * 9.81 * 3.0).abs() < 1e-12); // m g z [J]
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy<R> {
     /// ½ vᵀ M v, armature included.

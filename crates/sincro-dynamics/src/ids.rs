@@ -30,16 +30,68 @@ macro_rules! id {
 
 id! {
     /// Id of a body or frame: its index in [`Names::frames`](crate::model::Names::frames).
+    ///
+    /// ```
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// # let mut hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+    /// # hinge.motor = Some(Motor::new(MotorMode::Torque));
+    /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+    /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
+    /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+    /// # let model = builder.build()?.0;
+    /// // a pendulum of 2 kg
+    /// let bob: BodyId = model.names().body_id("bob").unwrap();
+    /// let frame = model.names().body_info(bob);
+    /// assert_eq!(frame.body, Some(([0.0, 0.0, -0.5], 2.0))); // centre of mass [m], mass [kg]
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     BodyId
 }
 
 id! {
     /// Id of a joint that is not fixed: its index in [`Names::joints`](crate::model::Names::joints).
+    ///
+    /// ```
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// # let mut hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+    /// # hinge.motor = Some(Motor::new(MotorMode::Torque));
+    /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+    /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
+    /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+    /// # let model = builder.build()?.0;
+    /// let hinge: JointId = model.names().joint_id("hinge").unwrap();
+    /// let mut world = World::builder(model).coordinates(hinge, &[0.1]).build()?;
+    /// world.step()?;
+    /// assert!(world.velocities(hinge)[0] < 0.0); // the pendulum swings back [rad/s]
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     JointId
 }
 
 id! {
     /// Id of a motor: its index in [`Model::motors`](crate::model::Model::motors), and that of its command.
+    ///
+    /// ```
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// # let mut hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+    /// # hinge.motor = Some(Motor::new(MotorMode::Torque));
+    /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+    /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
+    /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+    /// # let model = builder.build()?.0;
+    /// let motor: MotorId = model.names().motor_id("hinge").unwrap();
+    /// let mut world = World::builder(model).step_size(0.01).build()?;
+    /// world.set_command(motor, 1.0); // [N·m]
+    /// world.step()?;
+    /// assert!((world.state.v[0] - 1.0 / (2.0 * 0.25) * 0.01).abs() < 1e-4); // τ t/(m l²) [rad/s]
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     MotorId
 }
 

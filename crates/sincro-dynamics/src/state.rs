@@ -21,6 +21,25 @@ use crate::spatial::{Quat, Vec3};
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
 /// | `rotors` | speed of each rotor with a lag; of a stock propeller its mass flow this tick | rotors that have one |
 /// | `tick` | base steps done | |
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -1.0], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// let initial = State { q: vec![0.5], ..State::new(&model) }; // a pendulum at 0.5 rad, at rest
+/// let mut world = World::builder(model).state(initial.clone()).build()?;
+/// world.step()?;
+/// let after_one = world.state.clone();
+/// world.state = initial; // back to the start: the same step gives the same bits
+/// world.step()?;
+/// assert_eq!(world.state, after_one);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<R> {
     /// Coordinates.

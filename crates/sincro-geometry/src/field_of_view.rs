@@ -143,7 +143,7 @@ impl FieldOfView {
         self.reach
     }
 
-    /// Returns true if a point is in the field of view.
+    /// Returns true if the point `p` `[m]`, in the frame of the sensor, is in the field of view or on its border.
     #[must_use]
     pub fn contains(&self, p: Vec3<f64>) -> bool {
         let slack = ON * self.reach;

@@ -3,6 +3,16 @@
 use crate::spatial::{Mat3, Sym3, Vec3};
 
 /// Mass, centre of mass and inertia of one body in its own frame.
+///
+/// ```
+/// use sincro_geometry::MassProperties;
+///
+/// // two balls of 1 kg, 2 m apart: the parallel axis theorem gives 2·m·(1 m)² across their line
+/// let ball = |x: f64| MassProperties { mass: 1.0, center_of_mass: [x, 0.0, 0.0], inertia: [0.0; 6] };
+/// let dumbbell = MassProperties::sum(&[ball(0.0), ball(2.0)]);
+/// assert_eq!((dumbbell.mass, dumbbell.center_of_mass), (2.0, [1.0, 0.0, 0.0]));
+/// assert_eq!(dumbbell.principal_moments(), [0.0, 2.0, 2.0]); // [kg·m²]
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
     /// `[kg]`

@@ -8,6 +8,17 @@ use core::f64::consts::PI;
 use super::MassProperties;
 
 /// A homogeneous solid.
+///
+/// ```
+/// use sincro_geometry::Shape;
+///
+/// let rod = Shape::Cylinder { radius: 0.02, length: 1.0 };
+/// let aluminium = rod.mass_properties(2700.0); // [kg/m³]
+/// assert!((aluminium.mass - 2700.0 * rod.volume()).abs() < 1e-12); // [kg]
+/// // about its centre, across its axis: m (3 r² + l²)/12
+/// let expected = aluminium.mass * (3.0 * 0.02 * 0.02 + 1.0) / 12.0;
+/// assert!((aluminium.inertia[0] - expected).abs() < 1e-12); // [kg·m²]
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// Box with full edge lengths `[m]`.

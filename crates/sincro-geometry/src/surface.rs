@@ -4,6 +4,16 @@ use super::Shape;
 use crate::spatial::Vec3;
 
 /// Geometry of a surface.
+///
+/// ```
+/// use sincro_geometry::{Shape, Surface};
+///
+/// let brick = Surface::Solid(Shape::Cuboid { size: [0.3, 0.4, 1.2] });
+/// assert!((brick.reach() - 0.65).abs() < 1e-15); // half of its diagonal [m]
+/// assert_eq!(Surface::HalfSpace.reach(), f64::INFINITY); // a floor
+/// let tetrahedron = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+/// assert_eq!(Surface::Hull(tetrahedron).reach(), f64::sqrt(3.0));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
     /// A solid.

@@ -7,6 +7,19 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 ///
 /// A comparison never yields a `bool`, because lanes can differ: it selects ([`Real::if_less`]). Whoever must branch
 /// looks at one lane at a time ([`Real::lane`]).
+///
+/// ```
+/// use sincro_math::{Dual, Real};
+///
+/// /// Kinetic energy m v²/2 `[J]`, written once for all kinds of numbers.
+/// fn kinetic_energy<R: Real>(mass: f64, v: R) -> R {
+///     R::splat(0.5 * mass) * v * v
+/// }
+///
+/// assert_eq!(kinetic_energy(2.0, 3.0), 9.0);
+/// let v = Dual::<1>::variable(3.0, 0);
+/// assert_eq!(kinetic_energy(2.0, v).partials, [2.0 * 3.0]); // by v: the momentum [kg·m/s]
+/// ```
 pub trait Real:
     Copy
     + Debug

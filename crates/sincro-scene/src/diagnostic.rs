@@ -34,6 +34,16 @@ impl SourceText {
 }
 
 /// A stretch of a text.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let found = from_text(r#"joint = [{ name = "hinge", kind = "revolut" }]"#).unwrap_err();
+/// let of_kind = found.0.iter().find(|diagnostic| diagnostic.message.contains("revolut")).unwrap();
+/// let at = Location { source: of_kind.source.clone().unwrap(), span: of_kind.span.clone().unwrap() };
+/// assert_eq!((at.line_column(), at.text()), ((1, 35), "\"revolut\""));
+/// assert_eq!(at.to_string(), "scene.toml:1:35");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Location {
     /// The text.
@@ -73,6 +83,14 @@ pub struct Located<T> {
 }
 
 /// A finding about the user's files: severity, message, place, and help where there is some.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let found = Diagnostic::without_location("there is no folder `pendulum`").with_help("name a folder");
+/// assert!(found.is_error() && !found.clone().as_warning().is_error());
+/// assert_eq!(found.to_string(), "error: there is no folder `pendulum`\n  help: name a folder");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// Error or warning.
@@ -150,7 +168,16 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Everything that was found.
+/// All findings about the files of a scene.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// // all that is wrong with a scene at once, in the order of the file
+/// let found = from_text(r#"body = [{ name = "a", mass = -1.0 }, { name = "b", mas = 1.0 }]"#).unwrap_err();
+/// assert!(found.any_error() && found.0.len() >= 2);
+/// assert!(found.0.iter().all(|diagnostic: &Diagnostic| diagnostic.line_column().is_some()));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 

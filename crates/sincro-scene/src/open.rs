@@ -29,6 +29,19 @@ const EXPERIMENT: &str = "experiment.toml";
 const MAX_NUMBERS: u64 = 100_000_000;
 
 /// A scene folder that was opened: its experiment and its scene, ready to run.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/double-pendulum");
+/// let opened = open(folder.as_ref(), &[], Default::default(), true)?;
+/// assert_eq!(opened.scene.model.n_v(), 2); // two hinges
+/// assert!(opened.controller.is_none() && opened.warnings.is_empty());
+/// assert!(opened.sources.len() >= 2); // the experiment and its scene
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Opened {
     /// The experiment: signals, checks, settings.
@@ -52,6 +65,21 @@ pub struct Opened {
 /// # Errors
 ///
 /// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/double-pendulum");
+/// let longer = Override::new("duration", "42");
+/// let opened = open(folder.as_ref(), &[longer], Default::default(), false)?;
+/// assert_eq!(opened.experiment.duration, 42.0); // [s]
+///
+/// let wrong = open("no-such-folder".as_ref(), &[], Default::default(), true).unwrap_err();
+/// assert!(wrong.to_string().contains("there is no folder `no-such-folder`"));
+/// # Ok(())
+/// # }
+/// ```
 pub fn open(folder: &Path, overrides: &[Override], loaders: Loaders, with_others: bool) -> Result<Opened, Diagnostics> {
     open_in(&Arc::new(Folder::new(&find_folder(folder)?)), overrides, loaders, with_others)
 }
@@ -97,6 +125,17 @@ pub fn folder_name(path: &Path) -> String {
 
 /// Settings from outside with those of a variant, which win. What is set in blocks belongs to the diagram that it was
 /// said for: a variant that exchanges the diagram does not take it.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let outer = [Override::new("step", "0.01"), Override::new("duration", "5")];
+/// let variant = [Override::new("step", "0.002")];
+/// // those of the variant are the last: they win
+/// let all = settings_with(&outer, &variant);
+/// let texts: Vec<&str> = all.iter().map(|setting| setting.value.value.as_str()).collect();
+/// assert_eq!(texts, ["0.01", "5", "0.002"]);
+/// ```
 #[must_use]
 pub fn settings_with(overrides: &[Override], variant: &[Override]) -> Vec<Override> {
     let exchanges = variant.iter().any(|setting| setting.path.value == "diagram");

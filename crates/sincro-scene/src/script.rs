@@ -163,6 +163,34 @@ impl Clone for Box<dyn ScriptedLaw> {
 }
 
 /// Parser of the language of scripts: looks texts over when a scene is loaded.
+///
+/// ```
+/// use sincro_scene::fmu::Loaders;
+/// use sincro_scene::open::open;
+/// use sincro_scene::script::{Script, ScriptError, ScriptParser, ScriptedLaw, ScriptedLawSpec};
+///
+/// /// Refuses all scripts: for a program without a language of scripts.
+/// #[derive(Debug)]
+/// struct NoScripts;
+///
+/// impl ScriptParser for NoScripts {
+///     fn check(&self, script: &Script) -> Result<(), ScriptError> {
+///         let (object, message) = (script.path.clone(), "scripts are switched off".into());
+///         Err(ScriptError { object, at: Some(script.at.clone()), message, help: None })
+///     }
+///     fn law(&self, spec: &ScriptedLawSpec) -> Result<Box<dyn ScriptedLaw>, String> {
+///         Err(format!("a law of {} inputs in a script: scripts are switched off", spec.inputs.len()))
+///     }
+/// }
+///
+/// # fn main() -> Result<(), sincro_scene::diagnostic::Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/propeller-lua");
+/// let loaders = Loaders { scripts: Some(&NoScripts), ..Loaders::default() };
+/// let found = open(folder.as_ref(), &[], loaders, true).unwrap_err();
+/// assert!(found.to_string().contains("scripts are switched off"), "{found}");
+/// # Ok(())
+/// # }
+/// ```
 pub trait ScriptParser: Send + Sync + fmt::Debug {
     /// Checks the syntax of a script before anything runs.
     ///
@@ -171,10 +199,10 @@ pub trait ScriptParser: Send + Sync + fmt::Debug {
     /// The first fault of the text.
     fn check(&self, script: &Script) -> Result<(), ScriptError>;
 
-    /// A law for a block.
+    /// Compiles the text of a law for a block of a diagram.
     ///
     /// # Errors
     ///
-    /// What is wrong with its text.
+    /// The first fault of the text, in words.
     fn law(&self, spec: &ScriptedLawSpec) -> Result<Box<dyn ScriptedLaw>, String>;
 }

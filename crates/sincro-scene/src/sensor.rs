@@ -24,6 +24,20 @@ use sincro_dynamics::model::{Model, SensorInfo};
 use crate::diagnostic::Located;
 
 /// A sensor as the scene has it.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let scene = from_text(r#"
+///     joint = [{ name = "base", kind = "free" }]
+///     body = [{ name = "drone", parent = "/base", density = 100.0, shape = [{ sphere = { radius = 0.1 } }] }]
+///     sensor = [{ name = "altimeter", parent = "/base/drone", height = { noise = 0.02 }, sample_time = 0.01 }]
+/// "#)?;
+/// let altimeter: &SensorSpec = &scene.sensors[0];
+/// assert_eq!(altimeter.path, "/base/drone/altimeter");
+/// assert_eq!(altimeter.sample_time.as_ref().map(|time| time.value), Some(0.01)); // [s]
+/// # Ok::<(), Diagnostics>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorSpec {
     /// Its path; a frame of the model has the same.
@@ -39,6 +53,15 @@ pub struct SensorSpec {
 }
 
 /// Kind of a sensor, with the errors of its measurements.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let gps = SensorKind::Velocity { noise: 0.05 }; // [m/s]
+/// let names: Vec<_> = gps.values().into_iter().map(|(name, unit)| format!("{name} [{unit}]")).collect();
+/// assert_eq!(names[2], "measured_velocity.z [m/s]");
+/// assert!(gps.field().is_none()); // it sees nothing
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensorKind {
     /// Specific force and angular velocity, own axes.

@@ -17,7 +17,8 @@ pub struct Query<'a> {
     pub column: &'a Located<String>,
 }
 
-/// Reads two columns of finite numbers; none, with problems noted, if they are not there or are not numbers.
+/// Reads two columns of finite numbers, the key and the values, row by row and equally long; none, with problems noted,
+/// if they are not there, are not numbers, or the key does not increase.
 pub fn read(folder: &Folder, query: &Query<'_>, diagnostics: &mut Diagnostics) -> Option<(Vec<f64>, Vec<f64>)> {
     let source = match folder.read_named(query.file) {
         Ok(source) => source,

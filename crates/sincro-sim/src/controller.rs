@@ -16,6 +16,25 @@ use sincro_scene::scenery::Piece;
 use sincro_scene::script::ScriptError;
 
 /// Instant of a step, with the world at that instant.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+/// // a torque of 1 N·m at the elbow for the first 0.5 s
+/// run.attach(Box::new(ClosureController::new("pulse", |at: Instant<'_>, held: &mut [Option<f64>]| {
+///     assert_eq!(at.t, at.tick as f64 * 0.05);
+///     held[0] = Some(if at.t < 0.5 { 1.0 } else { 0.0 });
+/// })));
+/// run.start()?;
+/// run.advance()?;
+/// assert_eq!(run.state().commands, [1.0]);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct Instant<'a> {
     /// The world.
@@ -64,6 +83,18 @@ pub enum Source {
 }
 
 /// The commands of one instant, each with its source.
+///
+/// ```
+/// use sincro_sim::controller::Source;
+/// use sincro_sim::prelude::*;
+///
+/// let (mut values, mut sources) = ([0.0; 2], [Source::Scene; 2]);
+/// let mut commands = Commands::of_scene(&mut values, &mut sources);
+/// commands.by(Source::Controller(0)).set(0, 5.0);
+/// commands.by(Source::Diagram).set(0, 1.0); // weaker: a controller has set it
+/// commands.by(Source::Diagram).set(1, 2.0);
+/// assert_eq!(values, [5.0, 2.0]);
+/// ```
 #[derive(Debug)]
 pub struct Commands<'a> {
     values: &'a mut [f64],
@@ -144,6 +175,44 @@ pub enum Forked {
 /// It decides by the tick at which it is called whether a step of its own begins. All methods but [`Controller::name`]
 /// do nothing unless they are implemented. Nothing in it may depend on a clock or on the order of threads: the same
 /// calls give the same bits.
+///
+/// ```
+/// use sincro_scene::script::ScriptError;
+/// use sincro_sim::prelude::*;
+///
+/// /// A torque against the velocity of the elbow.
+/// #[derive(Debug)]
+/// struct Brake {
+///     torque: f64,
+/// }
+///
+/// impl Controller for Brake {
+///     fn name(&self) -> &str {
+///         "brake"
+///     }
+///     fn actuate(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
+///         self.torque = -2.0 * at.world.state.v[1]; // 2 N·m·s/rad
+///         Ok(())
+///     }
+///     fn latch(&self, commands: &mut Commands<'_>) {
+///         commands.set(0, self.torque);
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+/// run.attach(Box::new(Brake { torque: 0.0 }));
+/// run.start()?;
+/// let before = run.world().energy().total();
+/// while run.t() < 2.0 {
+///     run.advance()?;
+/// }
+/// assert!(run.world().energy().total() < before); // it takes energy out
+/// # Ok(())
+/// # }
+/// ```
 pub trait Controller: Any + Send + fmt::Debug {
     /// Name of the controller in messages.
     fn name(&self) -> &str;

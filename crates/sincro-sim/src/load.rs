@@ -18,6 +18,20 @@ use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptParser;
 
 /// An experiment and its scene, ready to run.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded: Loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// assert_eq!((loaded.scene.model.n_v(), loaded.experiment.step), (2, 0.05)); // two joints; [s]
+/// // the same files with another setting
+/// let heavier = loaded.with_overrides(&[Override::new("/shoulder/upper.mass", "3.0")])?;
+/// assert_eq!(heavier.scene.model.total_mass() - loaded.scene.model.total_mass(), 2.0); // [kg]
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The experiment: signals, checks, settings.
@@ -49,6 +63,38 @@ pub trait ControllerFactory: Send + Sync + fmt::Debug {
 pub type FastestPoles = fn(&Loaded, MethodKind) -> Option<(f64, f64)>;
 
 /// Language of scripts: parses them when a scene is loaded, and runs them as a controller.
+///
+/// ```
+/// use sincro_scene::script::{Script, ScriptError, ScriptParser, ScriptedLaw, ScriptedLawSpec};
+/// use sincro_sim::prelude::*;
+///
+/// /// A language without words: accepts any script and does nothing in a run.
+/// #[derive(Debug)]
+/// struct Silence;
+///
+/// impl ScriptParser for Silence {
+///     fn check(&self, _script: &Script) -> Result<(), ScriptError> {
+///         Ok(())
+///     }
+///     fn law(&self, _spec: &ScriptedLawSpec) -> Result<Box<dyn ScriptedLaw>, String> {
+///         Err("it has no laws".into())
+///     }
+/// }
+///
+/// impl ScriptEngine for Silence {
+///     fn controller(&self, _loaded: &Loaded) -> Box<dyn Controller> {
+///         Box::new(ClosureController::new("silence", |_: Instant<'_>, _: &mut [Option<f64>]| {}))
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/propeller-lua");
+/// assert!(load(folder.as_ref(), &[], Extensions::default()).is_err()); // its scripts have no language
+/// let loaded = load(folder.as_ref(), &[], Extensions { scripts: Some(&Silence), ..Extensions::default() })?;
+/// assert!(!loaded.scene.scripts.is_empty());
+/// # Ok(())
+/// # }
+/// ```
 pub trait ScriptEngine: ScriptParser {
     /// The controller that runs the scripts of a scene, none of them called yet.
     fn controller(&self, loaded: &Loaded) -> Box<dyn Controller>;
@@ -56,6 +102,20 @@ pub trait ScriptEngine: ScriptParser {
 
 /// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to
 /// [`load`].
+///
+/// ```
+/// use sincro_analysis::linearize::fastest_poles;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cart-pole-lqr");
+/// let extensions = Extensions { fastest_poles: Some(fastest_poles), ..Extensions::default() };
+/// let loaded = load(folder.as_ref(), &[], extensions)?;
+/// let (closed, open) = fastest_poles(&loaded, method_for(&loaded).0).unwrap(); // [1/s]
+/// assert!(closed > 0.0 && open > 0.0);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extensions {
     /// Language of scripts; without one, a scene that has scripts is refused.
@@ -81,6 +141,22 @@ impl Extensions {
 /// # Errors
 ///
 /// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// assert_eq!(loaded.scene.initial.q, [0.1, 0.0]); // [rad]
+///
+/// // a setting that means nothing is refused, with a near name
+/// let wrong = [Override::new("/shoulder.initial.positon", "0.3")];
+/// let found = load(folder.as_ref(), &wrong, Extensions::default()).unwrap_err();
+/// assert!(found.to_string().contains("position"), "{found}");
+/// # Ok(())
+/// # }
+/// ```
 pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
     with(folder, overrides, extensions, true)
 }
@@ -90,6 +166,18 @@ pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Re
 /// # Errors
 ///
 /// As [`load`].
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/double-pendulum");
+/// let upright = [Override::new("/upper.initial.position", "3.0")];
+/// let loaded = load_without_variants(folder.as_ref(), &upright, Extensions::default())?;
+/// assert_eq!(loaded.scene.initial.q[0], 3.0); // [rad]
+/// # Ok(())
+/// # }
+/// ```
 pub fn load_without_variants(
     folder: &Path,
     overrides: &[Override],

@@ -17,6 +17,27 @@ use crate::trace::{Trace, plant_hash};
 const MAGIC: &[u8; 8] = b"sincro05";
 
 /// A moment of a run.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+/// run.start()?;
+/// run.advance()?;
+/// let bytes = run.snapshot(run.trace()).to_bytes(&loaded);
+/// // another process goes on from there
+/// let mut other = LockStep::new(&loaded, method_for(&loaded).0, false);
+/// other.start()?;
+/// other.restore(&Snapshot::from_bytes(&bytes, &loaded)?);
+/// run.advance()?;
+/// other.advance()?;
+/// assert_eq!(other.state(), run.state()); // the same bits
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     /// The state.

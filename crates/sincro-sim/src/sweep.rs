@@ -92,7 +92,12 @@ impl Sweep {
         runs
     }
 
-    /// The runs `run_idxs` as rows of a table whose first column is the parameter.
+    /// Table of the runs `run_idxs`, one row each in that order: the parameter, then the recorded values, each in its
+    /// unit.
+    ///
+    /// # Panics
+    ///
+    /// If the sweep has no run of one of the indices, which count from 0.
     #[must_use]
     pub fn table(&self, run_idxs: &[usize]) -> Table {
         let take = |values: &[f64]| run_idxs.iter().map(|run_idx| values[*run_idx]).collect();

@@ -11,6 +11,18 @@ use std::path::{Path, PathBuf};
 use crate::file::{FileError, partial, put_in_place};
 
 /// A recorded signal: its name, its unit, one value a row.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// let mut table = Table::new([("t", "s"), ("/motor.velocity", "rad/s")], 3);
+/// for (t, w) in [(0.0, 0.0), (0.1, 0.8), (0.2, 1.1)] {
+///     table.push_row(&[t, w]);
+/// }
+/// let velocity: &Column = table.column("/motor.velocity").unwrap();
+/// let peak = velocity.values.iter().copied().fold(f64::MIN, f64::max);
+/// assert_eq!((peak, velocity.unit.as_str()), (1.1, "rad/s"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Its path: `/shoulder.position`.
@@ -122,6 +134,21 @@ impl Table {
     /// # Errors
     ///
     /// As [`CsvWriter`].
+    ///
+    /// ```
+    /// use sincro_sim::prelude::*;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # let path = std::env::temp_dir().join(format!("sincro-table-doc-{}.csv", std::process::id()));
+    /// let mut table = Table::new([("t", ""), ("x", "")], 2);
+    /// table.push_row(&[0.0, 0.1 + 0.2]);
+    /// table.push_row(&[0.005, 1e-12]);
+    /// table.write_csv(&path)?;
+    /// assert_eq!(Table::read_csv(&path)?, table); // the same bits; units are not in the file
+    /// # std::fs::remove_file(&path)?;
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn write_csv(&self, path: &Path) -> Result<(), FileError> {
         let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
         let mut writer = CsvWriter::create(path, &names)?;

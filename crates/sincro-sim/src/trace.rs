@@ -11,6 +11,20 @@ use crate::load::Loaded;
 
 /// Hash of all states of a run so far, in their order. Each state is hashed together with the hash before it, so that
 /// these eight bytes are all that a snapshot must hold of the past.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let start = Trace::start(&loaded.scene.initial);
+/// let mut moved = loaded.scene.initial.clone();
+/// moved.q[0] += 1e-16; // the last bit of 0.1 rad
+/// assert!(Trace::start(&moved) != start && start.to_string().len() == 16);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Trace(pub u64);
 

@@ -21,6 +21,20 @@ const NOTHING: f64 = 1e-8;
 const HALVINGS: usize = 60;
 
 /// The frequency response of one channel.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// // an integrator with a lag of 1 s: G = 1/(s (s + 1))
+/// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, -1.0]);
+/// let (b, c) = (DMatrix::from_row_slice(2, 1, &[0.0, 1.0]), DMatrix::from_row_slice(1, 2, &[1.0, 0.0]));
+/// let bode: Bode = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?.bode(0, 0)?;
+/// assert!((bode.phase_margin().unwrap().value - 51.827).abs() < 1e-3); // [°]
+/// assert!(bode.gain_margin().is_none()); // the phase never reaches −180°
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bode {
     /// Angular frequencies, ascending `[rad/s]`.
@@ -37,6 +51,21 @@ pub struct Bode {
 }
 
 /// A crossover and the distance from instability there.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// // three lags: G = 1/(s + 1)³ reaches −180° at √3 rad/s with |G| = 1/8
+/// let a = DMatrix::from_row_slice(3, 3, &[-1.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, -1.0]);
+/// let (b, c) = (DMatrix::from_row_slice(3, 1, &[0.0, 0.0, 1.0]), DMatrix::from_row_slice(1, 3, &[1.0, 0.0, 0.0]));
+/// let bode = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?.bode(0, 0)?;
+/// let margin: Margin = bode.gain_margin().unwrap();
+/// assert!((margin.omega - f64::sqrt(3.0)).abs() < 1e-6); // [rad/s]
+/// assert!((margin.value - 20.0 * f64::log10(8.0)).abs() < 1e-6); // [dB]
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margin {
     /// Frequency `[rad/s]`.
@@ -76,6 +105,22 @@ impl StateSpace {
     /// # Errors
     ///
     /// [`LinearError::NoPath`]: the output does not depend on the input.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// // a low-pass with its corner at 10 rad/s: −3.01 dB and −45° there
+    /// let one = DMatrix::identity(1, 1);
+    /// let filter = StateSpace::from_matrices(-10.0 * &one, 10.0 * &one, one.clone(), 0.0 * &one)?;
+    /// let bode = filter.bode_at(0, 0, &[10.0])?;
+    /// assert!((bode.magnitude_db[0] + 10.0 * f64::log10(2.0)).abs() < 1e-12);
+    /// assert!((bode.phase_deg[0] + 45.0).abs() < 1e-12);
+    /// let all = filter.bode(0, 0)?; // over the frequencies that show it
+    /// assert!(all.omega[0] < 2.0 && *all.omega.last().unwrap() > 50.0);
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn bode(&self, input: usize, output: usize) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
         Ok(corners.bode(&Channel::new(self, input, output), corners.grid()))

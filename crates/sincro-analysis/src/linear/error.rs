@@ -5,6 +5,15 @@ use std::fmt;
 use super::DMatrix;
 
 /// Error of an analysis of a linear system.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// let (a, b) = (DMatrix::identity(2, 2), DMatrix::from_row_slice(2, 1, &[1.0, 0.0]));
+/// // the input reaches the first mode only, and the second grows
+/// let error = lqr(&a, &b, &DMatrix::identity(2, 2), &DMatrix::identity(1, 1)).unwrap_err();
+/// assert_eq!(error, LinearError::NotStabilisable { mode: (1.0, 0.0) });
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinearError {
     /// A matrix has the wrong size.

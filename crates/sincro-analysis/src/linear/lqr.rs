@@ -21,6 +21,20 @@ const MAX_REFINEMENTS: usize = 4;
 const MAX_DOUBLINGS: usize = 60;
 
 /// A feedback `u = −K x` and what it does.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// // x' = x + u, cost ∫ x² + u² dt: K = 1 + √2, closed loop −√2
+/// let one = DMatrix::identity(1, 1);
+/// let regulator: Regulator = lqr(&one, &one, &one, &one)?;
+/// assert!((regulator.k[0] - (1.0 + f64::sqrt(2.0))).abs() < 1e-12);
+/// assert!((regulator.poles[0].re + f64::sqrt(2.0)).abs() < 1e-12); // [1/s]
+/// assert!(regulator.residual < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regulator {
     /// `m×n`: the feedback.
@@ -72,6 +86,20 @@ pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64
 /// # Errors
 ///
 /// As [`lqr`].
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// // x⁺ = x + u, cost Σ x² + u²: P is the golden ratio, K = P/(1 + P)
+/// let one = DMatrix::identity(1, 1);
+/// let regulator = dlqr(&one, &one, &one, &one)?;
+/// let golden = 0.5 * (1.0 + f64::sqrt(5.0));
+/// assert!((regulator.p[0] - golden).abs() < 1e-12);
+/// assert!((regulator.k[0] - golden / (1.0 + golden)).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
 pub fn dlqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, LinearError> {
     check(a, b, q, r)?;
     check_stabilisable(a, b, |pole| modulus(pole) >= 1.0 - NOTHING)?;

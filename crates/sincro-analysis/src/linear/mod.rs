@@ -25,6 +25,19 @@ pub use step::{StepInfo, StepResponse};
 pub use structure::SubspaceRank;
 
 /// Name and unit of a state, an input or an output.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// let one = DMatrix::identity(1, 1);
+/// let mut tank = StateSpace::from_matrices(-0.1 * &one, one.clone(), one.clone(), 0.0 * &one)?;
+/// assert_eq!(tank.inputs[0], Axis::new("u1", ""));
+/// tank.inputs[0] = Axis::new("/valve.flow", "m³/s");
+/// assert_eq!(tank.inputs[0].name, "/valve.flow");
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Axis {
     /// Its path: `/cart/rail.position`.
@@ -82,6 +95,19 @@ impl StateSpace {
     /// # Errors
     ///
     /// The matrices do not fit one another.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// // a velocity with friction: v' = −2 v + u, y = v
+    /// let one = DMatrix::identity(1, 1);
+    /// let system = StateSpace::from_matrices(-2.0 * &one, one.clone(), one.clone(), 0.0 * &one)?;
+    /// assert_eq!((system.n_states(), system.n_inputs(), system.n_outputs()), (1, 1, 1));
+    /// assert_eq!(system.gain(0, 0), Some(0.5));
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn from_matrices(
         a: DMatrix<f64>,
         b: DMatrix<f64>,

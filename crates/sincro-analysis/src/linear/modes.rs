@@ -16,6 +16,21 @@ const MAX_SWEEPS: usize = 3000;
 const ZERO: f64 = 3e-8;
 
 /// A pole and what it means for the motion `e^{λ t}`.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// // 1 kg on a spring of 4 N/m with a damper of 0.4 N·s/m: ζ = d/(2 √(k m))
+/// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -4.0, -0.4]);
+/// let (b, c) = (DMatrix::from_row_slice(2, 1, &[0.0, 1.0]), DMatrix::from_row_slice(1, 2, &[1.0, 0.0]));
+/// let mode: Mode = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?.poles()[0];
+/// assert!((mode.natural_frequency - 2.0).abs() < 1e-12); // [rad/s]
+/// assert!((mode.damping_ratio - 0.1).abs() < 1e-12);
+/// assert!((mode.time_constant - 5.0).abs() < 1e-12); // [s]
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
     /// The eigenvalue `[1/s]`; of a sampled system the eigenvalue of one tick.
@@ -29,6 +44,23 @@ pub struct Mode {
 }
 
 /// Stability: behaviour of a small disturbance.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// // an inverted pendulum q'' = 9 q + u, alone and with the feedback u = −k q − 2 q'
+/// let stability = |k: f64, d: f64| -> Result<Stability, LinearError> {
+///     let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 9.0 - k, -d]);
+///     let (b, c) = (DMatrix::from_row_slice(2, 1, &[0.0, 1.0]), DMatrix::from_row_slice(1, 2, &[1.0, 0.0]));
+///     Ok(StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?.stability())
+/// };
+/// assert_eq!(stability(0.0, 0.0)?, Stability::Unstable);
+/// assert_eq!(stability(13.0, 0.0)?, Stability::Marginal);
+/// assert_eq!(stability(13.0, 2.0)?, Stability::Stable);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
     /// It decays.
@@ -63,6 +95,20 @@ impl Mode {
 
 impl StateSpace {
     /// The poles, slowest first; of a pair the one with positive imaginary part first.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// // two lags, of 0.5 s and 0.1 s: the slowest comes first
+    /// let a = DMatrix::from_row_slice(2, 2, &[-10.0, 0.0, 3.0, -2.0]);
+    /// let (b, c) = (DMatrix::from_row_slice(2, 1, &[1.0, 0.0]), DMatrix::from_row_slice(1, 2, &[0.0, 1.0]));
+    /// let poles = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?.poles();
+    /// let real: Vec<f64> = poles.iter().map(|mode| mode.pole.re).collect();
+    /// assert!((real[0] + 2.0).abs() < 1e-12 && (real[1] + 10.0).abs() < 1e-12); // [1/s]
+    /// # Ok(())
+    /// # }
+    /// ```
     #[must_use]
     pub fn poles(&self) -> Vec<Mode> {
         let size = self.a.norm();

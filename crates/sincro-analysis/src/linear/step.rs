@@ -17,6 +17,21 @@ const N_POINTS: usize = 1201;
 const PADE_RADIUS: f64 = 5.37;
 
 /// The answer of an output to a unit step of an input at time 0, from rest.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+///
+/// # fn main() -> Result<(), LinearError> {
+/// // ω = 2 rad/s, ζ = 0.5: overshoot exp(−π ζ/√(1 − ζ²)) = 16.3 %
+/// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -4.0, -2.0]);
+/// let (b, c) = (DMatrix::from_row_slice(2, 1, &[0.0, 4.0]), DMatrix::from_row_slice(1, 2, &[1.0, 0.0]));
+/// let response: StepResponse = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?.step_response(0, 0, None);
+/// assert!((response.final_value.unwrap() - 1.0).abs() < 1e-12);
+/// let overshoot = f64::exp(-std::f64::consts::PI * 0.5 / f64::sqrt(0.75));
+/// assert!((response.info.unwrap().overshoot - overshoot).abs() < 1e-4);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepResponse {
     /// Times from the step `[s]`.
@@ -65,6 +80,21 @@ impl StateSpace {
     /// The step response of one channel over `duration`; `None`: over [`StateSpace::step_duration`].
     ///
     /// A sampled system answers at its ticks, at most 100 000 of them.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// // a lag of 0.5 s: y = 1 − exp(−t/0.5)
+    /// let one = DMatrix::identity(1, 1);
+    /// let lag = StateSpace::from_matrices(-2.0 * &one, 2.0 * &one, one.clone(), 0.0 * &one)?;
+    /// let response = lag.step_response(0, 0, Some(1.0)); // over 1 s
+    /// for (t, y) in response.times.iter().zip(&response.values) {
+    ///     assert!((y - (1.0 - f64::exp(-t / 0.5))).abs() < 1e-12);
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
     #[must_use]
     pub fn step_response(&self, input: usize, output: usize, duration: Option<f64>) -> StepResponse {
         let duration = duration.unwrap_or_else(|| self.step_duration());

@@ -40,6 +40,23 @@ use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
 /// A linear system, and the point at which it holds.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// # use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// # let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// // two links, 0.1 rad from hanging: no equilibrium, they begin to fall
+/// let start = operating_point(&loaded, 0.0).map_err(Diagnostics::from)?;
+/// let found: Linearization = linearize(&loaded, &start, &Request::default())?;
+/// assert_eq!((found.system.n_states(), found.system.n_inputs()), (4, 1)); // the motor of the elbow
+/// assert_eq!(found.state[..2], [0.1, 0.0]); // [rad]
+/// assert!(found.drift() > 0.1 && !found.is_steady());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearization {
     /// The matrices with the names of their rows and columns.
@@ -79,6 +96,23 @@ impl Linearization {
 /// # Errors
 ///
 /// Inputs and outputs that mean nothing or cannot be linearised.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/double-pendulum");
+/// let hanging = [Override::new("/upper.initial.position", "0"), Override::new("/upper/lower.initial.position", "0")];
+/// let loaded = load_without_variants(folder.as_ref(), &hanging, Extensions::default())?;
+/// let at = operating_point(&loaded, 0.0).map_err(Diagnostics::from)?;
+/// let system = linearize(&loaded, &at, &Request::default())?.system;
+/// // in phase, the slower mode: ω² = (2 − √2) g/l
+/// let slow = system.poles()[0].natural_frequency;
+/// assert!((slow - f64::sqrt((2.0 - f64::sqrt(2.0)) * 9.8)).abs() < 1e-6); // [rad/s]
+/// # Ok(())
+/// # }
+/// ```
 pub fn linearize(loaded: &Loaded, at: &LockStep, request: &Request) -> Result<Linearization, Diagnostics> {
     let names = names::resolve(loaded, at, request)?;
     linearize_settled(loaded, &mut point::settle(loaded, at, &names), names)
@@ -214,6 +248,21 @@ fn axis(name: impl Into<String>, unit: impl Into<String>) -> Axis {
 
 /// Moduli [1/s] of the fastest poles at the start, with the diagram's continuous blocks in the loop and without; none
 /// if there is no operating point. The experiment is loaded with it: [`sincro_sim::Extensions::fastest_poles`].
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/double-pendulum");
+/// let hanging = [Override::new("/upper.initial.position", "0"), Override::new("/upper/lower.initial.position", "0")];
+/// let loaded = load_without_variants(folder.as_ref(), &hanging, Extensions::default())?;
+/// let (closed, open) = fastest_poles(&loaded, method_for(&loaded).0).unwrap();
+/// // two masses on rods of 1 m: ω² = (2 + √2) g/l; no diagram closes a loop
+/// assert!((open - f64::sqrt((2.0 + f64::sqrt(2.0)) * 9.8)).abs() < 1e-6 && closed == open); // [1/s]
+/// # Ok(())
+/// # }
+/// ```
 #[must_use]
 pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> {
     let mut at = LockStep::new(loaded, method, false);

@@ -7,6 +7,21 @@ use sincro_sim::load::Loaded;
 use sincro_sim::run::{LockStep, method_for};
 
 /// Request for a linearisation.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cart-pole-lqr");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let start = operating_point(&loaded, 0.0).map_err(Diagnostics::from)?;
+/// // the pole falls by itself; with the diagram in the loop it is balanced
+/// let open = linearize(&loaded, &start, &Request::default())?.system;
+/// assert_eq!(open.stability(), Stability::Unstable);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Request {
     /// Inputs; empty: all commands of motors that are not ideal.
@@ -22,6 +37,20 @@ pub struct Request {
 /// # Errors
 ///
 /// If the run stops before, or `t` is negative or not finite.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let at = operating_point(&loaded, 0.5).map_err(Diagnostics::from)?;
+/// assert_eq!((at.tick(), at.t()), (10, 0.5)); // steps of 50 ms
+/// assert!(operating_point(&loaded, -1.0).is_err());
+/// # Ok(())
+/// # }
+/// ```
 pub fn operating_point(loaded: &Loaded, t: f64) -> Result<LockStep, Diagnostic> {
     let n = (t / loaded.experiment.step).round();
     if !(0.0..1e12).contains(&n) {

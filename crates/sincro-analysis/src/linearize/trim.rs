@@ -42,6 +42,25 @@ const NEARLY_CLOSED: f64 = 1e-10;
 const TOUCHES: f64 = 5e-10;
 
 /// Request for a trim.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// // the torque that holds the elbow bent by 0.5 rad
+/// let named = |name: &str| Override::new(name, "").path;
+/// let mut request = TrimRequest { free: vec![named("/shoulder/upper/elbow")], ..TrimRequest::default() };
+/// request.wanted.push((named("/shoulder/upper/elbow.position"), 0.5));
+/// let trimmed = trim(&loaded, &operating_point(&loaded, 0.0).map_err(Diagnostics::from)?, &request)?;
+/// // m g l/2 sin(q₁ + q₂) of the lower link
+/// let (q, torque) = (&trimmed.at.state().q, trimmed.trim.inputs[0].1);
+/// assert!((torque - 1.0 * 9.8 * 0.5 * f64::sin(q[0] + q[1])).abs() < 1e-9); // [N·m]
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct TrimRequest {
     /// Commands that may be changed; the others are as the scene gives them.
@@ -53,6 +72,22 @@ pub struct TrimRequest {
 }
 
 /// An equilibrium, in numbers.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// # use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// # let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let from = operating_point(&loaded, 0.0).map_err(Diagnostics::from)?; // two links, 0.1 rad from hanging
+/// let found: Trim = trim(&loaded, &from, &TrimRequest::default())?.trim;
+/// let (axis, angle) = &found.states[0];
+/// assert_eq!((axis.name.as_str(), axis.unit.as_str()), ("/shoulder.position", "rad"));
+/// assert!(angle.abs() < 1e-10 && found.residual < 1e-9); // it hangs
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trim {
     /// States: coordinates, velocities (zero), states of the diagram.
@@ -68,6 +103,22 @@ pub struct Trim {
 }
 
 /// An equilibrium: its numbers, and the scene in it.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// # use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// # let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let from = operating_point(&loaded, 0.0).map_err(Diagnostics::from)?; // two links, 0.1 rad from hanging
+/// let Trimmed { at, .. } = trim(&loaded, &from, &TrimRequest::default())?;
+/// // the modes of the hanging arm: it swings, undamped
+/// let modes = linearize(&loaded, &at, &Request::default())?.system.poles();
+/// assert!(modes.iter().all(|mode| mode.pole.re.abs() < 1e-7 && mode.natural_frequency > 1.0));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct Trimmed {
     /// The numbers.
@@ -81,6 +132,22 @@ pub struct Trimmed {
 /// # Errors
 ///
 /// Names that mean nothing, or that there is no equilibrium nearby: what is left over, and of what.
+///
+/// ```
+/// use sincro_analysis::prelude::*;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let from = operating_point(&loaded, 0.0).map_err(Diagnostics::from)?; // 0.1 rad from hanging
+/// let mut trimmed = trim(&loaded, &from, &TrimRequest::default())?;
+/// assert!(trimmed.trim.iterations > 0);
+/// trimmed.at.advance()?;
+/// assert!(trimmed.at.state().v.iter().all(|v| v.abs() < 1e-9)); // it stays where it is
+/// # Ok(())
+/// # }
+/// ```
 pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<Trimmed, Diagnostics> {
     let mut at = from.fork().lockstep;
     at.stop();

@@ -17,6 +17,23 @@ use crate::program::Program;
 use crate::unit::Unit;
 
 /// Surroundings of a diagram: the world's ports and the clock.
+///
+/// ```
+/// use sincro_blocks::compile::Terminal;
+/// use sincro_blocks::library::maths::Gain;
+/// use sincro_blocks::prelude::*;
+///
+/// // the world: an angle to measure, a torque to command
+/// let terminal = |name: &str| Terminal { names: vec![name.into()], width: 1, unit: None, is_special: false };
+/// let mut world = Interface::new(0.001);
+/// world.measurements.push(terminal("/hinge.position"));
+/// world.commands.push(terminal("/hinge"));
+/// let mut diagram = Diagram::new();
+/// diagram.block("spring", Gain::new(-20.0)).wire("/hinge.position", "spring").wire("spring", "/hinge");
+/// assert!(compile(&diagram, &world).is_ok());
+/// // without a world there are no such ports
+/// assert_eq!(compile(&diagram, &Interface::new(0.001)).unwrap_err().len(), 2);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Interface {
     /// Base step `[s]`.
@@ -89,6 +106,19 @@ pub struct Diagnostic {
 }
 
 /// All errors of a diagram that one pass of the compiler found; never empty.
+///
+/// ```
+/// use sincro_blocks::library::maths::{Gain, Sum};
+/// use sincro_blocks::prelude::*;
+///
+/// // y = u − 2 y: the blocks need each other's present output
+/// let mut diagram = Diagram::new();
+/// diagram.block("u", sincro_blocks::library::sources::Constant::new(1.0));
+/// diagram.block("sum", Sum::new("+-")).block("gain", Gain::new(2.0));
+/// diagram.wire("u", "sum.u1").wire("sum", "gain").wire("gain", "sum.u2");
+/// let error = compile(&diagram, &Interface::new(0.001)).unwrap_err();
+/// assert!(error.len() == 1 && error[0].message.contains("algebraic loop"), "{error}");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CompileError(pub Vec<Diagnostic>);
 
@@ -139,6 +169,19 @@ impl fmt::Display for Diagnostic {
 /// # Errors
 ///
 /// Everything that is wrong with it, as far as a pass can tell: names, widths, algebraic loops, sample times, units.
+///
+/// ```
+/// use sincro_blocks::library::continuous::Integrator;
+/// use sincro_blocks::library::sources::Constant;
+/// use sincro_blocks::prelude::*;
+///
+/// let mut diagram = Diagram::new();
+/// diagram.block("speed", Constant::new(2.0)).block("distance", Integrator::new(0.0)).wire("speed", "distance");
+/// let program = compile(&diagram, &Interface::new(0.001))?;
+/// assert!(program.is_continuous());
+/// assert_eq!(program.order(), ["speed", "distance"]);
+/// # Ok::<(), CompileError>(())
+/// ```
 pub fn compile(diagram: &Diagram, interface: &Interface) -> Result<Program, CompileError> {
     let mut flat = flatten::flatten(diagram, interface)?;
     widths::infer(&mut flat)?;

@@ -55,7 +55,8 @@ pub fn bits(seed: u64, purpose: Purpose, stream: u32, index: u64) -> u64 {
     u64::from(block[0]) | u64::from(block[1]) << 32
 }
 
-/// A number in (0, 1), never 0 or 1: the middle of one of 2⁵² equal intervals.
+/// Random number in (0, 1), never 0 or 1: the middle of one of 2⁵² equal intervals. A function of the arguments of
+/// [`bits`].
 #[must_use]
 pub fn uniform(seed: u64, purpose: Purpose, stream: u32, index: u64) -> f64 {
     unit(bits(seed, purpose, stream, index))

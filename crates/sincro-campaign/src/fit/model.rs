@@ -104,7 +104,8 @@ impl<'a> Model<'a> {
         &self.fixed[..self.n_own]
     }
 
-    /// Makes runs at the tolerance of the way to the solution, or at that of the solution itself.
+    /// Sets the tolerance of the integrator for the runs from now on: the coarse one of the search (true), or the fine
+    /// one at which the solution and its uncertainty are computed (false).
     pub fn set_coarse(&self, is_coarse: bool) {
         self.is_coarse.store(is_coarse, Ordering::Relaxed);
     }

@@ -31,7 +31,7 @@ pub enum Loss {
 }
 
 impl Loss {
-    /// The loss of a word.
+    /// Loss that a plan names `squares`, `huber` or `cauchy`; none for any other word.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Self> {
         match word {

@@ -85,7 +85,7 @@ pub enum StoreError {
     Foreign(String, String),
     /// A part of the results is damaged: its file and the reason.
     Damaged(PathBuf, String),
-    /// Parts are missing: ranges of runs.
+    /// Parts are missing: first and last run of each range.
     Missing(Vec<(u64, u64)>),
     /// Another process collects.
     Busy(PathBuf),

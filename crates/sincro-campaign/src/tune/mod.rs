@@ -242,7 +242,7 @@ impl Tuning<'_> {
         self.free.iter().zip(unit).map(|(free, u)| from_unit(free, *u)).collect()
     }
 
-    /// Settings of values of the free parameters.
+    /// Settings that give the free parameters these values, one for each in their order and units.
     #[must_use]
     pub fn settings(&self, values: &[f64]) -> Vec<Override> {
         self.free.iter().zip(values).map(|(free, value)| free.setting(*value)).collect()

@@ -224,7 +224,8 @@ impl SimApi<'_> {
         found.ok_or_else(|| ApiError(format!("there is no group {number} in the environment")))
     }
 
-    /// Sets how a group is solved: λ, none for the pseudo-inverse, and iterations.
+    /// Sets the damping λ of the least-squares solution of a group (0: pseudo-inverse), dimensionless, and the limit of
+    /// its iterations `n`.
     ///
     /// # Errors
     ///
@@ -269,11 +270,11 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// An element of a group.
+    /// Element `number` of a group, counted from 0: a tip and the target that it is to reach.
     ///
     /// # Errors
     ///
-    /// There is none of that number.
+    /// There is no such environment, group or element.
     pub fn element(&mut self, environment: i64, group: i64, number: i64) -> Result<&mut Element, ApiError> {
         let elements = &mut self.group(environment, group)?.elements;
         let found = usize::try_from(number).ok().and_then(|k| elements.get_mut(k));

@@ -13,6 +13,19 @@
 use sincro_math::Real;
 
 /// Control mode of a motor, which gives its command a meaning.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// // an ideal servo: it holds the commanded velocity exactly, whatever the load
+/// let motor = Motor::new(MotorMode::Velocity);
+/// assert!(motor.is_drive() && motor.target_velocity(0.3, 2.0) == 2.0);
+/// // towards a position: 5 rad/s for each radian of error, 1 rad/s at most
+/// let motor = Motor { kp: 5.0, max_velocity: 1.0, ..Motor::new(MotorMode::Position) };
+/// assert!((motor.target_velocity(0.3, 0.4) - 0.5).abs() < 1e-15);
+/// assert_eq!(motor.target_velocity(0.3, 2.0), 1.0);
+/// assert!(!Motor::new(MotorMode::Torque).is_drive());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MotorMode {
     /// Nothing.
@@ -28,6 +41,24 @@ pub enum MotorMode {
 }
 
 /// A motor on one degree of freedom.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0; 3]);
+/// let mut shaft = JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
+/// shaft.motor = Some(Motor { max_torque: 2.0, ..Motor::new(MotorMode::Torque) });
+/// let shaft = builder.joint("shaft", NodeId::WORLD, Pose::identity(), shaft);
+/// let mass = MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [0.4, 0.0, 0.0, 0.4, 0.0, 0.5] };
+/// builder.body("rotor", shaft, Pose::identity(), BodySpec { mass });
+/// let (model, _warnings) = builder.build()?;
+/// let (shaft, motor) = (model.names().joint_id("shaft").unwrap(), model.names().motor_id("shaft").unwrap());
+/// let mut world = World::builder(model).step_size(0.5).build()?;
+/// world.set_command(motor, 10.0); // [N·m], limited to 2
+/// world.step()?;
+/// assert!((world.velocities(shaft)[0] - 2.0 / 0.5 * 0.5).abs() < 1e-12); // ω = τ t/I
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor<R> {
     /// The degree of freedom; set when the model is built.

@@ -31,6 +31,17 @@ use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
 /// Contact properties of one surface.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let steel = Material { friction: 0.4, restitution: 0.6, stiffness: 2e6, ..Material::default() };
+/// let rubber = Material { friction: 0.9, restitution: 0.3, stiffness: 1e5, ..Material::default() };
+/// // the law of the pair: geometric mean of the friction, compliances add up
+/// let pair = steel.with(&rubber);
+/// assert!((pair.friction - 0.6).abs() < 1e-15 && pair.restitution == 0.6);
+/// assert!((1.0 / pair.stiffness - (1.0 / 2e6 + 1.0 / 1e5)).abs() < 1e-18); // [m/N]
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Coulomb's coefficient.

@@ -94,7 +94,7 @@ impl Implicit {
 
 /// A fixed-step method: y is in a fresh chart before and after.
 pub trait FixedStep<R: Real> {
-    /// Advances `y` from time `t` `[s]` by `h` `[s]`.
+    /// Advances `y`, of the dimension of the system, from time `t` `[s]` by `h` `[s]`.
     fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]);
 }
 

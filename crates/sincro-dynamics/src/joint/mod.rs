@@ -33,6 +33,23 @@ pub(crate) use screw::Screw;
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
 /// The kinds of joint a user builds with.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0; 3]);
+/// let planar = builder.joint("planar", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Planar));
+/// let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+/// builder.body("puck", planar, Pose::identity(), BodySpec { mass });
+/// // 5 mm forward each turn
+/// let screw = JointKind::Screw { axis: [0.0, 0.0, 1.0], pitch: 0.005 / std::f64::consts::TAU };
+/// let screw = builder.joint("screw", NodeId::WORLD, Pose::identity(), JointSpec::new(screw));
+/// builder.body("nut", screw, Pose::identity(), BodySpec { mass });
+/// let (model, _warnings) = builder.build()?;
+/// let n_v = |name: &str| model.names().joint(name).unwrap().n_v;
+/// assert_eq!((n_v("planar"), n_v("screw"), model.n_v()), (3, 1, 4));
+/// # Ok::<(), BuildError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
     /// Welded.

@@ -17,6 +17,18 @@ use crate::spatial::Pose;
 pub const REST_SPEED: f64 = 1e-3;
 
 /// One object of the tree under construction; [`NodeId::WORLD`] is its root.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// let mast = builder.frame("mast", NodeId::WORLD, Pose::translation(Vec3([0.0, 0.0, 2.0])));
+/// let tip = builder.frame("tip", mast, Pose::translation(Vec3([0.5, 0.0, 0.0])));
+/// assert!(mast != tip && mast != NodeId::WORLD);
+/// let (model, _warnings) = builder.build()?;
+/// assert_eq!(model.names().frame("tip").unwrap().pose.pos, Vec3([0.5, 0.0, 2.0])); // [m], in the world
+/// # Ok::<(), BuildError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(crate) u32);
 
@@ -27,6 +39,26 @@ impl NodeId {
 
 /// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none". Those of a ball joint are
 /// about the axes of its child frame; those of a free joint these three, then along the same axes.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// // a mass of 2 kg on a spring of 8 N/m: angular frequency √(k/m) = 2 rad/s
+/// let mut builder = ModelBuilder::new([0.0; 3]);
+/// let mut slide = JointSpec::new(JointKind::Prismatic { axis: [1.0, 0.0, 0.0] });
+/// slide.spring = vec![(8.0, 0.0)]; // stiffness, rest position
+/// let slide = builder.joint("slide", NodeId::WORLD, Pose::identity(), slide);
+/// let mass = MassProperties { mass: 2.0, center_of_mass: [0.0; 3], inertia: [0.01, 0.0, 0.0, 0.01, 0.0, 0.01] };
+/// builder.body("cart", slide, Pose::identity(), BodySpec { mass });
+/// let (model, _warnings) = builder.build()?;
+/// let slide = model.names().joint_id("slide").unwrap();
+/// let mut world = World::builder(model).method(MethodKind::Rk4).coordinates(slide, &[0.1]).build()?;
+/// while world.time() < 1.0 {
+///     world.step()?;
+/// }
+/// assert!((world.coordinates(slide)[0] - 0.1 * f64::cos(2.0)).abs() < 1e-9); // [m]
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct JointSpec {
     /// Kind and axes.
@@ -78,6 +110,21 @@ impl JointSpec {
 }
 
 /// A body to be added.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// // bodies without a joint between them are one link
+/// let mass = Shape::Sphere { radius: 0.05 }.mass_properties(1000.0);
+/// builder.body("left", hinge, Pose::translation(Vec3([-0.1, 0.0, 0.0])), BodySpec { mass });
+/// builder.body("right", hinge, Pose::translation(Vec3([0.1, 0.0, 0.0])), BodySpec { mass });
+/// let (model, _warnings) = builder.build()?;
+/// assert_eq!((model.links().len(), model.total_mass()), (1, 2.0 * mass.mass));
+/// # Ok::<(), BuildError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct BodySpec {
     /// Mass, centre of mass, inertia, in the body's frame.
@@ -314,11 +361,51 @@ impl ModelBuilder {
     }
 
     /// Adds an external wrench that acts at the origin of `parent`.
+    ///
+    /// ```
+    /// use sincro_dynamics::model::ForceSpec;
+    /// use sincro_dynamics::prelude::*;
+    /// use sincro_dynamics::signal::Signal;
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0; 3]);
+    /// # let slide = JointSpec::new(JointKind::Prismatic { axis: [1.0, 0.0, 0.0] });
+    /// # let slide = builder.joint("slide", NodeId::WORLD, Pose::identity(), slide);
+    /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0; 3], inertia: [0.01, 0.0, 0.0, 0.01, 0.0, 0.01] };
+    /// let cart = builder.body("cart", slide, Pose::identity(), BodySpec { mass }); // 2 kg, on a slide along x
+    /// let [x, y, z] = [3.0, 0.0, 0.0].map(Signal::Constant); // [N]
+    /// let none = [0.0; 3].map(Signal::Constant);
+    /// builder.force("pull", cart, ForceSpec { force: [x, y, z], torque: none, in_body: false, is_input: false });
+    /// let mut world = World::builder(builder.build()?.0).build()?;
+    /// for _ in 0..1000 {
+    ///     world.step()?;
+    /// }
+    /// assert!((world.state.v[0] - 3.0 / 2.0 * world.time()).abs() < 1e-9); // v = F t/m
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn force(&mut self, name: &str, parent: NodeId, spec: ForceSpec) -> NodeId {
         self.add(name, parent, Pose::identity(), NodeKind::Force(Box::new(spec)))
     }
 
     /// Adds a surface that can touch others, at `pose` `[m]` in the frame of a body or frame.
+    ///
+    /// ```
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// builder.collider(NodeId::WORLD, Pose::identity(), Surface::HalfSpace, Material::default()); // the floor
+    /// let start = Pose::translation(Vec3([0.0, 0.0, 0.1]));
+    /// let base = builder.joint("base", NodeId::WORLD, start, JointSpec::new(JointKind::Free));
+    /// let shape = Shape::Sphere { radius: 0.1 };
+    /// let mass = shape.mass_properties(1000.0);
+    /// let ball = builder.body("ball", base, Pose::identity(), BodySpec { mass });
+    /// builder.collider(ball, Pose::identity(), Surface::Solid(shape), Material::default());
+    /// let mut world = World::builder(builder.build()?.0).build()?;
+    /// world.step()?;
+    /// let t = world.time();
+    /// let force: f64 = world.observe(t).contacts().map(|contact| contact.force[2].abs()).sum();
+    /// assert!((force - mass.mass * 9.81).abs() < 1e-6); // the floor carries the weight [N]
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn collider(&mut self, on: NodeId, pose: Pose<f64>, surface: Surface, material: Material) {
         self.colliders.push((on, pose, surface, material));
     }
@@ -329,11 +416,58 @@ impl ModelBuilder {
     }
 
     /// Adds a loop joint between two frames; its constraint closes a loop of the tree.
+    ///
+    /// ```
+    /// use sincro_dynamics::model::{LoopJointKind, LoopJointSpec};
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// // a ball on a string of 2 m instead of a joint: it keeps its distance from the ceiling
+    /// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// let start = Pose::translation(Vec3([2.0, 0.0, 0.0]));
+    /// let joint = builder.joint("joint", NodeId::WORLD, start, JointSpec::new(JointKind::Free));
+    /// let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+    /// let ball = builder.body("ball", joint, Pose::identity(), BodySpec { mass });
+    /// let (kind, poses) = (LoopJointKind::Distance(2.0), [Pose::identity(); 2]);
+    /// builder.loop_joint("string", LoopJointSpec { kind, ends: [NodeId::WORLD, ball], poses });
+    /// let (model, _warnings) = builder.build()?;
+    /// let joint = model.names().joint_id("joint").unwrap();
+    /// let mut world = World::builder(model).build()?;
+    /// for _ in 0..500 {
+    ///     world.step()?;
+    /// }
+    /// let [x, _, z] = [0, 1, 2].map(|k| world.coordinates(joint)[k]); // from where it started [m]
+    /// assert!(z < -0.5 && (f64::hypot(2.0 + x, z) - 2.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn loop_joint(&mut self, name: &str, spec: LoopJointSpec) {
         self.loop_joints.push((name.into(), spec));
     }
 
     /// Adds a gear (mimic) constraint between two joints.
+    ///
+    /// ```
+    /// use sincro_dynamics::model::GearSpec;
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// // the second wheel turns three times as fast as the first, the other way
+    /// let mut builder = ModelBuilder::new([0.0; 3]);
+    /// let mass = Shape::Cylinder { radius: 0.1, length: 0.02 }.mass_properties(2700.0);
+    /// let joints = ["first", "second"].map(|name| {
+    ///     let joint = JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
+    ///     let joint = builder.joint(name, NodeId::WORLD, Pose::identity(), joint);
+    ///     builder.body(&format!("{name} wheel"), joint, Pose::identity(), BodySpec { mass });
+    ///     joint
+    /// });
+    /// builder.gear("gear", GearSpec { joints, ratio: -3.0, offset: 0.0 });
+    /// let (model, _warnings) = builder.build()?;
+    /// let [first, second] = ["first", "second"].map(|name| model.names().joint_id(name).unwrap());
+    /// let mut world = World::builder(model).velocities(first, &[1.0]).velocities(second, &[-3.0]).build()?;
+    /// for _ in 0..100 {
+    ///     world.step()?;
+    /// }
+    /// assert!((world.coordinates(second)[0] + 3.0 * world.coordinates(first)[0]).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn gear(&mut self, name: &str, spec: GearSpec) {
         self.gears.push((name.into(), spec));
     }

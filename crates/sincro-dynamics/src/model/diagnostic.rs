@@ -6,6 +6,16 @@ use core::ops::Deref;
 use super::NodeId;
 
 /// Severity of a diagnostic.
+///
+/// ```
+/// use sincro_dynamics::model::{ModelBuilder, Severity};
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0; 3]);
+/// builder.joint("hinge", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Revolute { axis: [0.0; 3] }));
+/// let error = builder.build().unwrap_err();
+/// assert!(error.iter().any(|diagnostic| diagnostic.severity == Severity::Error && diagnostic.field == "axis"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// The model cannot be built.
@@ -41,6 +51,18 @@ impl fmt::Display for Diagnostic {
 
 /// Error of [`ModelBuilder::build`](super::ModelBuilder::build): all diagnostics, warnings too, at least one of them an
 /// error.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// let base = builder.joint("base", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+/// let mass = MassProperties { mass: -1.0, center_of_mass: [0.0; 3], inertia: [1.0, 0.0, 0.0, 1.0, 0.0, 5.0] };
+/// let body = builder.body("body", base, Pose::identity(), BodySpec { mass });
+/// let error = builder.build().unwrap_err();
+/// let of_mass = error.iter().find(|diagnostic| diagnostic.field == "mass").unwrap();
+/// assert!(of_mass.node == Some(body) && of_mass.message.contains("-1") && !of_mass.help.is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct BuildError(pub(crate) Vec<Diagnostic>);
 

@@ -47,6 +47,19 @@ use crate::spatial::Vec3;
 
 /// Compiled model. Numbers are of type `R`: those of one world, or of several worlds packed into lanes
 /// ([`Model::pack`]).
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// let base = builder.joint("base", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+/// let ball = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+/// builder.body("ball", base, Pose::identity(), BodySpec { mass: ball });
+/// let (model, _warnings) = builder.build()?;
+/// assert_eq!((model.n_q(), model.n_v()), (7, 6)); // position and quaternion; angular and linear velocity
+/// assert_eq!(model.total_mass(), ball.mass); // [kg]
+/// # Ok::<(), BuildError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Model<R> {
     pub(crate) links: Vec<Link<R>>,

@@ -64,6 +64,24 @@ pub struct SensorInfo {
 }
 
 /// All names of a model.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// let mut builder = ModelBuilder::new([0.0; 3]);
+/// let mut elbow = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// elbow.motor = Some(Motor::new(MotorMode::Torque));
+/// let elbow = builder.joint("elbow", NodeId::WORLD, Pose::identity(), elbow);
+/// let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+/// builder.body("forearm", elbow, Pose::identity(), BodySpec { mass });
+/// let (model, _warnings) = builder.build()?;
+/// let names = model.names();
+/// let elbow: JointId = names.joint_id("elbow").unwrap();
+/// assert_eq!((names.joint_info(elbow).v_idx, names.dof_name(0)), (0, "elbow"));
+/// assert_eq!(names.motor_id("elbow").map(MotorId::index), Some(0));
+/// assert!(names.body_id("upper arm").is_none());
+/// # Ok::<(), BuildError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Names {
     /// Joints in the order they were added, fixed ones left out.

@@ -56,6 +56,27 @@ pub struct Prescribed<'a, R> {
 /// Joint accelerations `v_dot` [rad/s²] or [m/s²] (`n_v`): `(M + diagonal)·v̇ = torque + gravity + external − bias`.
 ///
 /// Afterwards [`Scratch::reaction`] has the torque that each prescribed degree of freedom needed.
+///
+/// ```
+/// use sincro_dynamics::aba::{Input, forward_dynamics};
+/// use sincro_dynamics::prelude::*;
+/// use sincro_dynamics::scratch::Scratch;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // a pendulum, 2 kg at 0.5 m from its hinge, at 0.3 rad: q'' = −(g/l) sin q
+/// let (q, zero) = ([0.3], [0.0]);
+/// let input =
+///     Input { q: &q, v: &zero, torque: &zero, diagonal: &zero, prescribed: None, external: None, gravity: true };
+/// let mut v_dot = [0.0];
+/// forward_dynamics(&model, &input, &mut Scratch::new(&model), &mut v_dot);
+/// assert!((v_dot[0] + 9.81 / 0.5 * f64::sin(0.3)).abs() < 1e-12); // [rad/s²]
+/// # Ok::<(), BuildError>(())
+/// ```
 #[inline(always)]
 pub fn forward_dynamics<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>, v_dot: &mut [R]) {
     R::run_hot(ForwardDynamics { model, input, scratch, v_dot });

@@ -12,6 +12,24 @@ use crate::scratch::Scratch;
 use crate::spatial::{Force, RigidInertia};
 
 /// Mass matrix at `q`, row by row into `mass` (`n_v × n_v`, [kg·m²] between rotations), armature on its diagonal.
+///
+/// ```
+/// use sincro_dynamics::crba::mass_matrix;
+/// use sincro_dynamics::prelude::*;
+/// use sincro_dynamics::scratch::Scratch;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // a pendulum, 2 kg at 0.5 m from its hinge: m l²
+/// let mut mass = vec![0.0; model.n_v() * model.n_v()];
+/// mass_matrix(&model, &[0.3], &mut Scratch::new(&model), &mut mass);
+/// assert!((mass[0] - 2.0 * 0.5 * 0.5).abs() < 1e-15); // [kg·m²]
+/// # Ok::<(), BuildError>(())
+/// ```
 pub fn mass_matrix<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>, mass: &mut [R]) {
     let n = model.n_v();
     mass.fill(R::zero());

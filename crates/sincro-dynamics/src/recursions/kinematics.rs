@@ -124,6 +124,28 @@ pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) ->
 
 /// Jacobian of a frame at `q`: 6 × `n_v`, row by row (angular velocity, then velocity of the frame's origin, world
 /// axes), so that `J·v` is [`frame_velocity`].
+///
+/// ```
+/// use sincro_dynamics::kinematics::jacobian;
+/// use sincro_dynamics::model::Attached;
+/// use sincro_dynamics::prelude::*;
+/// use sincro_dynamics::scratch::Scratch;
+///
+/// # let mut builder = ModelBuilder::new([0.0; 3]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+/// # let arm = builder.body("arm", hinge, Pose::identity(), BodySpec { mass });
+/// // a tool at 0.5 m from a hinge about z
+/// builder.frame("tool", arm, Pose::translation(Vec3([0.5, 0.0, 0.0])));
+/// let (model, _warnings) = builder.build()?;
+/// let mut rows = vec![0.0; 6 * model.n_v()];
+/// let tool = model.names().frame("tool").unwrap();
+/// let tool = Attached { link: tool.link, pose: tool.pose };
+/// jacobian(&model, &[0.0], &tool, &mut Scratch::new(&model), &mut rows);
+/// assert_eq!(rows, [0.0, 0.0, 1.0, 0.0, 0.5, 0.0]); // turns about z, moves along y
+/// # Ok::<(), BuildError>(())
+/// ```
 pub fn jacobian<R: Real>(model: &Model<R>, q: &[R], frame: &Attached<R>, scratch: &mut Scratch<R>, out: &mut [R]) {
     let n = model.n_v();
     out.fill(R::zero());

@@ -16,6 +16,24 @@ use crate::spatial::{Force, Motion, Vec3};
 ///
 /// Springs, dampers and armature are not part of it. `external`: wrench on each link, link axes, about the link's
 /// origin.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+/// use sincro_dynamics::rnea::inverse_dynamics;
+/// use sincro_dynamics::scratch::Scratch;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // torque that accelerates a pendulum (2 kg at 0.5 m) by 3 rad/s² at 0.3 rad: m l² q'' + m g l sin q
+/// let mut torque = [0.0];
+/// inverse_dynamics(&model, &[0.3], &[0.0], &[3.0], None, &mut Scratch::new(&model), &mut torque);
+/// assert!((torque[0] - (2.0 * 0.25 * 3.0 + 2.0 * 9.81 * 0.5 * f64::sin(0.3))).abs() < 1e-12); // [N·m]
+/// # Ok::<(), BuildError>(())
+/// ```
 #[inline(always)]
 pub fn inverse_dynamics<R: Real>(
     model: &Model<R>,

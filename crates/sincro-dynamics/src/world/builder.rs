@@ -14,6 +14,28 @@ const DEFAULT_STEP: f64 = 1e-3;
 const DEFAULT_ACCURACY: f64 = 1e-6;
 
 /// Builder of a [`World`]; [`World::builder`] makes one.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let slide = JointSpec::new(JointKind::Prismatic { axis: [0.0, 0.0, 1.0] });
+/// # let slide = builder.joint("slide", NodeId::WORLD, Pose::identity(), slide);
+/// # let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+/// # builder.body("ball", slide, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // a ball on a vertical slide, thrown upwards at 4.905 m/s, is back after 1 s
+/// let slide = model.names().joint_id("slide").unwrap();
+/// let mut world = World::builder(model.clone()).step_size(0.01).velocities(slide, &[4.905]).build()?;
+/// for _ in 0..100 {
+///     world.step()?;
+/// }
+/// assert!(world.coordinates(slide)[0].abs() < 1e-12); // [m]
+///
+/// // everything that is wrong is reported at once
+/// assert_eq!(World::builder(model).step_size(-0.01).accuracy(0.0).build().unwrap_err().len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct WorldBuilder {
     model: Model<f64>,

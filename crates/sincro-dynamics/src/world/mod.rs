@@ -60,6 +60,30 @@ pub enum Method {
 }
 
 /// The methods by name.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -1.0], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// # let hinge = model.names().joint_id("hinge").unwrap();
+/// // change of a pendulum's energy in 1 s with steps of 10 ms: order 4 against order 2
+/// let drift = |method| -> Result<f64, Box<dyn std::error::Error>> {
+///     let builder = World::builder(model.clone()).method(method).step_size(0.01);
+///     let mut world = builder.coordinates(hinge, &[1.0]).build()?;
+///     let before = world.energy().total();
+///     for _ in 0..100 {
+///         world.step()?;
+///     }
+///     Ok((world.energy().total() - before).abs())
+/// };
+/// assert!(drift(MethodKind::Rk4)? < 1e-3 * drift(MethodKind::Implicit)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum MethodKind {
@@ -148,9 +172,11 @@ pub struct World {
 }
 
 impl World {
-    /// A world of `model` in `state`.
+    /// A world of `model` in `state`; [`World::builder`] makes one that checks its arguments and is ready for a step.
     ///
-    /// `accuracy` and `first_step` `[s]` matter to error-controlled methods only.
+    /// `accuracy` is the local error allowed in a step of a method with error control, relative to max(|y|, 1);
+    /// `first_step` `[s]` is the first step that such a method tries, and for all methods the base step of
+    /// [`World::step`].
     #[must_use]
     pub fn new(model: Model<f64>, state: State<f64>, kind: MethodKind, accuracy: f64, first_step: f64) -> Self {
         Self::with_totals(model, state, kind, Control::new(accuracy, first_step), true)
@@ -367,7 +393,8 @@ impl World {
         Ok(())
     }
 
-    /// First rotor whose load was not a number in the last evaluation: only the printed script can give one.
+    /// First rotor whose thrust or torque was not a number in the last evaluation, as the law of the stock propeller's
+    /// script can give; none if all are finite.
     #[must_use]
     pub fn rotor_without_load(&self) -> Option<RotorId> {
         self.mechanism.rotor_without_load()

@@ -9,6 +9,22 @@ use crate::model::Model;
 use crate::world::StepStatistics;
 
 /// Report of one base step.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let slide = builder.joint("slide", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+/// # let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+/// # builder.body("ball", slide, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// let mut world = World::builder(model).method(MethodKind::DormandPrince).step_size(0.5).build()?;
+/// world.step()?;
+/// let report = world.step()?;
+/// assert_eq!((report.tick, report.t), (2, 1.0));
+/// assert!(report.statistics.steps >= 1); // sub-steps that the error control needed in this step
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport {
     /// Base steps since the start, this one included.
@@ -20,6 +36,23 @@ pub struct StepReport {
 }
 
 /// Error of a step: the world stopped within it. Its state is that of the last instant reached, everything finite.
+///
+/// ```
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let slide = builder.joint("slide", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+/// # let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+/// # builder.body("ball", slide, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// let mut world = World::builder(model).step_size(0.25).build()?;
+/// world.step()?;
+/// world.state.v[5] = f64::NAN; // a controller has divided by zero
+/// let error = world.step().unwrap_err();
+/// assert_eq!(error.t, 0.25); // [s]
+/// assert!(error.to_string().starts_with("the world stopped at t = 0.25 s: "));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepError {
     /// Last instant reached `[s]`.
@@ -105,6 +138,21 @@ impl World {
     }
 
     /// Coordinates of a joint in the present state `[rad]`, `[m]`, quaternions (w, x, y, z).
+    ///
+    /// ```
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// let ball = builder.joint("ball", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Ball));
+    /// let mass = Shape::Cuboid { size: [0.1, 0.2, 0.3] }.mass_properties(1000.0);
+    /// builder.body("box", ball, Pose::identity(), BodySpec { mass });
+    /// let (model, _warnings) = builder.build()?;
+    /// let ball = model.names().joint_id("ball").unwrap();
+    /// let world = World::builder(model).velocities(ball, &[0.0, 0.0, 1.0]).build()?;
+    /// assert_eq!(world.coordinates(ball), [1.0, 0.0, 0.0, 0.0]); // no rotation: w = 1
+    /// assert_eq!(world.velocities(ball), [0.0, 0.0, 1.0]); // [rad/s], child axes
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn coordinates(&self, joint: JointId) -> &[f64] {
         let info = self.model().names().joint_info(joint);

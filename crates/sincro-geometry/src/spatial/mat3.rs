@@ -6,6 +6,16 @@ use super::Vec3;
 use super::sym3::{ELEMENTS, Sym3};
 
 /// A 3×3 matrix by rows. As a rotation `r_ab` it takes components in frame B to components in frame A.
+///
+/// ```
+/// use sincro_geometry::spatial::{Mat3, Vec3};
+///
+/// // a quarter of a turn about z takes x to y; a rotation times its transpose is the identity
+/// let (sin, cos) = (1.0, 0.0);
+/// let r_ab = Mat3::rotation::<2>(sin, cos);
+/// assert_eq!(r_ab.mul_vec(Vec3([1.0, 0.0, 0.0])), Vec3([0.0, 1.0, 0.0]));
+/// assert_eq!(r_ab.mul(&r_ab.transpose()), Mat3::identity());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mat3<R>(pub [[R; 3]; 3]);
 

@@ -6,6 +6,18 @@ use super::{Mat3, Vec3};
 
 /// Pose of a frame B in a frame A, `x_ab`: rotation `r_ab` and position `p_ab` `[m]`. Labels cancel: `x_ab * x_bc =
 /// x_ac`.
+///
+/// ```
+/// use sincro_geometry::spatial::{Mat3, Pose, Vec3};
+///
+/// // a camera 1 m above the table, turned by a half turn about x: it looks down
+/// let x_tc = Pose { rot: Mat3::rotation::<0>(0.0, -1.0), pos: Vec3([0.0, 0.0, 1.0]) };
+/// let seen = Vec3([0.2, 0.1, 0.6]); // [m], in the camera's frame
+/// let on_table = x_tc.point(seen);
+/// assert_eq!(on_table, Vec3([0.2, -0.1, 0.4])); // [m], in the table's frame
+/// let x_ct = x_tc.inverse();
+/// assert_eq!(x_ct.compose(&x_tc), Pose::identity());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose<R> {
     /// Takes components in B to components in A.

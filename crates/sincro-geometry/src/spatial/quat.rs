@@ -5,6 +5,18 @@ use sincro_math::{Real, elementary};
 use super::{Mat3, Vec3};
 
 /// Rotation of a frame B in a frame A: takes components in B to components in A.
+///
+/// ```
+/// use sincro_geometry::spatial::{Quat, Vec3};
+/// use std::f64::consts::FRAC_PI_2;
+///
+/// // two quarters of a turn about z make a half turn
+/// let quarter = Quat::exp(Vec3([0.0, 0.0, FRAC_PI_2]));
+/// let half = quarter.mul(&quarter);
+/// assert!((half.log()[2].abs() - 2.0 * FRAC_PI_2).abs() < 1e-15);
+/// let turned = half.matrix().mul_vec(Vec3([1.0, 0.0, 0.0]));
+/// assert!((turned - Vec3([-1.0, 0.0, 0.0])).norm() < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quat<R> {
     /// Scalar part, cosine of half the angle.

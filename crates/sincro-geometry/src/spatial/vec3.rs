@@ -5,6 +5,16 @@ use core::ops::{Add, AddAssign, Index, IndexMut, Neg, Sub, SubAssign};
 use sincro_math::Real;
 
 /// A vector of three components in some frame.
+///
+/// ```
+/// use sincro_geometry::spatial::Vec3;
+///
+/// let (r, f) = (Vec3([0.0, 0.5, 0.0]), Vec3([0.0, 0.0, 2.0])); // lever arm [m], force [N]
+/// let torque = r.cross(f);
+/// assert_eq!(torque, Vec3([1.0, 0.0, 0.0])); // [N·m]
+/// assert!(torque.dot(r) == 0.0 && torque.dot(f) == 0.0);
+/// assert_eq!(torque.norm(), r.norm() * f.norm());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3<R>(pub [R; 3]);
 

@@ -34,6 +34,18 @@ use task::Task;
 pub const SMALLEST_ACCURACY: f64 = 1e-14;
 
 /// An experiment: everything about a run but the scene.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// # fn main() -> Result<(), Diagnostics> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/double-pendulum");
+/// let experiment: Experiment = open(folder.as_ref(), &[], Default::default(), true)?.experiment;
+/// assert_eq!(experiment.n_steps as f64, (experiment.duration / experiment.step).round());
+/// assert!(experiment.record.iter().any(|name| name.value == "energy.balance"));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Experiment {
     /// Title of the report.

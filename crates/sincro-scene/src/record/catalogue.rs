@@ -11,6 +11,18 @@ use sincro_dynamics::model::{JointInfo, Model};
 use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
 
 /// A signal that can be recorded: its name, its unit, how it is measured.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let scene = from_text(r#"
+///     joint = [{ name = "slide", kind = "prismatic", axis = [1.0, 0.0, 0.0] }]
+///     body = [{ name = "cart", parent = "/slide", density = 1000.0, shape = [{ sphere = { radius = 0.1 } }] }]
+/// "#)?;
+/// let entry: Entry = catalogue(&scene.model).into_iter().find(|entry| entry.name == "/slide.velocity").unwrap();
+/// assert_eq!((&*entry.unit, entry.probe), ("m/s", Probe::Rate(0)));
+/// # Ok::<(), Diagnostics>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// As it is written in `record`.
@@ -39,6 +51,20 @@ impl List {
 }
 
 /// All signals of a model: joints, bodies and frames in their order, then the world's.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let scene = from_text(r#"
+///     joint = [{ name = "base", kind = "free" }]
+///     body = [{ name = "ball", parent = "/base", density = 1000.0, shape = [{ sphere = { radius = 0.1 } }] }]
+/// "#)?;
+/// let signals = catalogue(&scene.model);
+/// let unit = |name: &str| signals.iter().find(|signal| signal.name == name).map(|signal| &*signal.unit);
+/// assert_eq!(unit("/base/ball.position.z"), Some("m"));
+/// assert_eq!((unit("energy.kinetic"), unit("energy.height")), (Some("J"), None));
+/// # Ok::<(), Diagnostics>(())
+/// ```
 #[must_use]
 pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
     let mut list = List(Vec::new());

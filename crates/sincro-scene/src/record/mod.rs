@@ -24,6 +24,17 @@ use crate::suggest;
 use probe::View;
 
 /// One number that can be read off a world.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+/// use sincro_scene::record::EnergyQuantity;
+///
+/// let scene = from_text("")?; // signals of the world alone
+/// let signals = catalogue(&scene.model);
+/// let kinetic = signals.iter().find(|signal| signal.name == "energy.kinetic").unwrap();
+/// assert_eq!(kinetic.probe, Probe::Energy(EnergyQuantity::Kinetic));
+/// # Ok::<(), Diagnostics>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Probe {
     /// Coordinate in q.

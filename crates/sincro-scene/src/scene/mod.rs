@@ -60,6 +60,29 @@ use signal_file::SignalReader;
 use tree::Entry;
 
 /// A scene, ready to run.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let scene = from_text(r#"
+///     [[joint]]
+///     name = "hinge"
+///     kind = "revolute"
+///     axis = [0.0, 1.0, 0.0]
+///     initial = { position = 0.3, velocity = -1.0 }
+///
+///     [[body]]
+///     name = "rod"
+///     parent = "/hinge"
+///     density = 7800.0
+///     shape = [{ cylinder = { radius = 0.01, length = 1.0 } }]
+/// "#)?;
+/// assert_eq!((&scene.initial.q[..], &scene.initial.v[..]), (&[0.3][..], &[-1.0][..])); // [rad], [rad/s]
+/// assert_eq!(scene.objects.len(), 2);
+/// let mass = scene.model.total_mass(); // [kg]
+/// assert!((mass - 7800.0 * std::f64::consts::PI * 1e-4).abs() < 1e-12);
+/// # Ok::<(), Diagnostics>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The compiled model; its names are the paths of the objects.

@@ -9,6 +9,20 @@ use super::camera::VisionSensor;
 use crate::diagnostic::Location;
 
 /// A joint, body, frame or force.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let scene = from_text(r#"frame = [
+///     { name = "mast", position = [0.0, 0.0, 2.0] },
+///     { name = "tip", parent = "/mast", position = [0.5, 0.0, 0.0] },
+/// ]"#)?;
+/// let tip: &Object = scene.object("/mast/tip").unwrap();
+/// let mast = &scene.objects[tip.parent.unwrap()];
+/// assert_eq!((mast.path.as_str(), tip.name.as_str()), ("/mast", "tip"));
+/// assert_eq!(mast.pose.compose(&tip.pose).pos.0, [0.5, 0.0, 2.0]); // in the world [m]
+/// # Ok::<(), Diagnostics>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Object {
     /// Parent's path, `/` and name.
@@ -62,6 +76,19 @@ pub struct ShownSurface {
 }
 
 /// Kind of an object.
+///
+/// ```
+/// use sincro_scene::prelude::*;
+///
+/// let scene = from_text(r#"
+///     joint = [{ name = "base", kind = "free" }]
+///     body = [{ name = "cube", parent = "/base", density = 1e3, shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }] }]
+/// "#)?;
+/// let ObjectKind::Body { mass } = scene.object("/base/cube").unwrap().kind else { panic!("a cube is a body") };
+/// assert!((mass.mass - 1.0).abs() < 1e-15); // [kg]
+/// assert_eq!(scene.object("/base").unwrap().kind.word(), "free joint");
+/// # Ok::<(), Diagnostics>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum ObjectKind {
     /// Joint; fixed ones too.

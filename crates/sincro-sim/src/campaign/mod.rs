@@ -52,6 +52,23 @@ pub struct CompletedRun {
 }
 
 /// Results of an experiment: the main run, its variants, its sweep.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let interrupt = std::sync::atomic::AtomicBool::new(false);
+/// let done: Campaign = run_campaign(folder.as_ref(), &[], &loaded, None, &interrupt, &mut |_, _| {})?;
+/// // its check: an arm that swings freely keeps its energy
+/// let check = &done.main.outcomes[0];
+/// assert_eq!(check.verdict, Verdict::Holds);
+/// assert!(check.deviation.unwrap() <= check.limit); // [J]
+/// assert!(done.variants.is_empty() && done.sweep.is_none());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Campaign {
     /// The main run.
@@ -74,6 +91,24 @@ pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
 ///
 /// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that
 /// fails is a result, not an error.
+///
+/// ```
+/// use std::sync::atomic::AtomicBool;
+///
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let shorter = [Override::new("duration", "1.0")];
+/// let loaded = load(folder.as_ref(), &shorter, Extensions::default())?;
+/// let interrupt = AtomicBool::new(false); // a handler of Ctrl-C would set it
+/// let mut share = 0.0;
+/// let done = run_campaign(folder.as_ref(), &shorter, &loaded, None, &interrupt, &mut |_what, done| share = done)?;
+/// assert_eq!(done.report.status, Status::Completed);
+/// assert_eq!(done.main.simulated.table.times().last(), Some(&1.0)); // [s]
+/// # Ok(())
+/// # }
+/// ```
 pub fn run_campaign(
     folder: &Path,
     overrides: &[Override],

@@ -73,6 +73,24 @@ pub struct Outcome {
 }
 
 /// The judgement of a check.
+///
+/// ```
+/// use sincro_sim::check::evaluate;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// // the check of the scene wants `energy.balance` to be zero within 1e-5 J
+/// let verdict = |joules: f64| {
+///     let mut table = Table::new([("t", "s"), ("energy.balance", "J")], 1);
+///     table.push_row(&[0.0, joules]);
+///     evaluate(&loaded.experiment.checks, &table, None)[0].verdict.clone()
+/// };
+/// assert_eq!((verdict(1e-6), verdict(1e-3)), (Verdict::Holds, Verdict::Fails));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The deviation is finite and within its limit.

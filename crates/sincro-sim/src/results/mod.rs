@@ -19,6 +19,22 @@ use crate::validity::ValidityViolation;
 use sincro_scene::experiment::check::Sense;
 
 /// Content of `run.json`: the run, its settings, signals, checks and findings.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// # let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// # let interrupt = std::sync::atomic::AtomicBool::new(false);
+/// # let done = run_campaign(folder.as_ref(), &[], &loaded, None, &interrupt, &mut |_, _| {})?;
+/// let report: RunReport = done.report; // of the scene `acrobot`
+/// assert_eq!((report.scene.as_str(), report.n_dof), ("acrobot", 2));
+/// assert_eq!((report.columns[0].name.as_str(), report.checks.len()), ("t", 1));
+/// assert_eq!(report.trace_hash, done.main.simulated.trace.to_string());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunReport {
     /// Version of sincro that ran it.
@@ -121,6 +137,14 @@ pub struct ChangeReport {
 }
 
 /// Status of a run at its end.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// assert_eq!(Status::Completed.stopped_at(), None);
+/// let stopped = Status::Stopped { tick: 40, time: 0.2, reason: "the motor burns".into(), help: String::new() };
+/// assert_eq!(stopped.stopped_at(), Some(0.2)); // [s]
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "state", rename_all = "kebab-case")]
 pub enum Status {
@@ -347,7 +371,7 @@ pub struct SweepStopReport {
 }
 
 impl SweepReport {
-    /// The sweep and its checks; error bars are not estimated.
+    /// Report of a sweep and of the outcomes of its checks; error bars are not estimated.
     #[must_use]
     pub fn new(sweep: &Sweep, outcomes: &[Outcome]) -> Self {
         let stops = sweep.stops.iter().map(|stop| SweepStopReport {

@@ -17,6 +17,24 @@ use sincro_scene::record::float_signals;
 use sincro_scene::script::ScriptError;
 
 /// A world with its controller.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+/// run.start()?;
+/// let before = run.world().energy().total();
+/// for _ in 0..20 {
+///     run.advance()?;
+/// }
+/// assert_eq!((run.tick(), run.t()), (20, 1.0)); // [s]
+/// assert!((run.world().energy().total() - before).abs() < 1e-5); // it swings freely [J]
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct LockStep {
     world: World,
@@ -46,6 +64,23 @@ pub struct Fork {
 }
 
 /// Cause of a stop.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+/// run.start()?;
+/// run.advance()?;
+/// run.world().state.v[0] = f64::NAN;
+/// let halt = run.advance().unwrap_err();
+/// let Halt::World { tick, t, .. } = halt else { panic!("the world stops") };
+/// assert_eq!((tick, t), (1, 0.05));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
     /// The world could not be advanced from this tick.
@@ -135,6 +170,27 @@ impl LockStep {
     /// # Panics
     ///
     /// It has a continuous part: the world has no room for its states.
+    ///
+    /// ```
+    /// use sincro_sim::prelude::*;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+    /// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+    /// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+    /// // PD control holds the elbow straight
+    /// run.attach(Box::new(ClosureController::new("pd", |at: Instant<'_>, held: &mut [Option<f64>]| {
+    ///     let (q, v) = (at.world.state.q[1], at.world.state.v[1]);
+    ///     held[0] = Some(-20.0 * q - 4.0 * v); // [N·m]
+    /// })));
+    /// run.start()?;
+    /// while run.t() < 5.0 {
+    ///     run.advance()?;
+    ///     assert!(run.state().q[1].abs() < 0.02); // [rad]
+    /// }
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn attach(&mut self, mut controller: Box<dyn Controller>) {
         assert!(controller.continuous().is_none(), "the world is made with room for the diagram's states alone");
         self.controllers.push(controller);
@@ -198,6 +254,23 @@ impl LockStep {
     }
 
     /// Sets the state of the world and the continuous states of the diagram; empty `continuous` leaves the latter.
+    ///
+    /// ```
+    /// use sincro_sim::prelude::*;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+    /// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+    /// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+    /// run.start()?;
+    /// let mut hanging = run.state().clone();
+    /// hanging.q.fill(0.0);
+    /// run.set_state(hanging, &[]);
+    /// run.advance()?;
+    /// assert!(run.state().v.iter().all(|v| v.abs() < 1e-12)); // an equilibrium: it stays
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn set_state(&mut self, state: State<f64>, continuous: &[f64]) {
         self.world.state = state;
         self.world.mark_changed();
@@ -465,6 +538,24 @@ impl LockStep {
     }
 
     /// Goes back to a snapshot of the same scene and diagram.
+    ///
+    /// ```
+    /// use sincro_sim::prelude::*;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+    /// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+    /// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+    /// run.start()?;
+    /// let here = run.snapshot(run.trace());
+    /// run.advance()?;
+    /// let first = run.state().clone();
+    /// run.restore(&here);
+    /// run.advance()?;
+    /// assert_eq!(*run.state(), first); // the same bits
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.world.state = snapshot.state.clone();
         self.world.mark_changed();

@@ -48,6 +48,22 @@ const FINER: f64 = 100.0;
 const FINEST: f64 = 1e-15;
 
 /// Result of a single run.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut monitor = RunMonitor { interrupt: &false.into(), progress: &mut |_| {} };
+/// let run: Simulated = simulate(&loaded, RunOptions::default(), &mut monitor)?;
+/// let tip = run.table.column("/shoulder/upper/elbow/lower/tip.position.z").unwrap();
+/// assert!((tip.values[0] + 2.0 * f64::cos(0.1)).abs() < 1e-12); // two links of 1 m, 0.1 rad from hanging
+/// assert_eq!((run.status, run.statistics.steps), (Status::Completed, 200));
+/// assert!(run.balances.iter().all(|joules| joules.abs() < 1e-5) && run.warnings.is_empty());
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Simulated {
     /// The recorded signals.
@@ -85,6 +101,22 @@ pub struct Simulated {
 }
 
 /// Monitor of a run: interruption and progress.
+///
+/// ```
+/// use std::sync::atomic::AtomicBool;
+///
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let interrupt = AtomicBool::new(true); // the user has pressed Ctrl-C
+/// let mut monitor = RunMonitor { interrupt: &interrupt, progress: &mut |share| assert!(share <= 1.0) };
+/// let run = simulate(&loaded, RunOptions::default(), &mut monitor)?;
+/// assert!(matches!(run.status, Status::Interrupted { tick: 1, .. }));
+/// # Ok(())
+/// # }
+/// ```
 pub struct RunMonitor<'a> {
     /// Set from outside to end the run after the present tick.
     pub interrupt: &'a AtomicBool,
@@ -93,6 +125,22 @@ pub struct RunMonitor<'a> {
 }
 
 /// Options of a run: output file, refinement, keyframes.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut monitor = RunMonitor { interrupt: &false.into(), progress: &mut |_| {} };
+/// let coarse = simulate(&loaded, RunOptions::default(), &mut monitor)?;
+/// // with half of the step: what an error bar compares with
+/// let finer = simulate(&loaded, RunOptions { refined: true, ..RunOptions::default() }, &mut monitor)?;
+/// let angle = |run: &Simulated| *run.table.column("/shoulder.position").unwrap().values.last().unwrap();
+/// assert!(angle(&coarse) != angle(&finer) && (angle(&coarse) - angle(&finer)).abs() < 1e-4); // [rad]
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RunOptions<'a> {
     /// CSV file that rows are written to as they come.
@@ -106,6 +154,20 @@ pub struct RunOptions<'a> {
 }
 
 /// Error before the first step of a run.
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut monitor = RunMonitor { interrupt: &false.into(), progress: &mut |_| {} };
+/// let nowhere = RunOptions { csv: Some("no-such-folder/signals.csv".as_ref()), ..RunOptions::default() };
+/// let error = simulate(&loaded, nowhere, &mut monitor).unwrap_err();
+/// assert!(matches!(&error, RunError::File(_)) && error.to_string().contains("no-such-folder"));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug)]
 pub enum RunError {
     /// Recorded signals that mean nothing.
@@ -198,6 +260,22 @@ fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Opti
 
 /// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest
 /// pole of the loop that they close, which the linearisation gives exactly.
+///
+/// ```
+/// use sincro_dynamics::world::MethodKind;
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?; // integrator = "rk4"
+/// let (method, warnings) = method_for(&loaded);
+/// assert!(method == MethodKind::Rk4 && warnings.is_empty());
+/// // a spring that is too stiff for an explicit method at a step of 50 ms
+/// let stiff = loaded.with_overrides(&[Override::new("/shoulder.spring", "{ stiffness = 1e6 }")])?;
+/// assert_eq!(method_for(&stiff).1.len(), 1);
+/// # Ok(())
+/// # }
+/// ```
 #[must_use]
 pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     let (kind, mut warnings) = choose_method(&loaded.scene, &loaded.experiment);
@@ -292,6 +370,21 @@ pub(crate) fn finer_accuracy(accuracy: f64) -> f64 {
 ///
 /// If a recorded signal does not exist or the CSV file cannot be written. A run that stops is not an error: see
 /// [`Simulated::status`].
+///
+/// ```
+/// use sincro_sim::prelude::*;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+/// let loaded = load(folder.as_ref(), &[Override::new("duration", "2.0")], Extensions::default())?;
+/// let mut monitor = RunMonitor { interrupt: &false.into(), progress: &mut |_| {} };
+/// let run = simulate(&loaded, RunOptions::default(), &mut monitor)?;
+/// assert_eq!(run.table.n_rows(), 41); // 2 s at 50 ms, the start included
+/// // the same scene gives the same bits
+/// assert_eq!(simulate(&loaded, RunOptions::default(), &mut monitor)?.trace, run.trace);
+/// # Ok(())
+/// # }
+/// ```
 pub fn simulate(loaded: &Loaded, options: RunOptions<'_>, monitor: &mut RunMonitor<'_>) -> Result<Simulated, RunError> {
     let experiment = &loaded.experiment;
     let (method, warnings) = method_for(loaded);

@@ -33,7 +33,7 @@ pub enum Map {
     EulerRatesToAngularVelocity,
 }
 
-/// Quaternion (w, x, y, z) of Euler angles `[rad]`.
+/// Quaternion (w, x, y, z) of Euler angles `[rad]`, of length 1; the parameter `convention` gives their order.
 pub type EulerToQuaternion = Rotation<{ Map::EulerToQuaternion as usize }>;
 /// Euler angles `[rad]` of a quaternion (w, x, y, z), which need not be of length 1. Where the middle angle is ±π/2,
 /// yaw (or α) is taken as zero.

@@ -47,13 +47,13 @@ impl Values {
         }
     }
 
-    /// Returns true if there are none.
+    /// Returns true if there is no value.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// No values of the same type.
+    /// Empty list of values of the same type.
     #[must_use]
     pub fn emptied(&self) -> Self {
         match self {
