@@ -4,7 +4,6 @@
 //! tree with the armature on its diagonal: loop joints, gears, limits and contacts act as constraints beside it.
 
 use sincro_dynamics::aba::{Input, forward_dynamics};
-use sincro_dynamics::actuation::damper;
 use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea::inverse_dynamics;
@@ -72,7 +71,7 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     let mut passive = zeros();
     for joint in &model.names().joints {
         for k in 0..joint.n_v {
-            let (i, dof) = (joint.v_idx + k, &model.dofs()[joint.v_idx + k]);
+            let i = joint.v_idx + k;
             passive[i] = model.spring_torque(i, &q) + model.damping_torque(i, &q, &v);
         }
     }

@@ -148,6 +148,10 @@ fn output(all: &[Entry], name: &Located<String>) -> Result<Output, Diagnostic> {
         let message = format!("`{}` is no function of the state", name.value);
         return Err(Diagnostic::error(&name.at, message).with_help("take a position, velocity, acceleration or torque"));
     }
+    if matches!(entry.probe, Probe::JointReaction(..)) {
+        let message = format!("`{}` is computed for records only, not linearised", name.value);
+        return Err(Diagnostic::error(&name.at, message).with_help("take a position, velocity, acceleration or torque"));
+    }
     Ok(output_of(entry))
 }
 

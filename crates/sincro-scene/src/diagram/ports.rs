@@ -128,6 +128,7 @@ fn can_be_measured(probe: Probe) -> bool {
             | Probe::FrictionTorque(_)
             | Probe::LimitTorque(_)
             | Probe::Opening(_)
+            | Probe::JointReaction(..)
             | Probe::Contact(ContactQuantity::Point | ContactQuantity::Normal, ..)
             | Probe::Energy(EnergyQuantity::Balance)
             | Probe::Signal(_)
