@@ -40,9 +40,9 @@ const ROUGH: &[(&str, &str)] = &[
 /// With a formula, a table and a rope between points, one of them in a loop.
 const LINES: &[(&str, &str)] = &[(
     "spring_damper",
-    "[{ name = \"a\", between = [\"/\", \"/shoulder/elbow/link2\"], points = [[0.0, 0.3, 2.0], [0.0, 0.0, 0.0]], \
+    "[{ name = \"a\", between = [\"/\", \"/shoulder/elbow/forearm\"], points = [[0.0, 0.3, 2.0], [0.0, 0.0, 0.0]], \
       law = \"-20*x - 5*abs(x)*x - v\", actuator = { command = 0.5 } }, \
-     { name = \"b\", between = [\"/\", \"/shoulder/link1\"], points = [[0.5, 0.0, 1.0], [0.0, 0.0, 0.0]], \
+     { name = \"b\", between = [\"/\", \"/shoulder/upper_arm\"], points = [[0.5, 0.0, 1.0], [0.0, 0.0, 0.0]], \
       tension_only = true, table = [[0.0, 0.0], [0.1, -2.0], [0.3, -9.0]] }]",
 )];
 
