@@ -360,7 +360,7 @@ impl Node {
 /// declare_block! {
 ///     /// Mechanical power of a motor.
 ///     pub struct Power("power", Maths): "y = efficiency·u·i" {
-///         /// Share that the windings leave.
+///         /// Efficiency of the windings, 0 to 1 (dimensionless).
 ///         pub efficiency: f64 as Positive,
 ///     }
 /// }

@@ -182,7 +182,9 @@ fn free_commands(loaded: &Loaded) -> Vec<FreeCommand> {
 fn stands_for(command: &str, path: &str) -> bool {
     let Some((object, quantity)) = command.split_once('.') else { return false };
     let Some(key) = path.strip_prefix(object).and_then(|rest| rest.strip_prefix('.')) else { return false };
-    matches!((quantity, key), ("command", "motor.command" | "motor.command.constant"))
+    let of_actuators =
+        ["motor.command", "motor.command.constant", "actuator.command", "actuator.command.constant"].contains(&key);
+    (quantity == "command" && of_actuators)
         || (matches!(quantity, "speed" | "command") && matches!(key, "speed" | "speed.constant"))
 }
 

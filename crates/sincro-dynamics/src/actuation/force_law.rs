@@ -87,13 +87,15 @@ impl NonlinearLaw {
         x.map(|x| (of(x), -self.force(x, 0.0)))
     }
 
-    /// −∂N/∂x and −∂N/∂ẋ, without derivatives of their own.
+    /// −∂N/∂x and −∂N/∂ẋ, without derivatives of their own; zero where a slope is infinite or none, as that of a square
+    /// root at 0, which is then taken explicitly.
     #[inline]
     pub(crate) fn negated_partials<R: Real>(&self, x: R, v: R) -> (R, R) {
         let partial = |i: usize| {
             R::from_lanes(|l| {
                 let at = [Dual::<2>::variable(x.lane(l), 0), Dual::<2>::variable(v.lane(l), 1)];
-                -self.force(at[0], at[1]).partials[i]
+                let partial = -self.force(at[0], at[1]).partials[i];
+                if partial.is_finite() { partial } else { 0.0 }
             })
         };
         (partial(0), partial(1))

@@ -43,6 +43,7 @@ impl<R: Real> Constraints<R> {
         self.candidates.clone_from(&other.candidates);
         self.is_independent.clone_from(&other.is_independent);
         self.row_sizes.clone_from(&other.row_sizes);
+        self.row_squares.clone_from(&other.row_squares);
     }
 
     /// Rows that hold as equations in the last evaluation, for the joint rates `v` that it was made with.

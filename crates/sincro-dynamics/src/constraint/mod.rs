@@ -180,8 +180,10 @@ pub(crate) struct Constraints<R> {
     pub conditioning: f64,
     /// Size of each bilateral row that is used ([`rank`]), squared.
     pub row_sizes: Vec<f64>,
+    /// Squares of these rows in the metric of the mass matrix where they were selected.
+    pub row_squares: Vec<f64>,
     /// Bilateral rows that are used; the others depend on them.
-    is_independent: Vec<bool>,
+    pub is_independent: Vec<bool>,
     /// Length of the sub-step that is being made `[s]`; 0: none.
     pub sub_step: f64,
     /// Speed below which a contact neither slides nor approaches [m/s] or [rad/s].
@@ -240,6 +242,7 @@ impl<R: Real> Constraints<R> {
             kept: Vec::new(),
             conditioning: 1.0,
             row_sizes: Vec::new(),
+            row_squares: Vec::new(),
             is_independent: vec![true; set.n_bilateral()],
             sub_step: 0.0,
             zero_speed: ZERO_SPEED,
@@ -337,10 +340,18 @@ impl<R: Real> Constraints<R> {
     /// Drops loop rows that vanish at a singular position, whose forces would be rounding: those whose square, relative
     /// to the row's size, is below `rank`. Returns the smallest of these squares.
     fn drop_vanishing_rows(&mut self, rank: f64) -> f64 {
+        let sizes = core::mem::take(&mut self.row_sizes);
+        let smallest = self.drop_rows_below(rank, &sizes);
+        self.row_sizes = sizes;
+        smallest
+    }
+
+    /// Drops loop rows whose square is below `rank` of its reference; returns the smallest ratio.
+    fn drop_rows_below(&mut self, rank: f64, references: &[f64]) -> f64 {
         let m = self.rows.len();
         let mut smallest = 1.0_f64;
-        for i in 0..self.n_free.min(self.row_sizes.len()) {
-            let of_row = self.a[i * m + i].lane(0) / self.row_sizes[i];
+        for i in 0..self.n_free.min(references.len()) {
+            let of_row = self.a[i * m + i].lane(0) / references[i];
             smallest = smallest.min(of_row);
             if of_row < rank {
                 for j in 0..m {

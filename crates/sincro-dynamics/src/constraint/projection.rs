@@ -92,7 +92,10 @@ impl<R: Real> Constraints<R> {
             None => self.b.extend_from_slice(&self.residual),
         }
         self.solver.rank = rank;
-        self.drop_vanishing_rows(rank);
+        // against what they are elsewhere: rows may be small for good, beside a light end
+        let squares = core::mem::take(&mut self.row_squares);
+        self.drop_rows_below(rank, &squares);
+        self.row_squares = squares;
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         self.solver.correct(&problem, &[], &mut self.lambda);
         out.fill(R::zero());

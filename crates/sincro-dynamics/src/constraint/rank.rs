@@ -40,6 +40,7 @@ impl Constraints<f64> {
                 row[k] = *x;
             }
         }
+        let squares: Vec<f64> = rows.iter().map(|row| norm(row) * norm(row)).collect();
         independent.clear();
         for _ in 0..m.min(n) {
             let share = |i: usize| norm(&rows[i]) / sizes[i];
@@ -64,6 +65,8 @@ impl Constraints<f64> {
         independent.sort_unstable();
         self.row_sizes.clear();
         self.row_sizes.extend(independent.iter().map(|i| sizes[*i] * sizes[*i]));
+        self.row_squares.clear();
+        self.row_squares.extend(independent.iter().map(|i| squares[*i]));
     }
 
     /// Size of each assembled bilateral row.

@@ -40,7 +40,7 @@ impl Mechanism<f64> {
         self.projection_scale = extent.min(1.0);
         self.constraints.as_deref_mut().expect("checked").use_all_rows();
         let (mut best, mut found): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
-        let mut sizes = Vec::new();
+        let (mut sizes, mut squares) = (Vec::new(), Vec::new());
         for trial in 0..=TRIALS {
             self.base.copy_from_slice(q);
             self.find_free_rows();
@@ -51,7 +51,9 @@ impl Mechanism<f64> {
                 self.find_rows(INDEPENDENT, &mut found);
                 if found.len() > best.len() {
                     core::mem::swap(&mut best, &mut found);
-                    sizes.clone_from(&self.constraints.as_deref().expect("checked").row_sizes);
+                    let c = self.constraints.as_deref().expect("checked");
+                    sizes.clone_from(&c.row_sizes);
+                    squares.clone_from(&c.row_squares);
                 }
             }
         }
@@ -59,12 +61,15 @@ impl Mechanism<f64> {
             // the loops cannot be closed here: what the given position says
             self.base.copy_from_slice(q);
             self.find_rows(INDEPENDENT_OPEN, &mut best);
-            sizes.clone_from(&self.constraints.as_deref().expect("checked").row_sizes);
+            let c = self.constraints.as_deref().expect("checked");
+            sizes.clone_from(&c.row_sizes);
+            squares.clone_from(&c.row_squares);
         }
         self.base = base;
         let c = self.constraints.as_deref_mut().expect("checked");
         c.use_rows(&best, n_bilateral);
         c.row_sizes = sizes;
+        c.row_squares = squares;
         self.mark_locked();
         best.len()
     }

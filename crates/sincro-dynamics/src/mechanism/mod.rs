@@ -149,6 +149,7 @@ impl<R: Real> Mechanism<R> {
     /// Lays the chart at the state and writes y for it.
     pub fn load(&mut self, x: &State<R>, y: &mut [R]) {
         let n = self.model.n_v();
+        self.forget_conditioning();
         self.base.copy_from_slice(&x.q);
         self.commands.copy_from_slice(&x.commands);
         self.drives.copy_from_slice(&x.drives);

@@ -38,6 +38,9 @@ const PASSED: f64 = 0.1;
 const FIRST_DISPLACEMENT: f64 = 1e-3;
 const CONDITIONING_OF_LIMIT: f64 = 1e-4;
 
+/// Displacements that are tried: coordinates outside of the loops may be a thousand times faster.
+const MAX_DISPLACEMENTS: usize = 5;
+
 /// Weights of the means over ± 1, 2, 3 displacements whose sum has no terms of second and fourth order.
 const WEIGHTS: [f64; 3] = [1.5, -0.6, 0.1];
 
@@ -175,6 +178,11 @@ impl<R: Real> Mechanism<R> {
         self.singular.passed
     }
 
+    /// Forgets the last evaluation: what follows depends on the state alone.
+    pub(super) fn forget_conditioning(&mut self) {
+        (self.singular.is_near, self.singular.conditioning) = (false, 1.0);
+    }
+
     /// Begins a step of a method without trial steps.
     pub(crate) fn begin_fixed_step(&mut self) {
         self.singular.begin_step();
@@ -223,6 +231,10 @@ impl<R: Real> Mechanism<R> {
             }
             None => {
                 self.plain_slope(t, implicit, y, slope);
+                if self.drive_monitor.is_active {
+                    let n = self.model.n_v();
+                    self.monitor_drives(t, &y[n..2 * n], &slope[n..2 * n]);
+                }
                 false
             }
         };
@@ -237,10 +249,20 @@ impl<R: Real> Mechanism<R> {
         if !(largest > 0.0 && largest.is_finite()) {
             return None;
         }
-        let first = FIRST_DISPLACEMENT / largest;
-        self.displaced_slope(at, first, y, slope);
-        let growth = (CONDITIONING_OF_LIMIT / self.singular.conditioning).sqrt();
-        (growth < 100.0).then_some(growth.max(0.01) * first)
+        let (mut shift, mut last) = (FIRST_DISPLACEMENT / largest, 0.0);
+        for _ in 0..MAX_DISPLACEMENTS {
+            self.displaced_slope(at, shift, y, slope);
+            let conditioning = self.singular.conditioning;
+            let growth = (CONDITIONING_OF_LIMIT / conditioning).sqrt();
+            if conditioning >= LIMIT {
+                return Some(growth.max(0.01) * shift);
+            }
+            if conditioning < 2.0 * last {
+                return None;
+            }
+            (shift, last) = (growth.min(100.0) * shift, conditioning);
+        }
+        None
     }
 
     /// Slope of a stage displaced by `shift` seconds of its motion; `y` is overwritten with its state.
@@ -295,7 +317,7 @@ impl<R: Real> Mechanism<R> {
         });
     }
 
-    /// Does something with the chart's origin at `self.q`; where that leaves it is `self.q` afterwards.
+    /// Calls `act` with the chart's origin at `self.q`, where the origin then is left in `self.q`, and puts it back.
     fn with_stage_as_base(&mut self, act: impl FnOnce(&mut Self)) {
         let mut base = core::mem::take(&mut self.singular.base);
         base.clear();

@@ -237,11 +237,16 @@ impl Observation<'_> {
             let rate = c.motions.rate(&c.rows[row], &self.state.v);
             (c.residual[row].abs(), rate.abs())
         });
+        // rows that depend on others are not there
+        let mut is_used = c.is_independent.iter();
         for (k, joint) in set.loop_joints.iter().enumerate() {
-            for (i, (g, rate)) in rows.by_ref().take(joint.kind.rows()).enumerate() {
+            for i in 0..joint.kind.rows() {
+                if !is_used.next().unwrap_or(&true) {
+                    continue;
+                }
+                let Some((g, rate)) = rows.next() else { break };
                 let element = LawElement::LoopJoint(k);
-                // three rows of points, then axes
-                if i < 3 {
+                if i < joint.kind.n_translations() {
                     found.add(Law::LoopPosition, g, scales.length, ResidualKind::Length, element);
                     found.add(Law::LoopVelocity, rate, scales.linear_speed, ResidualKind::Speed, element);
                 } else {

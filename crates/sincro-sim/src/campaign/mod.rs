@@ -298,6 +298,7 @@ fn parameter_unit(scene: &Scene, path: &str) -> &'static str {
     let is_length = scene
         .object(object)
         .is_some_and(|o| matches!(o.kind, ObjectKind::Joint { kind: JointKind::Prismatic { .. }, .. }));
+    let is_length = is_length || scene.model.names().spring_dampers.iter().any(|name| name == object);
     let of_joint = |angle: &'static str, length: &'static str| if is_length { length } else { angle };
     match keys.rsplit('.').next().unwrap_or(keys) {
         "stiffness" => of_joint("N·m/rad", "N/m"),
@@ -308,7 +309,8 @@ fn parameter_unit(scene: &Scene, path: &str) -> &'static str {
         "armature" => of_joint("kg·m²", "kg"),
         "mass" => "kg",
         "density" => "kg/m³",
-        "radius" | "length" => "m",
+        "radius" | "length" | "free_length" => "m",
+        "preload" => "N",
         "step" | "duration" => "s",
         _ => "",
     }

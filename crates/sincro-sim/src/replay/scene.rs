@@ -299,6 +299,7 @@ impl Maker<'_> {
     fn joint(&self, k: usize, base_mover: Option<usize>, x_wo: &Pose<f64>) -> JointView {
         let info = &self.model.names().joints[k];
         let dofs = self.model.dofs()[info.v_idx..info.v_idx + info.n_v].iter().enumerate();
+        let has_law = |i: usize| self.model.nonlinear_springs().iter().any(|spring| spring.dof == info.v_idx + i);
         JointView {
             base_mover,
             base_pose: self.on(base_mover, x_wo),
@@ -307,7 +308,10 @@ impl Maker<'_> {
             n_q: info.n_q,
             v_idx: info.v_idx,
             n_v: info.n_v,
-            springs: dofs.filter(|(_, d)| d.stiffness > 0.0).map(|(i, d)| (i, d.stiffness, d.rest)).collect(),
+            springs: dofs
+                .filter(|(i, d)| d.stiffness > 0.0 || has_law(*i))
+                .map(|(i, d)| (i, d.stiffness, d.rest))
+                .collect(),
             motor: info.motor.is_some(),
         }
     }

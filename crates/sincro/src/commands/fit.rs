@@ -116,6 +116,6 @@ fn fit(arguments: &Arguments) -> Result<Exit, Diagnostics> {
             say!("  report {}", out.join("report.html").display());
         }
     }
-    let is_told = fit.inference.estimates.iter().all(|estimate| estimate.is_told);
-    Ok(if fit.solution.has_converged && is_told { Exit::Holds } else { Exit::Fails })
+    let is_identifiable = fit.inference.estimates.iter().all(|estimate| estimate.is_identifiable);
+    Ok(if fit.solution.has_converged && is_identifiable { Exit::Holds } else { Exit::Fails })
 }
