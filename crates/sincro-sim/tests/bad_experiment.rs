@@ -185,7 +185,7 @@ experiment.toml:14:12: error: formula: unknown name `k`
         r#"parameter = "/shoulder.spring.stiffness""#,
         r#"parameter = "/shoulder.spring.stifness""#,
         r#"experiment.toml:38:13: error: `/shoulder.spring.stifness`: `spring` has no `stifness`
-  help: did you mean `stiffness`? keys: `rest`, `stiffness`"#,
+  help: did you mean `stiffness`? keys: `law`, `rest`, `stiffness`, `table`"#,
     ),
     (
         "experiment.toml",

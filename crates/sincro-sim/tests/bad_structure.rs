@@ -18,7 +18,7 @@ const CASES: &[(&str, &str, &str, &str)] = &[
         "rest = 0.0 }",
         "rset = 0.0 }",
         r#"scene.toml:7:30: error: unknown key `rset` in `spring`
-  help: did you mean `rest`? keys here: `rest`, `stiffness`"#,
+  help: did you mean `rest`? keys here: `law`, `rest`, `stiffness`, `table`"#,
     ),
     (
         "scene.toml",
