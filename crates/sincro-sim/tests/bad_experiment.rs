@@ -192,7 +192,7 @@ experiment.toml:14:12: error: formula: unknown name `k`
         r#"set = { "/shoulder.spring.stiffness" = 10.0"#,
         r#"set = { "/shoulder.spring.stiffness" = -10.0"#,
         r#"experiment.toml:43:40: error: `stiffness` is -10, expected a number in N·m/rad or N/m, at least 0
-  help: Torque a radian, or force a metre [N·m/rad] or [N/m]."#,
+  help: Torque a radian, or force a metre; default 0 with a `law` or a `table` [N·m/rad] or [N/m]."#,
     ),
     (
         "experiment.toml",

@@ -102,7 +102,7 @@ axis"#,
         "stiffness = 30.0",
         "stiffness = -1.0",
         r#"scene.toml:7:24: error: `stiffness` is -1, expected a number in N·m/rad or N/m, at least 0
-  help: Torque a radian, or force a metre [N·m/rad] or [N/m]."#,
+  help: Torque a radian, or force a metre; default 0 with a `law` or a `table` [N·m/rad] or [N/m]."#,
     ),
     (
         "scene.toml",
