@@ -33,7 +33,7 @@ axis"#,
         "stiffness = 30.0, ",
         "",
         r#"scene.toml:7:10: error: `stiffness` is missing in `spring`
-  help: `stiffness`: Torque a radian, or force a metre [N·m/rad] or [N/m]."#,
+  help: give `stiffness` [N·m/rad] or [N/m] to the spring of `shoulder`, or a `law` or `table`"#,
     ),
     (
         "scene.toml",
