@@ -315,7 +315,11 @@ law = "-10*x - 4*x^2"
     let expected = [[-14.0 / 2.0, 0.0, 0.0], [0.0, -6.0 / 2.0, 0.0], [0.0, 0.0, 0.0]];
     for i in 0..3 {
         for j in 0..3 {
-            assert!((linear.system.a[(3 + i, j)] - expected[i][j]).abs() < 1e-12, "{i} {j}: {}", linear.system.a[(3 + i, j)]);
+            assert!(
+                (linear.system.a[(3 + i, j)] - expected[i][j]).abs() < 1e-12,
+                "{i} {j}: {}",
+                linear.system.a[(3 + i, j)]
+            );
         }
     }
     assert!((linear.system.a[(3, 3)] + 0.15).abs() < 1e-12 && linear.system.a[(4, 4)].abs() < 1e-12);

@@ -7,8 +7,9 @@ use crate::integrate::Implicit;
 use crate::state::displace;
 
 impl<R: Real> Mechanism<R> {
-    /// Slope at a stage; at a singular position of loops those rows are left out that vanish.
-    #[inline(always)]
+    /// Slope at a stage; at a singular position of loops those rows are left out that vanish. Not for hot paths: it is
+    /// one copy of both kinds of stages for all that look at singular positions.
+    #[inline(never)]
     pub(super) fn plain_slope(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
         match implicit {
             None => self.explicit_slope(t, y, slope),
