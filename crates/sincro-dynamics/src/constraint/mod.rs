@@ -329,7 +329,7 @@ impl<R: Real> Constraints<R> {
         if let Some(implicit) = implicit.as_deref_mut() {
             implicit.reduce(self.delassus_factors.values(), &mut self.a, &mut self.b);
         }
-        let vanishing = self.drop_vanishing_rows(SINGULAR);
+        let vanishing = self.drop_vanishing_rows();
         self.solve();
         // redundant contacts are no singular position
         self.conditioning = if self.blocks.is_empty() { vanishing * self.solver.smallest_pivot } else { 1.0 };
@@ -337,11 +337,11 @@ impl<R: Real> Constraints<R> {
         self.take_drive_torques(level == Level::Acceleration, scratch, v_dot);
     }
 
-    /// Drops loop rows that vanish at a singular position, whose forces would be rounding: those whose square, relative
-    /// to the row's size, is below `rank`. Returns the smallest of these squares.
-    fn drop_vanishing_rows(&mut self, rank: f64) -> f64 {
+    /// Drops loop rows that vanish at a singular position, whose forces would be rounding; returns the smallest square
+    /// of a row relative to its size.
+    fn drop_vanishing_rows(&mut self) -> f64 {
         let sizes = core::mem::take(&mut self.row_sizes);
-        let smallest = self.drop_rows_below(rank, &sizes);
+        let smallest = self.drop_rows_below(SINGULAR, &sizes);
         self.row_sizes = sizes;
         smallest
     }

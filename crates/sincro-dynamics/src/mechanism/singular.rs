@@ -26,7 +26,7 @@ const NEAR: f64 = 1e-2;
 
 /// Conditioning below which slopes are limits along the branch. It is far above [`SINGULAR`], because the error of a
 /// stage across the branch must be small beside the distance to the singular position for projection to remove it.
-const LIMIT: f64 = 1e-5;
+const BRANCH_LIMIT: f64 = 1e-5;
 
 /// Conditioning at the start of a step below which a singular position may have been passed, and the least value of the
 /// parabola, relative to its ends, at which it has been.
@@ -108,7 +108,7 @@ impl<R> Default for SingularPassage<R> {
 impl<R> SingularPassage<R> {
     /// True if the last evaluation was so near a singular position that its slopes are rounding.
     pub fn needs_limit(&self) -> bool {
-        self.is_near && self.conditioning < LIMIT
+        self.is_near && self.conditioning < BRANCH_LIMIT
     }
 
     /// Begins a trial step.
@@ -202,23 +202,28 @@ impl<R: Real> Mechanism<R> {
     #[inline(never)]
     pub(super) fn take_limit(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
         let conditioning = self.singular.conditioning;
-        let mut memory = core::mem::take(&mut self.singular.displaced);
-        memory.resize(y.len(), R::zero());
-        let mut of_memory = core::mem::take(&mut self.singular.slope);
-        of_memory.resize(y.len(), R::zero());
+        let mut displaced = core::mem::take(&mut self.singular.displaced);
+        displaced.resize(y.len(), R::zero());
+        let mut displaced_slope = core::mem::take(&mut self.singular.slope);
+        displaced_slope.resize(y.len(), R::zero());
         let mut direction = core::mem::take(&mut self.singular.direction);
         direction.clear();
         direction.extend_from_slice(&slope[..self.model.n_v()]);
         let at = DisplacedStage { t, implicit, y, direction: &direction };
-        let has_limit = match self.displacement(&at, &mut memory, &mut of_memory) {
+        let has_limit = match self.displacement(&at, &mut displaced, &mut displaced_slope) {
             Some(displacement) => {
                 let mut limit = core::mem::take(&mut self.singular.limit);
                 limit.clear();
                 limit.resize(y.len(), R::zero());
                 for (k, weight) in WEIGHTS.iter().enumerate() {
                     for sign in [1.0, -1.0] {
-                        self.displaced_slope(&at, sign * (k + 1) as f64 * displacement, &mut memory, &mut of_memory);
-                        for (limit, part) in limit.iter_mut().zip(&of_memory) {
+                        self.slope_displaced(
+                            &at,
+                            sign * (k + 1) as f64 * displacement,
+                            &mut displaced,
+                            &mut displaced_slope,
+                        );
+                        for (limit, part) in limit.iter_mut().zip(&displaced_slope) {
                             *limit += R::splat(0.5 * weight) * *part;
                         }
                     }
@@ -238,7 +243,8 @@ impl<R: Real> Mechanism<R> {
                 false
             }
         };
-        (self.singular.displaced, self.singular.slope, self.singular.direction) = (memory, of_memory, direction);
+        (self.singular.displaced, self.singular.slope, self.singular.direction) =
+            (displaced, displaced_slope, direction);
         self.note_stage(t, if has_limit { 1.0 } else { conditioning });
     }
 
@@ -251,10 +257,10 @@ impl<R: Real> Mechanism<R> {
         }
         let (mut shift, mut last) = (FIRST_DISPLACEMENT / largest, 0.0);
         for _ in 0..MAX_DISPLACEMENTS {
-            self.displaced_slope(at, shift, y, slope);
+            self.slope_displaced(at, shift, y, slope);
             let conditioning = self.singular.conditioning;
             let growth = (CONDITIONING_OF_LIMIT / conditioning).sqrt();
-            if conditioning >= LIMIT {
+            if conditioning >= BRANCH_LIMIT {
                 return Some(growth.max(0.01) * shift);
             }
             if conditioning < 2.0 * last {
@@ -266,7 +272,7 @@ impl<R: Real> Mechanism<R> {
     }
 
     /// Slope of a stage displaced by `shift` seconds of its motion; `y` is overwritten with its state.
-    fn displaced_slope(&mut self, at: &DisplacedStage<'_, R>, shift: f64, y: &mut [R], slope: &mut [R]) {
+    fn slope_displaced(&mut self, at: &DisplacedStage<'_, R>, shift: f64, y: &mut [R], slope: &mut [R]) {
         y.copy_from_slice(at.y);
         for (y, rate) in y.iter_mut().zip(at.direction) {
             *y += R::splat(shift) * *rate;

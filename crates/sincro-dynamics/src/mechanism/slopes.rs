@@ -69,7 +69,7 @@ impl<R: Real> Mechanism<R> {
                 self.torque[k] = half * (self.torque[k] + v[k]);
             }
             let mean_v = core::mem::take(&mut self.torque);
-            let of_springs = if implicit == Implicit::Dampers { R::zero() } else { step };
+            let of_springs = R::splat(implicit.steps(h).1);
             self.total_rates(t, v, &mean_v, (step, of_springs), &mut rest[n..]);
             self.torque = mean_v;
         }
@@ -91,9 +91,13 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Notes a stage, and replaces its slope by the limit along the branch at a singular position.
+    /// Notes a stage, and replaces its slope by the limit along the branch at a singular position; nothing without
+    /// constraints.
     #[inline(always)]
     pub(super) fn finish_stage(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
+        if self.constraints.is_none() {
+            return;
+        }
         if self.singular.needs_limit() && !matches!(implicit, Some((_, Implicit::Dampers))) {
             self.take_limit(t, implicit, y, slope);
         } else {

@@ -23,11 +23,7 @@ pub(crate) struct TorqueInput<'a, R> {
 #[inline(always)]
 pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, torque: &mut [R], diagonal: &mut [R]) {
     // at h = 0 these are the explicit torques
-    let (of_dampers, of_springs) = match at.implicit {
-        None => (0.0, 0.0),
-        Some((h, Implicit::Dampers)) => (h, 0.0),
-        Some((h, Implicit::SpringsAndDampers)) => (h, h),
-    };
+    let (of_dampers, of_springs) = at.implicit.map_or((0.0, 0.0), |(h, implicit)| implicit.steps(h));
     let steps = (R::splat(of_dampers), R::splat(of_springs));
     for (k, dof) in model.dofs.iter().enumerate() {
         let v = at.v[k];
