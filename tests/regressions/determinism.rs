@@ -1,6 +1,10 @@
 //! Same scene, same bits: twice, in any number of threads, and across a snapshot.
 
+use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::batch::{BatchSettings, BatchWorld};
+use sincro_dynamics::contact::Material;
+use sincro_dynamics::model::MassProperties;
+use sincro_dynamics::spatial::Vec3;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Extensions;
 use sincro_sim::load;
@@ -8,6 +12,7 @@ use sincro_sim::rollout::rollout;
 use sincro_sim::run::{LockStep, choose_method};
 use sincro_sim::snapshot::{Snapshot, SnapshotError};
 use sincro_sim::trace::Trace;
+use sincro_testing::SceneFolder;
 
 fn scene(name: &str) -> sincro_sim::Loaded {
     load(&sincro_testing::repository_scene(name), &[], Extensions::default()).unwrap()
@@ -42,6 +47,109 @@ fn a_saved_run_continues_with_the_same_hash() {
         advance(&mut resumed, &mut continued, 10);
         assert_eq!((continued, resumed.snapshot(trace)), (trace, lockstep.snapshot(trace)), "{name}");
     }
+}
+
+/// Two carts on a slide that are geared to each other, one with a motor and limits, and a ball above a floor.
+const CHANGEABLE: &str = r#"
+format = 2
+gravity = [0.3, 0.0, -9.81]
+[[joint]]
+name = "left"
+kind = "prismatic"
+axis = [1.0, 0.0, 0.0]
+limits = { lower = -1.0, upper = 0.5 }
+motor = { mode = "torque", max_torque = 5.0 }
+[[body]]
+name = "cart"
+parent = "/left"
+mass = 2.0
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+[[joint]]
+name = "right"
+kind = "prismatic"
+axis = [1.0, 0.0, 0.0]
+[[body]]
+name = "cart"
+parent = "/right"
+mass = 1.0
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+[[coupling]]
+name = "gear"
+joints = ["/left", "/right"]
+ratio = 0.5
+[[joint]]
+name = "air"
+kind = "free"
+initial = { position = [3.0, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0], velocity = [0.0, 3.0, 0.0, 0.5, 0.0, 0.0] }
+[[body]]
+name = "ball"
+parent = "/air"
+density = 500.0
+shape = [{ sphere = { radius = 0.1 } }]
+contact = { friction = 0.4, restitution = 0.6 }
+[[body]]
+name = "floor"
+shape = [{ plane = {} }]
+contact = { friction = 0.4, restitution = 0.6 }
+"#;
+
+#[test]
+fn a_snapshot_holds_what_was_changed_during_the_run() {
+    let folder = SceneFolder::of(
+        CHANGEABLE,
+        "format = 2\ntitle = \"Changes\"\nstep = 0.005\nduration = 2.0\nrecord = [\"/left.position\"]\n",
+    );
+    let loaded = folder.load(&[]).unwrap();
+    let method = choose_method(&loaded.scene, &loaded.experiment).0;
+    let mut changed = LockStep::new(&loaded, method, false);
+    changed.start().unwrap();
+    let mut trace = changed.trace();
+    advance(&mut changed, &mut trace, 20);
+    let world = changed.world();
+    let names = world.model().names();
+    let (ball, motor) = (names.body_id("/air/ball").unwrap(), names.motor_id("/left").unwrap());
+    let dof = names.joint("/left").unwrap().v_idx;
+    let mass = *world.model().mass_properties(ball).unwrap();
+    let material = world.model().constraints().pairs[0].material;
+    world.set_gravity(Vec3([0.1, 0.2, -3.7]));
+    world.set_mass_properties(ball, MassProperties { mass: 3.0, center_of_mass: [0.0, 0.01, 0.0], ..mass });
+    world.set_motor(motor, Motor { max_torque: 7.0, ..Motor::new(MotorMode::Velocity) });
+    world.set_command(motor, 0.4);
+    assert!(world.set_limits(dof, [Some(-0.2), Some(0.1)]));
+    world.set_gear(0, -2.0, 0.0);
+    world.set_pair(0, false, Material { friction: 0.9, restitution: 0.2, ..material });
+    advance(&mut changed, &mut trace, 10);
+
+    let snapshot = changed.snapshot(trace);
+    let restored = Snapshot::from_bytes(&snapshot.to_bytes(&loaded), &loaded).unwrap();
+    assert_eq!(restored, snapshot);
+    let mut resumed = LockStep::new(&loaded, method, false);
+    resumed.restore(&restored);
+    let mut continued = restored.trace;
+    advance(&mut changed, &mut trace, 300);
+    advance(&mut resumed, &mut continued, 300);
+    assert_eq!((resumed.state(), continued), (changed.state(), trace));
+
+    // each of the changes matters: without it the run is another; the mode of the motor decides how many modes of drives
+    // the state has, and is compared above
+    let mode = 3 + 3 * 10;
+    let of_scene = loaded.scene.model.params();
+    for k in 0..of_scene.to_numbers().len() {
+        let mut numbers = restored.params.to_numbers();
+        if k == mode || numbers[k] == of_scene.to_numbers()[k] {
+            continue;
+        }
+        numbers[k] = of_scene.to_numbers()[k];
+        let Some(params) = loaded.scene.model.params_from_numbers(&numbers) else { panic!("number {k}") };
+        let mut other = LockStep::new(&loaded, method, false);
+        other.restore(&Snapshot { params, ..restored.clone() });
+        let mut trace = restored.trace;
+        advance(&mut other, &mut trace, 300);
+        assert_ne!(trace, continued, "number {k} is not used");
+    }
+    // a run of the scene's own numbers is another one
+    assert_ne!(restored.params, *of_scene);
+    assert!(loaded.scene.model.params_from_numbers(&[1.0; 7]).is_none());
 }
 
 #[test]

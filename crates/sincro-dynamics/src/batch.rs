@@ -89,7 +89,7 @@ fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
 /// Part of a model that lanes cannot advance together, in words; none if there is none.
 #[must_use]
 pub fn obstacle_to_lanes(model: &Model<f64>) -> Option<&'static str> {
-    if model.drives.iter().any(|d| model.drive_limit(d).is_some()) {
+    if model.params.drives.iter().any(|d| model.drive_limit(d).is_some()) {
         return Some("a drive with a limit or friction");
     }
     // particles are counted for each world
@@ -154,12 +154,13 @@ impl<R: Real> SteppedLanes<R> {
         let with = |old: R, new: f64| R::from_lanes(|k| if k == lane { new } else { old.lane(k) });
         let base: Vec<R> = mechanism.base().iter().zip(&state.q).map(|(old, new)| with(*old, *new)).collect();
         mechanism.set_base(&base);
-        let n_v = mechanism.model().n_v();
+        let layout = mechanism.layout();
         for (k, new) in state.v.iter().enumerate() {
-            y[n_v + k] = with(y[n_v + k], *new);
+            let at = layout.velocity(k);
+            y[at] = with(y[at], *new);
             y[k] = with(y[k], 0.0);
         }
-        for (k, new) in mechanism.rotor_states().zip(&state.rotors) {
+        for (k, new) in layout.rotor_states().zip(&state.rotors) {
             y[k] = with(y[k], *new);
         }
     }
@@ -193,8 +194,8 @@ impl<R: Real> SteppedLanes<R> {
     #[inline(always)]
     pub fn view(&mut self, with_kinematics: bool) -> StateView<'_, R> {
         let LaneWorlds { mechanism, y, reach_target_velocities: zeros } = &mut self.lanes;
-        let n_v = mechanism.model.n_v();
-        let (v, rotors) = (&y[n_v..2 * n_v], &y[mechanism.rotor_states()]);
+        let layout = mechanism.layout();
+        let (v, rotors) = (&y[layout.velocities()], &y[layout.rotor_states()]);
         if with_kinematics {
             zeros.fill(R::zero());
             kinematics::motions(&mechanism.model, &mechanism.base, v, zeros, &mut mechanism.scratch);
@@ -286,10 +287,11 @@ impl<R: Real> LaneWorlds<R> {
             (0..n).map(|i| R::from_lanes(|k| f(of(k))[i])).collect()
         };
         let (n_q, n_v) = (self.mechanism.model().n_q(), self.mechanism.model().n_v());
+        let layout = self.mechanism.layout();
         let q = gather(n_q, &|s| &s.q);
         self.mechanism.set_base(&q);
-        self.y[n_v..2 * n_v].copy_from_slice(&gather(n_v, &|s| &s.v));
-        let rotors = self.mechanism.rotor_states();
+        self.y[layout.velocities()].copy_from_slice(&gather(n_v, &|s| &s.v));
+        let rotors = layout.rotor_states();
         let n = rotors.len();
         self.y[rotors].copy_from_slice(&gather(n, &|s| &s.rotors));
         let commands = gather(self.mechanism.commands.len(), &|s| &s.commands);
@@ -297,7 +299,7 @@ impl<R: Real> LaneWorlds<R> {
     }
 
     fn store(&self, worlds: &mut [BatchWorld]) {
-        let n_v = self.mechanism.model().n_v();
+        let layout = self.mechanism.layout();
         for (k, world) in worlds.iter_mut().enumerate() {
             if world.stop.is_some() {
                 continue;
@@ -305,10 +307,10 @@ impl<R: Real> LaneWorlds<R> {
             for (q, lanes) in world.state.q.iter_mut().zip(self.mechanism.base()) {
                 *q = lanes.lane(k);
             }
-            for (v, lanes) in world.state.v.iter_mut().zip(&self.y[n_v..]) {
+            for (v, lanes) in world.state.v.iter_mut().zip(&self.y[layout.velocities()]) {
                 *v = lanes.lane(k);
             }
-            for (x, lanes) in world.state.rotors.iter_mut().zip(&self.y[self.mechanism.rotor_states()]) {
+            for (x, lanes) in world.state.rotors.iter_mut().zip(&self.y[layout.rotor_states()]) {
                 *x = lanes.lane(k);
             }
             for (c, lanes) in world.state.commands.iter_mut().zip(&self.mechanism.commands) {
@@ -356,11 +358,11 @@ impl<R: Real> LaneWorlds<R> {
     /// others jump first.
     #[inline(always)]
     fn drive(&mut self, is_euler: bool, h: f64) {
-        let n_v = self.mechanism.model().n_v();
+        let layout = self.mechanism.layout();
         self.mechanism.mark_locked();
         for i in 0..self.mechanism.drives.len() {
-            let dof = self.mechanism.model.drives[i].dof;
-            let missing = self.target_velocities(i) - self.y[n_v + dof];
+            let dof = self.mechanism.model.params.drives[i].dof;
+            let missing = self.target_velocities(i) - self.y[layout.velocity(dof)];
             let scale = if is_euler { R::splat(h) } else { R::one() };
             self.mechanism.prescribed_acceleration[dof] = missing / scale;
         }
@@ -368,8 +370,8 @@ impl<R: Real> LaneWorlds<R> {
             return;
         }
         self.mechanism.impulse(&mut self.reach_target_velocities);
-        for k in 0..n_v {
-            self.y[n_v + k] += self.reach_target_velocities[k];
+        for (v, change) in self.y[layout.velocities()].iter_mut().zip(&self.reach_target_velocities) {
+            *v += *change;
         }
         self.set_driven_velocities();
         self.mechanism.mark_locked();
@@ -377,15 +379,15 @@ impl<R: Real> LaneWorlds<R> {
 
     #[inline(always)]
     fn target_velocities(&self, i: usize) -> R {
-        let drive = &self.mechanism.model.drives[i];
+        let drive = &self.mechanism.model.params.drives[i];
         self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands)
     }
 
     #[inline(always)]
     fn set_driven_velocities(&mut self) {
-        let n_v = self.mechanism.model().n_v();
+        let layout = self.mechanism.layout();
         for i in 0..self.mechanism.drives.len() {
-            self.y[n_v + self.mechanism.model.drives[i].dof] = self.target_velocities(i);
+            self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities(i);
         }
     }
 
@@ -411,10 +413,10 @@ impl<R: Real> LaneWorlds<R> {
         if !due {
             return;
         }
-        let n_v = self.mechanism.model().n_v();
+        let layout = self.mechanism.layout();
         for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
             world.record.extend(self.mechanism.base().iter().map(|q| q.lane(k)));
-            world.record.extend(self.y[n_v..2 * n_v].iter().map(|v| v.lane(k)));
+            world.record.extend(self.y[layout.velocities()].iter().map(|v| v.lane(k)));
         }
     }
 }

@@ -93,8 +93,8 @@ impl<R: Real> CoupledSystem<R> for NoCoupling {
 /// State view of a mechanism at the coordinates last placed and the velocities in `y`.
 #[inline(always)]
 fn state_view<'a, R: Real>(mechanism: &'a mut Mechanism<R>, t: f64, y: &'a [R]) -> StateView<'a, R> {
-    let n = mechanism.model.n_v();
-    let (v, rotors) = (&y[n..2 * n], &y[mechanism.rotor_states()]);
+    let layout = mechanism.layout();
+    let (v, rotors) = (&y[layout.velocities()], &y[layout.rotor_states()]);
     let (model, q, commands) = (&mechanism.model, &*mechanism.q, &*mechanism.commands);
     StateView { t, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
 }
@@ -120,9 +120,11 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> Coupled<'_, R, A> {
 
     #[inline(always)]
     fn rates(&mut self, t: f64, own: &[R], own_slope: &[R], z: &[R], slope: &mut [R]) {
-        let n = self.mechanism.model().n_v();
         let torques = self.mechanism.take_motor_torque();
-        let response = MechanismResponse { accelerations: &own_slope[n..2 * n], motor_torque: &torques };
+        let response = MechanismResponse {
+            accelerations: &own_slope[self.mechanism.layout().velocities()],
+            motor_torque: &torques,
+        };
         self.system.slope(&mut state_view(self.mechanism, t, own), response, z, slope);
         self.mechanism.put_motor_torque(torques);
     }

@@ -44,10 +44,10 @@ impl<R: Real> Energy<R> {
 pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>) -> Energy<R> {
     let half = R::splat(0.5);
     let mut e = Energy { kinetic: R::zero(), potential: R::zero() };
-    for (i, link) in model.links.iter().enumerate() {
+    for (i, inertia) in model.params.inertias.iter().enumerate() {
         let twist = &scratch.links[i].v;
-        e.kinetic += half * twist.dot(&link.inertia.mul(twist));
-        e.potential += gravity_energy(model.gravity, &link.inertia, &scratch.poses[i]);
+        e.kinetic += half * twist.dot(&inertia.mul(twist));
+        e.potential += gravity_energy(model.params.gravity, inertia, &scratch.poses[i]);
     }
     for (k, dof) in model.dofs.iter().enumerate() {
         e.kinetic += half * dof.armature * v[k] * v[k];
@@ -81,8 +81,8 @@ fn gravity_energy<R: Real>(gravity: Vec3<R>, inertia: &RigidInertia<R>, pose: &P
 /// [`kinematics::motions`].
 pub fn momentum<R: Real>(model: &Model<R>, scratch: &Scratch<R>) -> Force<R> {
     let mut sum = Force::zero();
-    for (i, link) in model.links.iter().enumerate() {
-        let h = link.inertia.mul(&scratch.links[i].v);
+    for (i, inertia) in model.params.inertias.iter().enumerate() {
+        let h = inertia.mul(&scratch.links[i].v);
         let pose = &scratch.poses[i];
         let lin = pose.rot.mul_vec(h.lin);
         sum.ang += pose.rot.mul_vec(h.ang) + pose.pos.cross(lin);

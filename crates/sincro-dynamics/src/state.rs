@@ -1,7 +1,8 @@
 //! The state of a world: the numbers that a snapshot needs to continue bit for bit.
 //!
-//! The step-size control of a method with error control ([`World::control`](crate::world::World::control)) and
-//! parameters changed during a run are not yet part of it; snapshots keep them beside the state.
+//! The step-size control of a method with error control ([`World::control`](crate::world::World::control)) and the
+//! parameters of the model ([`ModelParams`](crate::model::ModelParams)) are values of their own, which a snapshot keeps
+//! beside the state.
 
 use sincro_math::Real;
 

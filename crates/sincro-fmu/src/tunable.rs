@@ -1,7 +1,7 @@
 //! Numbers that a world can change between two base steps: tunable parameters.
 
-use sincro_dynamics::model::{BodyId, MassProperties};
-use sincro_dynamics::spatial::Vec3;
+use sincro_dynamics::ids::{BodyId, MotorId};
+use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::world::World;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::Loaded;
@@ -39,7 +39,7 @@ pub(crate) fn tunable(path: &str, loaded: &Loaded) -> Option<Tunable> {
     match scene.object(object)?.kind {
         ObjectKind::Body { .. } => {
             let names = scene.model.names();
-            let frame = names.frames.iter().position(|f| f.name == object && f.link.is_some() && f.body.is_some())?;
+            let frame = names.frames.iter().position(|f| f.name == object && f.link.is_some() && f.is_body)?;
             mass_number(key).map(|number| Tunable::Mass(frame, number))
         }
         ObjectKind::Joint { motor: Some(motor), .. } => {
@@ -73,76 +73,50 @@ fn mass_number(key: &str) -> Option<usize> {
     KEYS.iter().position(|known| *known == key)
 }
 
-/// Present numbers of a world that can be changed: those of the scene, then what was set.
-#[derive(Clone, Debug)]
-pub(crate) struct Tuning {
-    gravity: Vec3<f64>,
-    /// Mass properties of each body, by its index among the frames.
-    masses: Vec<Option<MassProperties>>,
+/// Sets a number of the world.
+///
+/// # Errors
+///
+/// No body has such a mass, or the number means nothing.
+pub(crate) fn set(world: &mut World, what: &Tunable, value: f64) -> Result<(), String> {
+    if value.is_nan() {
+        return Err("not a number".into());
+    }
+    match *what {
+        Tunable::Gravity(k) => {
+            let mut gravity = world.model().gravity();
+            gravity.0[k] = value;
+            world.set_gravity(gravity);
+        }
+        Tunable::Mass(frame, number) => set_mass(world, BodyId::new(frame), number, value)?,
+        Tunable::Motor(motor, number) => {
+            if value < 0.0 {
+                return Err(format!("{value} is negative"));
+            }
+            let mut changed = world.model().motors()[motor];
+            match number {
+                MotorNumber::Kp => changed.kp = value,
+                MotorNumber::Stiffness => changed.stiffness = value,
+                MotorNumber::Damping => changed.damping = value,
+                MotorNumber::MaxTorque => changed.max_torque = value,
+                MotorNumber::MaxVelocity => changed.max_velocity = value,
+            }
+            world.set_motor(MotorId::new(motor), changed);
+        }
+    }
+    Ok(())
 }
 
-impl Tuning {
-    /// Numbers of the scene.
-    pub(crate) fn new(loaded: &Loaded) -> Self {
-        let scene = &loaded.scene;
-        let mass_of = |name: &str| match scene.object(name).map(|object| &object.kind) {
-            Some(ObjectKind::Body { mass }) => Some(*mass),
-            _ => None,
-        };
-        let masses = scene.model.names().frames.iter().map(|frame| mass_of(&frame.name)).collect();
-        Self { gravity: scene.model.gravity(), masses }
+fn set_mass(world: &mut World, body: BodyId, number: usize, value: f64) -> Result<(), String> {
+    let mut mass = *world.model().mass_properties(body).ok_or("it has no mass of its own")?;
+    match number {
+        0 => mass.mass = value,
+        1..=3 => mass.center_of_mass[number - 1] = value,
+        _ => mass.inertia[number - 4] = value,
     }
-
-    /// Sets a number of the world.
-    ///
-    /// # Errors
-    ///
-    /// No body has such a mass, or the number means nothing.
-    pub(crate) fn set(&mut self, world: &mut World, what: &Tunable, value: f64) -> Result<(), String> {
-        if value.is_nan() {
-            return Err("not a number".into());
-        }
-        match *what {
-            Tunable::Gravity(k) => {
-                self.gravity.0[k] = value;
-                world.set_gravity(self.gravity);
-            }
-            Tunable::Mass(frame, number) => self.set_mass(world, frame, number, value)?,
-            Tunable::Motor(motor, number) => {
-                if value < 0.0 {
-                    return Err(format!("{value} is negative"));
-                }
-                let mut changed = world.model().motors()[motor];
-                match number {
-                    MotorNumber::Kp => changed.kp = value,
-                    MotorNumber::Stiffness => changed.stiffness = value,
-                    MotorNumber::Damping => changed.damping = value,
-                    MotorNumber::MaxTorque => changed.max_torque = value,
-                    MotorNumber::MaxVelocity => changed.max_velocity = value,
-                }
-                world.set_motor(sincro_dynamics::ids::MotorId::new(motor), changed);
-            }
-        }
-        Ok(())
-    }
-
-    fn set_mass(&mut self, world: &mut World, frame: usize, number: usize, value: f64) -> Result<(), String> {
-        let mut mass = self.masses[frame].ok_or("it has no mass of its own")?;
-        match number {
-            0 => mass.mass = value,
-            1..=3 => mass.center_of_mass[number - 1] = value,
-            _ => mass.inertia[number - 4] = value,
-        }
-        check(&mass)?;
-        self.masses[frame] = Some(mass);
-        let frames = &world.model().names().frames;
-        let Some(link) = frames[frame].link else { return Err("it is fixed in the world".into()) };
-        let carried = frames.iter().enumerate().filter(|(_, f)| f.link == Some(link) && f.body.is_some());
-        let bodies: Vec<(BodyId, MassProperties)> =
-            carried.filter_map(|(k, _)| Some((BodyId::new(k), self.masses[k]?))).collect();
-        world.set_mass_properties(link, &bodies);
-        Ok(())
-    }
+    check(&mass)?;
+    world.set_mass_properties(body, mass);
+    Ok(())
 }
 
 /// A body has a positive mass, and moments of inertia that satisfy the triangle inequality in its own axes.

@@ -1,20 +1,22 @@
 //! Snapshots: everything a run needs to continue bit for bit, as bytes.
 //!
 //! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error
-//! control of the integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the three of the
-//! diagram's state (if there is one), and a checksum of all that.
+//! control of the integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the parameters of
+//! the model (none if they are those of the scene), the three of the diagram's state (if there is one), and a checksum
+//! of all that.
 
 use std::fmt;
 use std::hash::Hasher;
 
 use sincro_dynamics::integrate::Control;
+use sincro_dynamics::model::ModelParams;
 use sincro_dynamics::state::State;
 use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
 use crate::trace::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro05";
+const MAGIC: &[u8; 8] = b"sincro06";
 
 /// A moment of a run.
 ///
@@ -42,6 +44,8 @@ const MAGIC: &[u8; 8] = b"sincro05";
 pub struct Snapshot {
     /// The state.
     pub state: State<f64>,
+    /// Parameters of the model, which clients and scripts may have changed.
+    pub params: ModelParams<f64>,
     /// Hash of all states so far.
     pub trace: Trace,
     /// Error control of the integrator, none for fixed steps.
@@ -89,9 +93,11 @@ impl Snapshot {
         for x in [control.accuracy, control.h, control.last_error] {
             bytes.extend(x.to_le_bytes());
         }
+        let is_of_scene = self.params == *loaded.scene.model.params();
+        let params = if is_of_scene { Vec::new() } else { self.params.to_numbers() };
         let s = &self.state;
         let of_diagram = self.diagram.iter().flat_map(|d| [&d.signals, &d.continuous, &d.memory]);
-        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.contacts, &s.totals, &s.rotors, &self.sensors]
+        for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.contacts, &s.totals, &s.rotors, &self.sensors, &params]
             .into_iter()
             .chain(of_diagram)
         {
@@ -135,6 +141,11 @@ impl Snapshot {
             tick,
         };
         let sensors = reader.vector()?;
+        let (model, numbers) = (&loaded.scene.model, reader.vector()?);
+        let params = match numbers.is_empty() {
+            true => model.params().clone(),
+            false => model.params_from_numbers(&numbers).ok_or(SnapshotError::Damaged)?,
+        };
         let diagram = match loaded.controller {
             None => None,
             Some(_) => Some(sincro_blocks::runner::State {
@@ -143,7 +154,7 @@ impl Snapshot {
                 memory: reader.vector()?,
             }),
         };
-        Ok(Self { state, trace, control, sensors, diagram })
+        Ok(Self { state, params, trace, control, sensors, diagram })
     }
 }
 

@@ -326,7 +326,7 @@ impl Lens<f64> {
             if place < 2 * n_v {
                 state.v[place - n_v] += change[k];
             } else if place < self.own {
-                state.rotors[place - self.mechanism.rotor_states().start] += change[k];
+                state.rotors[place - self.mechanism.layout().rotor_states().start] += change[k];
             } else {
                 z.push(self.values[k] + change[k]);
             }

@@ -1,7 +1,7 @@
 //! Changes of the model by clients and scripts: masses, joint limits, couplings, whether a body is respondable. Each
 //! change is kept with the run that has it.
 
-use sincro_dynamics::model::{BodyId, MassProperties};
+use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::Vec3;
 
 use super::registry::{Handle, Kind, ObjectRegistry};
@@ -58,23 +58,16 @@ impl SimApi<'_> {
         self.mass(handle)?;
         let entry = self.registry.entry(handle)?;
         let path = entry.path.clone();
-        let Some(link) = entry.frame.link else {
+        if entry.frame.link.is_none() {
             return Err(ApiError(format!("`{path}` is fixed in the world: it has no mass")));
-        };
+        }
         check_mass(&path, &mass)?;
         self.change(handle, "mass", vec![mass.mass])?;
         self.change(handle, "center_of_mass", mass.center_of_mass.to_vec())?;
         self.change(handle, "inertia", mass.inertia.to_vec())?;
         self.registry.entry_mut(handle).kind = Kind::Body(mass);
-        let of = |path: &str| match self.registry.entries().find(|e| e.path == path)?.kind {
-            Kind::Body(mass) => Some(mass),
-            _ => None,
-        };
-        let frames = self.world.model().names().frames.iter().enumerate();
-        let carried = frames.filter(|(_, f)| f.link == Some(link) && f.body.is_some());
-        let bodies: Vec<(BodyId, MassProperties)> =
-            carried.filter_map(|(k, f)| Some((BodyId::new(k), of(&f.name)?))).collect();
-        self.world.set_mass_properties(link, &bodies);
+        let body = self.world.model().names().body_id(&path).expect("a body of the scene is one of the model");
+        self.world.set_mass_properties(body, mass);
         self.moved();
         Ok(())
     }

@@ -351,7 +351,9 @@ impl Session {
     fn adopt(&mut self) {
         let (q, v) = (self.lockstep.state().q.clone(), self.lockstep.state().v.clone());
         let scene = &mut self.loaded.scene;
-        Arc::make_mut(&mut scene.model).copy_parameters_from(self.lockstep.world().model());
+        // motors keep the modes of the scene
+        let params = self.lockstep.world().model().params().with_motors_of(scene.model.params());
+        Arc::make_mut(&mut scene.model).set_params(&params);
         let registry = ApiController::take_registry(&mut self.lockstep).expect("a session's lock-step has a registry");
         for (object, entry) in scene.objects.iter_mut().zip(registry.entries()) {
             if let (ObjectKind::Body { mass }, Kind::Body(new)) = (&mut object.kind, &entry.kind) {

@@ -16,13 +16,13 @@ use crate::contact::{self, Collider, PairLaw};
 use crate::ids::{BodyId, JointId, MotorId};
 use crate::joint::{Dof, Friction, JointKind, Link, Shift, StageKind, WORLD};
 use crate::model::Attached;
-use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
+use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec, SpringDamperSpec};
 use crate::model::diagnostic::{BuildError, Diagnostic, Severity};
 use crate::model::names::{FrameInfo, JointInfo, Names};
-use crate::model::parameters::carried;
+use crate::model::parameters::link_inertia;
 use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint};
-use crate::model::{MassProperties, Model};
-use crate::spatial::{Mat3, Pose, RigidInertia, Vec3};
+use crate::model::{MassProperties, Model, ModelParams, Structure};
+use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Directions closer than this to a coordinate axis are taken to be on it: what rotating by π/2 in floating point
 /// leaves.
@@ -43,7 +43,8 @@ impl Carrier {
 struct Compiler<'a> {
     nodes: &'a [Node],
     carriers: Vec<Carrier>,
-    model: Model<f64>,
+    structure: Structure<f64>,
+    params: ModelParams<f64>,
     names: Names,
 }
 
@@ -69,54 +70,51 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
     let mut compiler = Compiler {
         nodes: &builder.nodes,
         carriers: Vec::with_capacity(builder.nodes.len()),
-        model: Model {
+        structure: Structure {
             links: Vec::new(),
             dofs: Vec::new(),
-            gravity: Vec3(builder.gravity),
-            motors: Vec::new(),
             applied: Vec::new(),
             wrenches: Vec::new(),
             rotors: Vec::new(),
             drags: Vec::new(),
             spring_dampers: Vec::new(),
             wind: builder.wind.clone(),
-            drives: Vec::new(),
-            constraints: Arc::default(),
             n_q: 0,
             sprung: Vec::new(),
             nonlinear_springs: Vec::new(),
             names: Arc::default(),
         },
+        params: ModelParams::new(Vec3(builder.gravity)),
         names: Names::default(),
     };
     for id in 0..builder.nodes.len() {
         compiler.node(id);
     }
-    let constraints = compiler.constraints(builder);
-    compiler.spring_dampers(builder);
-    let Compiler { mut model, names, .. } = compiler;
-    model.constraints = Arc::new(constraints);
-    // commands of motors come first
-    let n_motors = model.motors.len();
-    for input in model.wrenches.iter_mut().filter_map(|w| w.input.as_mut()) {
-        *input = n_motors + 6 * *input;
-    }
-    for rotor in &mut model.rotors {
-        rotor.speed.shift_command(n_motors + 6 * names.inputs.len());
-    }
-    let n_before = model.n_commands_before_lines(names.inputs.len());
-    for (k, actuator) in model.spring_dampers.iter_mut().filter_map(|s| s.actuator.as_mut()).enumerate() {
-        actuator.command = n_before + k;
-    }
-    model.names = Arc::new(names);
-    mark_children(&mut model.links);
-    model.drives = model.find_drives();
+    compiler.params.constraints = Arc::new(compiler.constraints(builder));
+    mark_children(&mut compiler.structure.links);
+    let model = compiler.finish(builder);
     problems.extend(check::massless_joints(&model));
     problems.extend(check::idle_lines(&model));
     if problems.iter().any(|p| p.severity == Severity::Error) {
         return Err(BuildError(problems));
     }
     Ok((model, problems))
+}
+
+/// Numbers the commands: those of motors come first, then external forces, rotors, actuators of lines.
+fn number_commands(structure: &mut Structure<f64>, names: &Names, n_motors: usize) {
+    for input in structure.wrenches.iter_mut().filter_map(|w| w.input.as_mut()) {
+        *input = n_motors + 6 * *input;
+    }
+    let n_before_rotors = n_motors + 6 * names.inputs.len();
+    let mut n_rotors = 0;
+    for rotor in &mut structure.rotors {
+        rotor.speed.shift_command(n_before_rotors);
+        n_rotors += usize::from(rotor.speed.command().is_some());
+    }
+    for (k, actuator) in structure.spring_dampers.iter_mut().filter_map(|s| s.actuator.as_mut()).enumerate() {
+        actuator.command = n_before_rotors + n_rotors + k;
+    }
 }
 
 impl Compiler<'_> {
@@ -132,8 +130,7 @@ impl Compiler<'_> {
         let carrier = match &node.kind {
             NodeKind::Joint(spec) => self.joint(node_id, here, spec),
             NodeKind::Body(spec) => {
-                self.add_inertia(here, &spec.mass);
-                self.frame(node_id, here, Some((spec.mass.center_of_mass, spec.mass.mass)));
+                self.frame(node_id, here, Some(spec.mass));
                 here
             }
             NodeKind::Frame => {
@@ -142,7 +139,7 @@ impl Compiler<'_> {
             }
             NodeKind::Force(spec) => {
                 if here.link != WORLD {
-                    self.model.wrenches.push(AppliedWrench {
+                    self.structure.wrenches.push(AppliedWrench {
                         link: here.link as usize,
                         pose: here.pose,
                         in_body: spec.in_body,
@@ -166,7 +163,7 @@ impl Compiler<'_> {
             }
             NodeKind::Drag(spec) => {
                 if here.link != WORLD {
-                    self.model.drags.push(AirDrag {
+                    self.structure.drags.push(AirDrag {
                         link: here.link as usize,
                         pose: here.pose,
                         area: Vec3(spec.area),
@@ -184,8 +181,8 @@ impl Compiler<'_> {
 
     /// A rotor; commands are counted from that of the first one, where those begin is known at the end.
     fn rotor(&mut self, node: NodeId, at: Carrier, spec: &RotorSpec) {
-        let command = self.model.rotors.iter().filter(|r| r.speed.command().is_some()).count();
-        let state = self.model.n_rotor_states();
+        let command = self.structure.rotors.iter().filter(|r| r.speed.command().is_some()).count();
+        let state = self.structure.rotors.iter().filter(|r| r.speed.state().is_some()).count();
         let speed = match spec.drive {
             RotorDrive::Command if matches!(spec.law, RotorLaw::Stock(_)) => SpeedSource::Particles { command, state },
             RotorDrive::Command => SpeedSource::Command(command),
@@ -201,47 +198,30 @@ impl Compiler<'_> {
         };
         let (link, law, density) = (at.link as usize, spec.law.clone(), spec.density);
         let RotorSpec { inertia, ground_effect, .. } = *spec;
-        self.model.rotors.push(MountedRotor { link, pose: at.pose, law, speed, density, inertia, ground_effect });
+        self.structure.rotors.push(MountedRotor { link, pose: at.pose, law, speed, density, inertia, ground_effect });
     }
 
-    fn add_inertia(&mut self, at: Carrier, mass: &MassProperties) {
-        if at.link == WORLD {
-            return;
-        }
-        let link = &mut self.model.links[at.link as usize];
-        link.inertia = link.inertia.plus(&carried(&at.pose, mass));
-    }
-
-    fn frame(&mut self, node: NodeId, at: Carrier, body: Option<([f64; 3], f64)>) {
+    fn frame(&mut self, node: NodeId, at: Carrier, mass: Option<MassProperties>) {
         let Attached { link, pose } = at.attached();
         let name = self.nodes[node.0 as usize].name.clone();
-        self.names.frames.push(FrameInfo { name, node, link, pose, body });
+        self.names.frames.push(FrameInfo { name, node, link, pose, is_body: mass.is_some() });
+        self.params.masses.push(mass);
     }
 
-    /// Springs and dampers between two points; where their commands begin is known at the end.
-    fn spring_dampers(&mut self, builder: &ModelBuilder) {
-        let zero = crate::state::State::new(&self.model).q;
-        let mut scratch = crate::scratch::Scratch::new(&self.model);
-        crate::recursions::kinematics::poses(&self.model, &zero, &mut scratch);
-        for (name, spec) in &builder.spring_dampers {
-            let point = |k: usize| {
-                let at = self.carriers[spec.ends[k].0 as usize];
-                LinkPoint { link: at.attached().link, position: at.pose.point(Vec3(spec.points[k])) }
-            };
-            let ends = [point(0), point(1)];
-            let [one, two] = ends.map(|end| match end.link {
-                None => end.position,
-                Some(link) => scratch.poses[link].point(end.position),
-            });
-            self.model.spring_dampers.push(SpringDamper {
-                ends,
-                free_length: spec.free_length.unwrap_or((two - one).norm()),
-                law: spec.law.clone(),
-                tension_only: spec.tension_only,
-                actuator: spec.actuator.map(|max_force| LineActuator { command: 0, max_force }),
-            });
-            self.names.spring_dampers.push(name.clone());
-        }
+    /// The model: springs and dampers between two points, whose free length is the distance of their ends where it is
+    /// not given, are the last elements.
+    fn finish(self, builder: &ModelBuilder) -> Model<f64> {
+        let Self { mut structure, mut params, mut names, carriers, .. } = self;
+        names.spring_dampers.extend(builder.spring_dampers.iter().map(|(name, _)| name.clone()));
+        params.inertias = (0..structure.links.len()).map(|l| link_inertia(&names, &params.masses, l)).collect();
+        structure.names = Arc::new(names);
+        let without_lines = Model::new(structure.clone(), params.clone());
+        structure.spring_dampers = spring_dampers(builder, &carriers, &without_lines);
+        let names = Arc::clone(&structure.names);
+        number_commands(&mut structure, &names, params.motors.len());
+        let mut model = Model::new(structure, params);
+        model.params.drives = model.find_drives();
+        model
     }
 
     /// Closures, couplings, limits and surfaces, with the links that carry them.
@@ -288,7 +268,7 @@ impl Compiler<'_> {
                 Collider { name, body, link, pose, surface: surface.clone(), material: *material }
             })
             .collect();
-        let parent = |link: u32| self.model.links[link as usize].parent;
+        let parent = |link: u32| self.structure.links[link as usize].parent;
         let law = |i: usize, j: usize| {
             let nodes = [builder.colliders[i].0, builder.colliders[j].0];
             let is_meant = |ends: &[NodeId; 2]| *ends == nodes || *ends == [nodes[1], nodes[0]];
@@ -315,25 +295,25 @@ impl Compiler<'_> {
         if stages.is_empty() {
             return at;
         }
-        let (q_idx, v_idx) = (self.model.n_q, self.model.dofs.len());
+        let (q_idx, v_idx) = (self.structure.n_q, self.structure.dofs.len());
         let mut carrier = at;
         for stage in stages {
             carrier = self.stage(carrier, &stage);
         }
         let joint = JointId::new(self.names.joints.len());
-        let (n_q, n_v) = (self.model.n_q - q_idx, self.model.dofs.len() - v_idx);
+        let (n_q, n_v) = (self.structure.n_q - q_idx, self.structure.dofs.len() - v_idx);
         self.names.dof_joint.extend(std::iter::repeat_n(joint, n_v));
         for k in 0..n_v {
             self.dof_properties(v_idx + k, k, spec);
         }
-        let link = self.model.links.len() - 1;
-        let has_quaternion = matches!(self.model.links[link].kind, StageKind::Ball | StageKind::Free);
-        if has_quaternion && self.model.dofs[v_idx..].iter().any(|dof| dof.stiffness != 0.0) {
-            self.model.sprung.push(link);
+        let link = self.structure.links.len() - 1;
+        let has_quaternion = matches!(self.structure.links[link].kind, StageKind::Ball | StageKind::Free);
+        if has_quaternion && self.structure.dofs[v_idx..].iter().any(|dof| dof.stiffness != 0.0) {
+            self.structure.sprung.push(link);
         }
         let motor = spec.motor.map(|motor| {
-            self.model.motors.push(Motor { dof: v_idx, ..motor });
-            MotorId::new(self.model.motors.len() - 1)
+            self.params.motors.push(Motor { dof: v_idx, ..motor });
+            MotorId::new(self.params.motors.len() - 1)
         });
         let name = self.nodes[node.0 as usize].name.clone();
         let (base, moving) = (at.attached(), carrier.attached());
@@ -342,20 +322,20 @@ impl Compiler<'_> {
     }
 
     fn dof_properties(&mut self, dof: usize, k: usize, spec: &JointSpec) {
-        let entry = &mut self.model.dofs[dof];
+        let entry = &mut self.structure.dofs[dof];
         let at = |list: &[f64]| list.get(k).copied().unwrap_or(0.0);
         entry.armature = at(&spec.armature);
         entry.damping = at(&spec.damping);
         entry.friction = spec.friction.get(k).copied().unwrap_or(Friction::none());
         (entry.stiffness, entry.rest) = spec.spring.get(k).copied().unwrap_or((0.0, 0.0));
         if let Some(Some(law)) = spec.spring_law.get(k) {
-            self.model.nonlinear_springs.push(NonlinearSpring { dof, law: Arc::clone(law) });
+            self.structure.nonlinear_springs.push(NonlinearSpring { dof, law: Arc::clone(law) });
         }
         match spec.torque.get(k) {
             None => {}
             Some(signal) => match signal.constant() {
                 Some(torque) => entry.torque = torque,
-                None => self.model.applied.push(AppliedTorque { dof, signal: vec![signal.clone()] }),
+                None => self.structure.applied.push(AppliedTorque { dof, signal: vec![signal.clone()] }),
             },
         }
     }
@@ -365,8 +345,8 @@ impl Compiler<'_> {
         let frame = frame_of(stage, &at.pose.rot);
         let turned = frame.base_rotation != Mat3::identity();
         let kind = frame.kind;
-        let (q_idx, v_idx) = (self.model.n_q, self.model.dofs.len());
-        self.model.links.push(Link {
+        let (q_idx, v_idx) = (self.structure.n_q, self.structure.dofs.len());
+        self.structure.links.push(Link {
             parent: at.link,
             kind,
             turned,
@@ -380,11 +360,10 @@ impl Compiler<'_> {
             sign: frame.sign,
             axis: frame.axis,
             pitch: stage.pitch,
-            inertia: RigidInertia::zero(),
         });
-        self.model.n_q += kind.n_q();
+        self.structure.n_q += kind.n_q();
         for _ in 0..kind.n_v() {
-            self.model.dofs.push(Dof {
+            self.structure.dofs.push(Dof {
                 armature: 0.0,
                 stiffness: 0.0,
                 rest: 0.0,
@@ -396,8 +375,33 @@ impl Compiler<'_> {
         }
         let rot = frame.base_rotation.transpose().mul(&at.pose.rot);
         let pose = snapped(&Pose { rot, pos: Vec3::zero() });
-        Carrier { link: (self.model.links.len() - 1) as u32, pose }
+        Carrier { link: (self.structure.links.len() - 1) as u32, pose }
     }
+}
+
+/// Springs and dampers between two points; their commands are numbered last.
+fn spring_dampers(builder: &ModelBuilder, carriers: &[Carrier], model: &Model<f64>) -> Vec<SpringDamper<f64>> {
+    let zero = crate::state::State::new(model).q;
+    let mut scratch = crate::scratch::Scratch::new(model);
+    crate::recursions::kinematics::poses(model, &zero, &mut scratch);
+    let element = |spec: &SpringDamperSpec| {
+        let ends: [LinkPoint<f64>; 2] = std::array::from_fn(|k| {
+            let at = carriers[spec.ends[k].0 as usize];
+            LinkPoint { link: at.attached().link, position: at.pose.point(Vec3(spec.points[k])) }
+        });
+        let [one, two] = ends.map(|end| match end.link {
+            None => end.position,
+            Some(link) => scratch.poses[link].point(end.position),
+        });
+        SpringDamper {
+            ends,
+            free_length: spec.free_length.unwrap_or((two - one).norm()),
+            law: spec.law.clone(),
+            tension_only: spec.tension_only,
+            actuator: spec.actuator.map(|max_force| LineActuator { command: 0, max_force }),
+        }
+    };
+    builder.spring_dampers.iter().map(|(_, spec)| element(spec)).collect()
 }
 
 /// On which axis of the parent a fixed offset lies.

@@ -48,7 +48,7 @@ impl<R: Real> Constraints<R> {
 
     /// Rows that hold as equations in the last evaluation, for the joint rates `v` that it was made with.
     pub fn active_rows(&self, model: &Model<R>, v: &[R]) -> Vec<ActiveRow<R>> {
-        let set = &*model.constraints;
+        let set = &*model.params.constraints;
         let of_loops = set.loop_joints.iter().enumerate();
         let sources = of_loops.flat_map(|(k, joint)| (0..joint.kind.rows()).map(move |_| ActiveSource::LoopJoint(k)));
         let sources = sources.chain((0..set.gears.len()).map(ActiveSource::Gear));

@@ -17,7 +17,7 @@ impl<R: Real> Constraints<R> {
     /// Assembles rows, residuals and unilateral constraints of everything closed, at the poses of `scratch` and the
     /// twists of `motions`.
     pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, is_sliding: bool) {
-        let set = &*model.constraints;
+        let set = &*model.params.constraints;
         self.assemble_loops(model, q, scratch);
         for (slot, limit) in set.limits.iter().enumerate() {
             if self.memory.is_closed(slot) {
@@ -50,7 +50,7 @@ impl<R: Real> Constraints<R> {
 
     /// Assembles the rows and residuals of loop joints and gears that are used, and nothing else.
     pub fn assemble_loops(&mut self, model: &Model<R>, q: &[R], scratch: &Scratch<R>) {
-        let set = &*model.constraints;
+        let set = &*model.params.constraints;
         self.rows.clear();
         self.residual.clear();
         self.blocks.clear();
@@ -194,7 +194,7 @@ impl<R: Real> Constraints<R> {
             }
             self.b.push(sum);
         }
-        let rest_speed = model.constraints.rest_speed;
+        let rest_speed = model.params.constraints.rest_speed;
         for block in self.blocks.iter().filter(|block| !block.is_drive()) {
             let i = block.row;
             let row = &self.jacobian[i * n..(i + 1) * n];
@@ -214,7 +214,7 @@ impl<R: Real> Constraints<R> {
 }
 
 pub(super) fn restitution<R: Real>(model: &Model<R>, slot: usize) -> f64 {
-    let set = &model.constraints;
+    let set = &model.params.constraints;
     match set.limits.get(slot) {
         Some(limit) => limit.restitution,
         None => set.pairs[pair_of(set, slot - set.limits.len())].material.restitution,

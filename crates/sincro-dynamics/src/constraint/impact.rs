@@ -105,7 +105,7 @@ impl Constraints<f64> {
 
     /// Coefficient of restitution of a constraint in this impact: zero if it does not approach.
     fn coefficient(&self, model: &Model<f64>, block: &UnilateralConstraint<f64>) -> f64 {
-        let approaches = self.before[block.row] < -model.constraints.rest_speed && !block.is_compliant;
+        let approaches = self.before[block.row] < -model.params.constraints.rest_speed && !block.is_compliant;
         if approaches { restitution(model, block.slot) } else { 0.0 }
     }
 
@@ -177,14 +177,14 @@ impl Constraints<f64> {
 
     /// Torque of the joint limits on a degree of freedom, as of the last evaluation.
     pub fn limit_torque(&self, model: &Model<f64>, dof: usize) -> f64 {
-        let limits = &model.constraints.limits;
+        let limits = &model.params.constraints.limits;
         let on = |b: &&UnilateralConstraint<f64>| limits.get(b.slot).is_some_and(|l| l.dof == dof);
         self.blocks.iter().filter(on).map(|b| limits[b.slot].sign * self.lambda[b.row]).sum()
     }
 
     /// Contact points with a force, as of the last evaluation.
     pub fn points(&self, model: &Model<f64>, scratch: &Scratch<f64>) -> impl Iterator<Item = ContactPoint> {
-        let set = &model.constraints;
+        let set = &model.params.constraints;
         self.blocks.iter().filter(|b| b.slot >= set.limits.len() && !b.open && !b.is_drive()).filter_map(move |block| {
             let k = block.slot - set.limits.len();
             let candidate = self.candidates.get(k)?;

@@ -72,7 +72,7 @@ impl<R: Real> ImplicitForces<R> {
             scale: vec![o; m],
             factors: vec![o; n * m],
             lower: vec![o; m * m],
-            cross: Vec::with_capacity(m * model.constraints.n_bilateral()),
+            cross: Vec::with_capacity(m * model.params.constraints.n_bilateral()),
             rates: vec![o; m],
             lambda: vec![o; m],
             torque: vec![o; n],

@@ -213,7 +213,7 @@ pub(crate) struct Constraints<R> {
 
 impl<R: Real> Constraints<R> {
     pub fn new(model: &Model<R>) -> Option<Box<Self>> {
-        let set = &model.constraints;
+        let set = &model.params.constraints;
         if set.is_empty() {
             return None;
         }

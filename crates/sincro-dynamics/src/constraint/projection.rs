@@ -100,6 +100,6 @@ impl<R: Real> Constraints<R> {
         self.solver.correct(&problem, &[], &mut self.lambda);
         out.fill(R::zero());
         scratch.reaction.fill(R::zero());
-        self.push(model, scratch, out, v.is_some() && !model.drives.is_empty(), None);
+        self.push(model, scratch, out, v.is_some() && !model.params.drives.is_empty(), None);
     }
 }

@@ -71,7 +71,7 @@ impl Constraints<f64> {
 
     /// Size of each assembled bilateral row.
     fn row_sizes(&mut self, model: &Model<f64>, scratch: &Scratch<f64>) -> Vec<f64> {
-        let set = &*model.constraints;
+        let set = &*model.params.constraints;
         let mut sizes = Vec::with_capacity(self.rows.len());
         let mut ends = Vec::new();
         for joint in &set.loop_joints {

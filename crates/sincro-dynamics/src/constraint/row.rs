@@ -118,7 +118,7 @@ impl<R: Real> Motions<R> {
 
     /// Accelerations of the links as forward dynamics left them, gravity of the base included.
     pub fn accelerate(&mut self, model: &Model<R>, scratch: &Scratch<R>) {
-        self.base = Motion { ang: Vec3::zero(), lin: -model.gravity };
+        self.base = Motion { ang: Vec3::zero(), lin: -model.params.gravity };
         for (i, out) in self.accel.iter_mut().enumerate() {
             let (a, pose) = (&scratch.links[i].a, &scratch.poses[i]);
             let ang = pose.rot.mul_vec(a.ang);

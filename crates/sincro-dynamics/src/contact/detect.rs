@@ -23,8 +23,6 @@ pub(crate) struct Detector {
     clipper: FaceClipper,
     /// Candidates of one pair.
     slots: Vec<Option<ContactCandidate>>,
-    /// Pairs that are ignored.
-    pub ignored: Vec<bool>,
 }
 
 impl Detector {
@@ -36,7 +34,6 @@ impl Detector {
             polytopes: polytopes(colliders, pairs),
             clipper: FaceClipper::default(),
             slots: Vec::new(),
-            ignored: vec![false; pairs.len()],
         }
     }
 
@@ -55,10 +52,10 @@ impl Detector {
         found.clear();
         for n in 0..self.broad_phase.near.len() {
             let k = self.broad_phase.near[n] as usize;
-            if self.ignored[k] {
+            let pair = &pairs[k];
+            if pair.is_ignored {
                 continue;
             }
-            let pair = &pairs[k];
             let reach = self.broad_phase.margin(pair, margin);
             self.slots.clear();
             self.slots.resize(pair.slots, None);

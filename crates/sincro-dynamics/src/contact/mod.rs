@@ -75,6 +75,20 @@ impl Default for Material {
 }
 
 impl Material {
+    /// Coefficients in the order of the fields: friction, restitution, rolling and spinning friction `[m]`, stiffness
+    /// [N/m], dissipation [s/m].
+    pub(crate) fn coefficients(&self) -> [f64; 6] {
+        let Self { friction, restitution, rolling_friction, spinning_friction, stiffness, dissipation, group: _ } =
+            *self;
+        [friction, restitution, rolling_friction, spinning_friction, stiffness, dissipation]
+    }
+
+    /// This material with other [`Material::coefficients`].
+    pub(crate) fn with_coefficients(self, coefficients: [f64; 6]) -> Self {
+        let [friction, restitution, rolling_friction, spinning_friction, stiffness, dissipation] = coefficients;
+        Self { friction, restitution, rolling_friction, spinning_friction, stiffness, dissipation, ..self }
+    }
+
     /// Contact law of a pair of surfaces.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
@@ -151,6 +165,8 @@ pub struct Pair {
     pub b: usize,
     /// Contact law of the pair.
     pub material: Material,
+    /// True if the two pass through each other.
+    pub is_ignored: bool,
     /// First slot.
     pub first: usize,
     /// Number of slots.
@@ -237,7 +253,15 @@ pub(crate) fn pairs(
             }
             let Some((a, b, kind, slots)) = arrange(colliders, &is_polytope, i, j) else { continue };
             let first = pairs.last().map_or(0, |p| p.first + p.slots);
-            pairs.push(Pair { a, b, material: law.replace(x.material.with(&y.material)), first, slots, kind });
+            pairs.push(Pair {
+                a,
+                b,
+                material: law.replace(x.material.with(&y.material)),
+                is_ignored: false,
+                first,
+                slots,
+                kind,
+            });
         }
     }
     pairs

@@ -51,8 +51,6 @@ pub struct Link<R> {
     pub(crate) axis: Vec3<R>,
     /// Advance of a screw [m/rad].
     pub(crate) pitch: R,
-    /// Inertia of everything merged into the link, about its origin.
-    pub(crate) inertia: RigidInertia<R>,
 }
 
 impl<R: Real> Link<R> {

@@ -92,8 +92,8 @@ impl Mechanism<f64> {
         let (model, scratch) = (&self.model, &mut self.scratch);
         kinematics::poses(model, &self.base, scratch);
         c.motions.place(model, scratch, v);
-        let set = &*model.constraints;
-        let gravity = model.gravity.norm();
+        let set = &*model.params.constraints;
+        let gravity = model.params.gravity.norm();
         let margin = match closing {
             ActivationRule::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
             _ => Margin::of(1e-6),
@@ -148,7 +148,7 @@ impl Mechanism<f64> {
     pub(crate) fn can_have_many_contacts(&self) -> bool {
         self.constraints.is_some()
             && self.model.spring_dampers.is_empty()
-            && self.model.constraints.max_rows() > DIRECT_ROWS
+            && self.model.params.constraints.max_rows() > DIRECT_ROWS
     }
 
     /// Sets whether problems at velocity level are solved by sweeps in the evaluations that follow.
@@ -214,7 +214,7 @@ impl Mechanism<f64> {
     /// one.
     fn find_closing(&mut self, v: &[f64]) -> Option<usize> {
         let c = self.constraints.as_deref_mut()?;
-        let set = &*self.model.constraints;
+        let set = &*self.model.params.constraints;
         let mut deepest: (Option<usize>, f64) = (None, 0.0);
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (self.q[limit.coordinate] - limit.bound);
@@ -241,7 +241,7 @@ impl Mechanism<f64> {
     /// Signed distance of a slot in the state last evaluated `[m]` or `[rad]`; NaN if there is no candidate.
     fn distance_of(&mut self, slot: usize) -> f64 {
         let Some(c) = self.constraints.as_deref_mut() else { return f64::NAN };
-        let set = &*self.model.constraints;
+        let set = &*self.model.params.constraints;
         if let Some(limit) = set.limits.get(slot) {
             return limit.sign * (self.q[limit.coordinate] - limit.bound);
         }
@@ -269,8 +269,8 @@ impl Mechanism<f64> {
     /// Projection: removes the drift of positions (`y` begins with the chart's zero displacement) until the residuals
     /// of all closed constraints vanish, then that of rates. The closed constraints are those of the last evaluation.
     pub(crate) fn project(&mut self, y: &mut [f64], rows: ProjectedRows) -> Projected {
-        let n = self.model.n_v();
-        let set = &self.model.constraints;
+        let layout = self.layout();
+        let set = &self.model.params.constraints;
         let has_bilateral = !(set.loop_joints.is_empty() && set.gears.is_empty());
         if rows == ProjectedRows::Bilateral && !has_bilateral {
             return Projected::default();
@@ -292,7 +292,7 @@ impl Mechanism<f64> {
                 // a sticking contact has no position to keep, only a zero rate
                 c.keep_equations(false, !sticking);
             }
-            let worst = c.worst(&y[n..2 * n]).0;
+            let worst = c.worst(&y[layout.velocities()]).0;
             // close to a singular position there may be a residual that must not be removed
             if worst <= enough || worst > 0.5 * last {
                 break;
@@ -302,7 +302,7 @@ impl Mechanism<f64> {
             let mut change = core::mem::take(&mut self.constraint_change);
             let c = self.constraints.as_deref_mut().expect("prepared");
             c.project(&self.model, &mut self.scratch, None, &mut change);
-            y[..n].copy_from_slice(&change);
+            y[layout.displacement()].copy_from_slice(&change);
             self.constraint_change = change;
             self.rechart(y);
         }
@@ -317,15 +317,15 @@ impl Mechanism<f64> {
             // at velocity level restitution has set the rates already
             c.keep_loop_joints();
         }
-        if c.worst(&y[n..2 * n]).1 <= PROJECTED * self.projection_scale {
+        if c.worst(&y[layout.velocities()]).1 <= PROJECTED * self.projection_scale {
             return projected;
         }
         self.factor();
         let mut change = core::mem::take(&mut self.constraint_change);
         let c = self.constraints.as_deref_mut().expect("prepared");
-        c.project(&self.model, &mut self.scratch, Some(&y[n..2 * n]), &mut change);
-        for k in 0..n {
-            y[n + k] += change[k];
+        c.project(&self.model, &mut self.scratch, Some(&y[layout.velocities()]), &mut change);
+        for (v, change) in y[layout.velocities()].iter_mut().zip(&change) {
+            *v += *change;
         }
         self.constraint_change = change;
         projected.has_impulses = !self.drives.is_empty();
@@ -334,9 +334,9 @@ impl Mechanism<f64> {
 
     /// Assembles the rows at the chart's origin; returns false if there are none.
     fn prepare(&mut self, y: &[f64], first: bool) -> bool {
-        let n = self.model.n_v();
+        let layout = self.layout();
         let Some(c) = self.constraints.as_deref_mut() else { return false };
-        let v = &y[n..2 * n];
+        let v = &y[layout.velocities()];
         if !first || self.q != self.base {
             kinematics::poses(&self.model, &self.base, &mut self.scratch);
         }
@@ -388,7 +388,6 @@ impl<R: Real> Mechanism<R> {
     /// Factors the mass matrix at the chart's origin for impulses: forward dynamics at rest without forces, prescribed
     /// degrees of freedom as marked.
     pub(crate) fn factor(&mut self) {
-        self.torque.fill(R::zero());
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
         }
@@ -397,8 +396,8 @@ impl<R: Real> Mechanism<R> {
             .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
         let input = aba::Input {
             q: &self.base,
-            v: &self.torque,
-            torque: &self.torque,
+            v: &self.zeros,
+            torque: &self.zeros,
             diagonal: &self.diagonal,
             prescribed,
             external: None,
@@ -411,7 +410,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Assembles the rows of the loops, and nothing else, at the chart's origin for velocities `v`; the mass matrix is
     /// factored.
-    pub(super) fn place_loops(&mut self, v: &[R]) {
+    pub(crate) fn place_loops(&mut self, v: &[R]) {
         kinematics::poses(&self.model, &self.base, &mut self.scratch);
         self.factor();
         kinematics::chain_poses(&self.model, &mut self.scratch);

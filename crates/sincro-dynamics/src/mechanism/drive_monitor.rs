@@ -201,8 +201,9 @@ impl<R: Real> Mechanism<R> {
     /// Reaction on locked drive `i`, in the last evaluation, beyond what the drives that lock its joint can give
     /// together, and beyond rounding [N·m] or `[N]`.
     pub(crate) fn drive_overload(&self, i: usize) -> f64 {
-        let dof = self.model.drives[i].dof;
-        let locked = self.model.drives.iter().zip(&self.drives).filter(|(d, s)| d.dof == dof && s.lane(0) == 0.0);
+        let dof = self.model.params.drives[i].dof;
+        let locked =
+            self.model.params.drives.iter().zip(&self.drives).filter(|(d, s)| d.dof == dof && s.lane(0) == 0.0);
         let limit =
             locked.map(|(drive, _)| self.model.drive_limit(drive).map_or(f64::INFINITY, |limit| limit.lane(0))).sum();
         self.overload(dof, limit)
@@ -211,7 +212,7 @@ impl<R: Real> Mechanism<R> {
     /// Notes whether the law of a limited drive is violated at a stage, for velocities `v`, after the evaluation.
     pub(super) fn monitor_drives(&mut self, t: f64, v: &[R], v_dot: &[R]) {
         if self.drive_monitor.start.is_empty() {
-            let of_joint = self.model.drives.iter().map(|d| (v[d.dof].lane(0), v_dot[d.dof].lane(0)));
+            let of_joint = self.model.params.drives.iter().map(|d| (v[d.dof].lane(0), v_dot[d.dof].lane(0)));
             self.drive_monitor.start.extend(of_joint);
         }
         if self.drive_monitor.from.is_nan() {
@@ -222,8 +223,8 @@ impl<R: Real> Mechanism<R> {
         }
         let is_contact = self.constraints.as_ref().is_some_and(|c| c.violation.is_some());
         let violated = is_contact
-            || (0..self.model.drives.len()).any(|i| {
-                let (drive, saturation) = (&self.model.drives[i], self.drives[i].lane(0));
+            || (0..self.model.params.drives.len()).any(|i| {
+                let (drive, saturation) = (&self.model.params.drives[i], self.drives[i].lane(0));
                 match self.model.drive_limit(drive) {
                     None => false,
                     // contacts see to those that are constraints

@@ -24,7 +24,7 @@ impl Mechanism<f64> {
         }
         let (model, drives) = (&self.model, &self.drives);
         let c = self.constraints.as_deref_mut().expect("there are contacts");
-        for (drive, _) in model.drives.iter().zip(drives).filter(|(_, saturation)| **saturation == 0.0) {
+        for (drive, _) in model.params.drives.iter().zip(drives).filter(|(_, saturation)| **saturation == 0.0) {
             let dof = drive.dof;
             let Some(limit) = model.drive_limit(drive).filter(|_| !model.is_held(dof)) else { continue };
             self.locked_mask[dof] = 0.0;

@@ -1,19 +1,20 @@
 //! The mechanism as a system to integrate: model, commands, drives and constraints as dy/dt = f(t, y).
 //!
-//! y = (δ, v, totals, rotors): displacement of the generalized coordinates in the chart of the step (`n_v`), velocities
-//! (`n_v`), and, if they are tracked, the totals of [`State`]: work, dissipation, impulse of each motor; last the
-//! states of rotors.
+//! y = (δ, v, totals, rotors), [`layout`]: displacement of the generalized coordinates in the chart of the step (`n_v`),
+//! velocities (`n_v`), and, if they are tracked, the totals of [`State`]: work, dissipation, impulse of each motor;
+//! last the states of rotors.
 //!
 //! The chart: q = q₀ ⊕ δ ([`displace`]). For a quaternion δ is a rotation vector φ and φ' = dexp⁻¹(φ) ω with ω in child
 //! axes. Source: key `iserles2000`, sections 2.5 and 3.
 //!
-//! A mechanism owns its model and its latched commands besides working memory: [`State`] and [`Scratch`] are not yet
-//! separated from it.
+//! A mechanism is working memory for one evaluation after the other: [`State`] is what lasts. Of what lasts it has
+//! copies, which [`Mechanism::load`] makes: the chart's origin, commands, modes. The parameters of the model are its own.
 
 mod analysis;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
 mod kinks;
+pub mod layout;
 mod lines;
 mod loop_rank;
 mod reaction;
@@ -36,6 +37,7 @@ use crate::scratch::Scratch;
 use crate::spatial::{Force, Quat, Vec3};
 use crate::state::{State, displace};
 use drive_monitor::DriveMonitor;
+use layout::Layout;
 pub use singular::PassedSingularities;
 use singular::SingularPassage;
 use torques::{TorqueInput, joint_torques};
@@ -52,14 +54,15 @@ pub struct Mechanism<R> {
     pub commands: Vec<R>,
     /// State of each drive: 0 locked, ±1 saturated.
     pub drives: Vec<R>,
-    /// True if work, dissipation and motor impulses are integrated.
-    tracks_totals: bool,
-    /// Range of the states of rotors in y.
-    rotor_states: (usize, usize),
+    layout: Layout,
     /// q₀ of the chart.
     pub(crate) base: Vec<R>,
     pub(crate) q: Vec<R>,
     pub(crate) torque: Vec<R>,
+    /// Velocities over a linearly implicit step: at its end, then their mean.
+    step_velocity: Vec<R>,
+    /// Zeros: velocities and torques of impulses.
+    zeros: Vec<R>,
     pub(crate) diagonal: Vec<R>,
     pub(crate) locked_mask: Vec<R>,
     pub(crate) prescribed_acceleration: Vec<R>,
@@ -90,15 +93,15 @@ impl<R: Real> Mechanism<R> {
     #[must_use]
     pub fn new(model: Model<R>, tracks_totals: bool) -> Self {
         let zero = vec![R::zero(); model.n_v()];
-        let n_totals = if tracks_totals { 2 + model.motors.len() } else { 0 };
         Self {
             commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
-            tracks_totals,
-            rotor_states: (2 * model.n_v() + n_totals, 2 * model.n_v() + n_totals + model.n_rotor_states()),
+            layout: Layout::new(&model, tracks_totals),
             base: vec![R::zero(); model.n_q()],
             q: vec![R::zero(); model.n_q()],
             torque: zero.clone(),
+            step_velocity: zero.clone(),
+            zeros: zero.clone(),
             diagonal: zero.clone(),
             locked_mask: zero.clone(),
             prescribed_acceleration: zero.clone(),
@@ -107,7 +110,7 @@ impl<R: Real> Mechanism<R> {
             air_dissipation: R::zero(),
             lines: lines::Lines::new(&model),
             without_load: None,
-            motor_torque: vec![R::zero(); model.motors.len()],
+            motor_torque: vec![R::zero(); model.params.motors.len()],
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
             projection_scale: 1.0,
@@ -134,6 +137,8 @@ impl<R: Real> Mechanism<R> {
             &self.base,
             &self.q,
             &self.torque,
+            &self.step_velocity,
+            &self.zeros,
             &self.diagonal,
             &self.locked_mask,
             &self.prescribed_acceleration,
@@ -148,7 +153,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Lays the chart at the state and writes y for it.
     pub fn load(&mut self, x: &State<R>, y: &mut [R]) {
-        let n = self.model.n_v();
+        let layout = self.layout;
         self.forget_conditioning();
         self.base.copy_from_slice(&x.q);
         self.commands.copy_from_slice(&x.commands);
@@ -156,41 +161,34 @@ impl<R: Real> Mechanism<R> {
         if let Some(constraints) = &mut self.constraints {
             constraints.memory.load(&x.contacts);
         }
-        y[..n].fill(R::zero());
-        y[n..2 * n].copy_from_slice(&x.v);
-        if self.tracks_totals {
-            y[2 * n..2 * n + x.totals.len()].copy_from_slice(&x.totals);
+        y[layout.displacement()].fill(R::zero());
+        y[layout.velocities()].copy_from_slice(&x.v);
+        if layout.tracks_totals() {
+            y[layout.totals()].copy_from_slice(&x.totals);
         }
-        let rotors = self.rotor_states();
-        y[rotors].copy_from_slice(&x.rotors);
+        y[layout.rotor_states()].copy_from_slice(&x.rotors);
     }
 
     /// Writes the state that a freshly charted y describes.
     pub fn store(&self, y: &[R], x: &mut State<R>) {
-        let n = self.model.n_v();
+        let layout = self.layout;
         x.q.copy_from_slice(&self.base);
-        x.v.copy_from_slice(&y[n..2 * n]);
+        x.v.copy_from_slice(&y[layout.velocities()]);
         x.drives.copy_from_slice(&self.drives);
         if let Some(constraints) = &self.constraints {
             constraints.memory.store(&mut x.contacts);
         }
-        if self.tracks_totals {
-            let totals = 2 * n..2 * n + x.totals.len();
-            x.totals.copy_from_slice(&y[totals]);
+        if layout.tracks_totals() {
+            x.totals.copy_from_slice(&y[layout.totals()]);
         }
-        x.rotors.copy_from_slice(&y[self.rotor_states()]);
+        x.rotors.copy_from_slice(&y[layout.rotor_states()]);
     }
 
-    /// Returns true if work, dissipation and motor impulses are integrated.
-    pub(crate) fn tracks_totals(&self) -> bool {
-        self.tracks_totals
-    }
-
-    /// Range of the states of rotors in y.
+    /// Layout of y.
     #[inline(always)]
     #[must_use]
-    pub fn rotor_states(&self) -> core::ops::Range<usize> {
-        self.rotor_states.0..self.rotor_states.1
+    pub fn layout(&self) -> Layout {
+        self.layout
     }
 
     /// Coordinates of the chart's origin.
@@ -206,7 +204,7 @@ impl<R: Real> Mechanism<R> {
     /// Finds the coordinates of y.
     #[inline(always)]
     pub(crate) fn set_coordinates(&mut self, y: &[R]) {
-        displace(&self.model, &self.base, &y[..self.model.n_v()], &mut self.q);
+        displace(&self.model, &self.base, &y[self.layout.displacement()], &mut self.q);
     }
 
     pub(crate) fn take_motor_torque(&mut self) -> Vec<R> {
@@ -247,7 +245,7 @@ impl<R: Real> Mechanism<R> {
         }
         self.locked_mask.fill(zero);
         self.prescribed_acceleration.fill(zero);
-        for (drive, &saturation) in self.model.drives.iter().zip(&self.drives) {
+        for (drive, &saturation) in self.model.params.drives.iter().zip(&self.drives) {
             let holds = saturation.abs().if_less(half, one, zero);
             self.locked_mask[drive.dof] = self.locked_mask[drive.dof].max(holds);
         }
@@ -360,15 +358,19 @@ impl<R: Real> Mechanism<R> {
 
     /// Replaces a motor, the degree of freedom kept. Drives that remain keep their state; a new one is locked.
     pub(crate) fn set_motor(&mut self, id: MotorId, motor: Motor<R>) {
-        let was_drive = self.model.motor(id).is_drive();
-        self.model.motors[id.index()] = Motor { dof: self.model.motor(id).dof, ..motor };
-        if was_drive == motor.is_drive() {
+        let old = self.model.drives().to_vec();
+        self.model.set_motor(id, motor);
+        if old.len() == self.model.n_drives() {
             return;
         }
-        let drives = self.model.find_drives();
-        let known = |new: &Drive| self.model.drives.iter().position(|old| old == new).map(|i| self.drives[i]);
-        self.drives = drives.iter().map(|drive| known(drive).unwrap_or(R::zero())).collect();
-        self.model.drives = drives;
+        let known = |new: &Drive| old.iter().position(|old| old == new).map(|i| self.drives[i]);
+        self.drives = self.model.drives().iter().map(|drive| known(drive).unwrap_or(R::zero())).collect();
+        self.resize_drives();
+    }
+
+    /// Fits the states of drives to their number; new ones are locked.
+    pub(crate) fn resize_drives(&mut self) {
+        self.drives.resize(self.model.n_drives(), R::zero());
         self.locked_mask.fill(R::zero());
         self.prescribed_acceleration.fill(R::zero());
     }
@@ -451,12 +453,12 @@ impl<R: Real> Mechanism<R> {
             dissipation += heat;
         }
         self.find_motor_torques(v_at, steps);
-        for (i, drive) in self.model.drives.iter().enumerate() {
+        for (i, drive) in self.model.params.drives.iter().enumerate() {
             if drive.kind == DriveKind::Friction {
                 dissipation += friction::dissipation(self.friction_torque(i, v_at[drive.dof]), v[drive.dof]);
             }
         }
-        for (i, motor) in self.model.motors.iter().enumerate() {
+        for (i, motor) in self.model.params.motors.iter().enumerate() {
             work += self.motor_torque[i] * v[motor.dof];
             rates[2 + i] = self.motor_torque[i];
         }
@@ -473,7 +475,7 @@ impl<R: Real> Mechanism<R> {
     /// reaction up to its limit (a motor that locks the same joint gives the rest).
     #[inline(always)]
     pub(crate) fn friction_torque(&self, i: usize, v: R) -> R {
-        let drive = self.model.drives[i];
+        let drive = self.model.params.drives[i];
         let friction = &self.model.dofs[drive.dof].friction;
         let locked = self.scratch.reaction[drive.dof].clamp_abs(friction.at_rest);
         self.drives[i].abs().if_less(R::splat(0.5), locked, self.drives[i] * friction.limit_at(v))
@@ -482,17 +484,17 @@ impl<R: Real> Mechanism<R> {
     /// Torque of every motor in the last evaluation.
     #[inline(always)]
     pub(crate) fn find_motor_torques(&mut self, v: &[R], steps: (R, R)) {
-        for (i, motor) in self.model.motors.iter().enumerate() {
+        for (i, motor) in self.model.params.motors.iter().enumerate() {
             let q = self.q[self.model.dofs[motor.dof].q_idx as usize];
             self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], steps).0;
         }
-        for d in 0..self.model.drives.len() {
-            let drive = self.model.drives[d];
+        for d in 0..self.model.params.drives.len() {
+            let drive = self.model.params.drives[d];
             let DriveKind::Motor(i) = drive.kind else { continue };
             let i = i.index();
             let mut locked = self.scratch.reaction[drive.dof];
             for f in 0..d {
-                if self.model.drives[f].dof == drive.dof {
+                if self.model.params.drives[f].dof == drive.dof {
                     // friction that locks the same joint takes its share first
                     let share = self.friction_torque(f, v[drive.dof]);
                     locked -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
@@ -531,15 +533,14 @@ impl<R: Real> Mechanism<R> {
     /// Velocity changes by the impulses that bring about the prescribed changes as marked; reactions are impulses.
     #[inline(always)]
     pub(crate) fn impulse(&mut self, change: &mut [R]) {
-        self.torque.fill(R::zero());
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
         }
         let prescribed = Some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
         let input = aba::Input {
             q: &self.base,
-            v: &self.torque,
-            torque: &self.torque,
+            v: &self.zeros,
+            torque: &self.zeros,
             diagonal: &self.diagonal,
             prescribed,
             external: None,
@@ -552,12 +553,12 @@ impl<R: Real> Mechanism<R> {
 impl<R: Real> System<R> for Mechanism<R> {
     #[inline(always)]
     fn dim(&self) -> usize {
-        self.rotor_states().end
+        self.layout.dim()
     }
 
     #[inline(always)]
     fn is_controlled(&self, k: usize) -> bool {
-        k < 2 * self.model.n_v() || k >= self.rotor_states().start
+        !self.layout.totals().contains(&k)
     }
 
     #[inline(always)]
@@ -596,13 +597,13 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn rechart(&mut self, y: &mut [R]) {
-        let n = self.model.n_v();
+        let displacement = self.layout.displacement();
         if let Some(c) = &mut self.constraints {
             c.solver.accept_trial();
         }
-        displace(&self.model, &self.base, &y[..n], &mut self.q);
+        displace(&self.model, &self.base, &y[displacement.clone()], &mut self.q);
         core::mem::swap(&mut self.base, &mut self.q);
-        y[..n].fill(R::zero());
+        y[displacement].fill(R::zero());
     }
 
     fn magnitude(&self, y: &[R], k: usize) -> f64 {

@@ -38,9 +38,9 @@ impl Mechanism<f64> {
 
     /// Inertial wrench of a link less gravity and the wrenches of elements, about the world's origin, world axes.
     fn net_wrench(&self, i: usize) -> Force<f64> {
-        let (link, at, pose) = (&self.model.links[i], &self.scratch.links[i], &self.scratch.poses[i]);
-        let upward = Motion { ang: Vec3::zero(), lin: -pose.rot.tr_mul_vec(self.model.gravity) };
-        let mut wrench = link.inertia.mul(&(at.a + upward)) + at.v.cross_force(&link.inertia.mul(&at.v));
+        let (inertia, at, pose) = (&self.model.params.inertias[i], &self.scratch.links[i], &self.scratch.poses[i]);
+        let upward = Motion { ang: Vec3::zero(), lin: -pose.rot.tr_mul_vec(self.model.params.gravity) };
+        let mut wrench = inertia.mul(&(at.a + upward)) + at.v.cross_force(&inertia.mul(&at.v));
         if let Some(external) = self.external.get(i).filter(|_| self.has_external()) {
             wrench -= *external;
         }
@@ -63,7 +63,7 @@ impl Mechanism<f64> {
         }
         for contact in constraints.points(&self.model, &self.scratch) {
             let wrench = Force { ang: contact.point.cross(contact.force) + contact.torque, lin: contact.force };
-            let [one, two] = contact.surfaces.map(|s| is_in(self.model.constraints.colliders[s].link));
+            let [one, two] = contact.surfaces.map(|s| is_in(self.model.constraints().colliders[s].link));
             if one {
                 sum += wrench;
             }

@@ -208,7 +208,7 @@ impl<R: Real> Mechanism<R> {
         displaced_slope.resize(y.len(), R::zero());
         let mut direction = core::mem::take(&mut self.singular.direction);
         direction.clear();
-        direction.extend_from_slice(&slope[..self.model.n_v()]);
+        direction.extend_from_slice(&slope[self.layout().displacement()]);
         let at = DisplacedStage { t, implicit, y, direction: &direction };
         let has_limit = match self.displacement(&at, &mut displaced, &mut displaced_slope) {
             Some(displacement) => {
@@ -237,8 +237,8 @@ impl<R: Real> Mechanism<R> {
             None => {
                 self.plain_slope(t, implicit, y, slope);
                 if self.drive_monitor.is_active {
-                    let n = self.model.n_v();
-                    self.monitor_drives(t, &y[n..2 * n], &slope[n..2 * n]);
+                    let velocities = self.layout().velocities();
+                    self.monitor_drives(t, &y[velocities.clone()], &slope[velocities]);
                 }
                 false
             }
@@ -311,9 +311,10 @@ impl<R: Real> Mechanism<R> {
     #[inline(never)]
     pub(super) fn project_error_along_loops(&mut self, y: &[R], error: &mut [R]) {
         let n = self.model.n_v();
-        displace(&self.model, &self.base, &y[..n], &mut self.q);
+        displace(&self.model, &self.base, &y[self.layout().displacement()], &mut self.q);
+        let motion = self.layout.motion();
         self.with_stage_as_base(|this| {
-            for part in error[..2 * n].chunks_exact_mut(n) {
+            for part in error[motion].chunks_exact_mut(n) {
                 this.place_loops(part);
                 this.change_loops(Some(part));
                 for (e, change) in part.iter_mut().zip(&this.singular.change) {

@@ -25,16 +25,16 @@ impl<R: Real> Mechanism<R> {
         let v = &rest[..n];
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
-        let rotors = &y[self.rotor_states()];
+        let rotors = &y[self.layout.rotor_states()];
         let projected = (R::LANES == 1 && self.singular.is_near).then(|| self.project_stage(v));
         let v = projected.as_deref().unwrap_or(v);
         self.chart_rate(delta, v, rate);
         self.accelerations(t, v, rotors, None, &mut rest[..n]);
         self.note_evaluation(t, v, &rest[..n]);
-        if self.tracks_totals {
+        if self.layout.tracks_totals() {
             self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
         }
-        self.rotor_rates(rotors, 0.0, &mut slope[self.rotor_states()]);
+        self.rotor_rates(rotors, 0.0, &mut slope[self.layout.rotor_states()]);
         if let Some(v) = projected {
             self.singular.v = v;
         }
@@ -48,7 +48,7 @@ impl<R: Real> Mechanism<R> {
         let v = &rest[..n];
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
-        let rotors = &y[self.rotor_states()];
+        let rotors = &y[self.layout.rotor_states()];
         // a step of semi-implicit Euler is one at velocity level
         let projects = R::LANES == 1 && self.singular.is_near && implicit != Implicit::Dampers;
         let projected = projects.then(|| self.project_stage(v));
@@ -57,23 +57,21 @@ impl<R: Real> Mechanism<R> {
         self.note_evaluation(t, v, &rest[..n]);
         // the position moves with the new velocity; forces do their work over the mean of old and new
         let step = R::splat(h);
+        let mut over = core::mem::take(&mut self.step_velocity);
         for k in 0..n {
-            self.torque[k] = v[k] + step * rest[k];
+            over[k] = v[k] + step * rest[k];
         }
-        let new_v = core::mem::take(&mut self.torque);
-        self.chart_rate(delta, &new_v, rate);
-        self.torque = new_v;
-        if self.tracks_totals {
+        self.chart_rate(delta, &over, rate);
+        if self.layout.tracks_totals() {
             let half = R::splat(0.5);
             for k in 0..n {
-                self.torque[k] = half * (self.torque[k] + v[k]);
+                over[k] = half * (over[k] + v[k]);
             }
-            let mean_v = core::mem::take(&mut self.torque);
             let of_springs = R::splat(implicit.steps(h).1);
-            self.total_rates(t, v, &mean_v, (step, of_springs), &mut rest[n..]);
-            self.torque = mean_v;
+            self.total_rates(t, v, &over, (step, of_springs), &mut rest[n..]);
         }
-        self.rotor_rates(rotors, h, &mut slope[self.rotor_states()]);
+        self.step_velocity = over;
+        self.rotor_rates(rotors, h, &mut slope[self.layout.rotor_states()]);
         if let Some(v) = projected {
             self.singular.v = v;
         }

@@ -45,14 +45,14 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     for applied in &model.applied {
         torque[applied.dof] += applied.torque(at.t);
     }
-    for (motor, &command) in model.motors.iter().zip(at.commands) {
+    for (motor, &command) in model.params.motors.iter().zip(at.commands) {
         let k = motor.dof;
         let q = at.q[model.dofs[k].q_idx as usize];
         let (tau, implicit) = motor.torque(q, at.v[k], command, steps);
         torque[k] += tau;
         diagonal[k] += implicit;
     }
-    for (drive, &saturation) in model.drives.iter().zip(at.drives) {
+    for (drive, &saturation) in model.params.drives.iter().zip(at.drives) {
         // a locked drive (0) gives the reaction of its constraint; a saturated one its limit
         if let Some(limit) = model.saturated_torque(drive, at.v[drive.dof]) {
             torque[drive.dof] += saturation * limit;

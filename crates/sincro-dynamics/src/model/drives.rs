@@ -21,7 +21,7 @@ impl<R: Real> Model<R> {
 
     /// Returns true if a drive without limit holds a degree of freedom.
     pub(crate) fn is_held(&self, dof: usize) -> bool {
-        self.drives.iter().any(|drive| drive.dof == dof && self.drive_limit(drive).is_none())
+        self.params.drives.iter().any(|drive| drive.dof == dof && self.drive_limit(drive).is_none())
     }
 
     /// Torque of a saturated drive at rate `v`, without its sign [N·m] or `[N]`: its limit, or less for friction in
@@ -51,7 +51,7 @@ impl<R: Real> Model<R> {
         let zero = R::zero();
         let friction = self.dofs.iter().enumerate().filter(|(_, d)| d.friction.at_rest != zero);
         let friction = friction.map(|(dof, _)| Drive { dof, kind: DriveKind::Friction });
-        let motors = self.motors.iter().enumerate().filter(|(_, m)| m.is_drive());
+        let motors = self.params.motors.iter().enumerate().filter(|(_, m)| m.is_drive());
         let motors = motors.map(|(i, m)| Drive { dof: m.dof, kind: DriveKind::Motor(MotorId::new(i)) });
         let sensors = self.names.joints.iter().filter(|j| j.kind == JointKind::Fixed);
         let locked = sensors.flat_map(|j| (j.v_idx..j.v_idx + j.n_v).map(|dof| Drive { dof, kind: DriveKind::Lock }));

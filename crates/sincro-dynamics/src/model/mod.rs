@@ -6,9 +6,9 @@
 //! (at q = 0) with the joint's axis on a coordinate axis wherever the geometry allows, because that is cheapest in the
 //! recursions. [`Names`] maps the user's objects to links and coordinates.
 //!
-//! The structure of a model never changes. Its numbers are not yet immutable: a [`World`](crate::world::World) owns a
-//! copy of its model, in which masses, gravity, joint limits, gears, materials and motors can be set between two steps
-//! (`parameters`). Names and constraints are shared between copies until one of them changes.
+//! A model is its [`Structure`], which never changes and is shared by all its copies, and its [`ModelParams`]: masses,
+//! gravity, joint limits, gears, contact laws and motors, which may be set between two steps of a
+//! [`World`](crate::world::World) and are part of a snapshot.
 
 pub(crate) mod builder;
 mod constraints;
@@ -17,7 +17,9 @@ mod drives;
 pub(crate) mod names;
 mod pack;
 pub(crate) mod parameters;
+mod structure;
 
+use std::ops::Deref;
 use std::sync::Arc;
 
 use sincro_math::Real;
@@ -34,6 +36,8 @@ pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, L
 pub use diagnostic::{BuildError, Diagnostic, Severity};
 pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
+pub use parameters::ModelParams;
+pub use structure::Structure;
 
 use crate::actuation::Drive;
 use crate::actuation::damper;
@@ -62,26 +66,41 @@ use crate::spatial::Vec3;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Model<R> {
-    pub(crate) links: Vec<Link<R>>,
-    pub(crate) dofs: Vec<Dof<R>>,
-    pub(crate) gravity: Vec3<R>,
-    pub(crate) motors: Vec<Motor<R>>,
-    pub(crate) applied: Vec<AppliedTorque>,
-    pub(crate) wrenches: Vec<AppliedWrench<R>>,
-    pub(crate) rotors: Vec<MountedRotor<R>>,
-    pub(crate) drags: Vec<AirDrag<R>>,
-    pub(crate) spring_dampers: Vec<SpringDamper<R>>,
-    pub(crate) wind: Option<Arc<Wind>>,
-    pub(crate) drives: Vec<Drive>,
-    pub(crate) constraints: Arc<ConstraintSet>,
-    pub(crate) n_q: usize,
-    /// Links of ball and free joints with springs.
-    pub(crate) sprung: Vec<usize>,
-    pub(crate) nonlinear_springs: Vec<NonlinearSpring>,
-    pub(crate) names: Arc<Names>,
+    structure: Arc<Structure<R>>,
+    pub(crate) params: ModelParams<R>,
+}
+
+/// The fields of the structure, read as those of the model.
+impl<R> Deref for Model<R> {
+    type Target = Structure<R>;
+
+    #[inline(always)]
+    fn deref(&self) -> &Structure<R> {
+        &self.structure
+    }
 }
 
 impl<R: Real> Model<R> {
+    pub(crate) fn new(structure: Structure<R>, params: ModelParams<R>) -> Self {
+        Self { structure: Arc::new(structure), params }
+    }
+
+    /// Parameters, as they now are.
+    #[must_use]
+    pub fn params(&self) -> &ModelParams<R> {
+        &self.params
+    }
+
+    /// Replaces the parameters by those of a model of the same structure.
+    ///
+    /// # Panics
+    ///
+    /// If they are of another structure: numbers of links, motors, limits, gears or pairs differ.
+    pub fn set_params(&mut self, params: &ModelParams<R>) {
+        assert!(self.params.fits(params), "parameters of a model of another structure");
+        self.params.clone_from(params);
+    }
+
     /// Number of coordinates (a quaternion has four).
     #[must_use]
     pub fn n_q(&self) -> usize {
@@ -109,7 +128,7 @@ impl<R: Real> Model<R> {
     /// Motors in the order of their commands, their numbers in SI units.
     #[must_use]
     pub fn motors(&self) -> &[Motor<R>] {
-        &self.motors
+        &self.params.motors
     }
 
     /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them,
@@ -125,7 +144,7 @@ impl<R: Real> Model<R> {
     /// commands.
     pub(crate) fn n_commands_before_lines(&self, n_inputs: usize) -> usize {
         let of_rotors = self.rotors.iter().filter(|r| r.speed.command().is_some()).count();
-        self.motors.len() + 6 * n_inputs + of_rotors
+        self.params.motors.len() + 6 * n_inputs + of_rotors
     }
 
     /// Number of states of rotors: [`crate::state::State::rotors`].
@@ -147,7 +166,7 @@ impl<R: Real> Model<R> {
     /// If the model has no such motor.
     #[must_use]
     pub fn motor(&self, id: MotorId) -> &Motor<R> {
-        &self.motors[id.index()]
+        &self.params.motors[id.index()]
     }
 
     /// Rotor of that id, its numbers in SI units.
@@ -203,19 +222,19 @@ impl<R: Real> Model<R> {
     /// Velocity motors and joints with Coulomb friction.
     #[must_use]
     pub fn drives(&self) -> &[Drive] {
-        &self.drives
+        &self.params.drives
     }
 
     /// Loop joints, gears, joint limits and contacts.
     #[must_use]
     pub fn constraints(&self) -> &ConstraintSet {
-        &self.constraints
+        &self.params.constraints
     }
 
     /// Number of drives: ideal motors and joint frictions.
     #[must_use]
     pub fn n_drives(&self) -> usize {
-        self.drives.len()
+        self.params.drives.len()
     }
 
     /// Returns true if degree of freedom `dof` moves one coordinate of its own (not part of a ball or free joint).
@@ -235,13 +254,13 @@ impl<R: Real> Model<R> {
     /// Mass of everything that moves `[kg]`.
     #[must_use]
     pub fn total_mass(&self) -> R {
-        self.links.iter().fold(R::zero(), |sum, link| sum + link.inertia.mass)
+        self.params.inertias.iter().fold(R::zero(), |sum, inertia| sum + inertia.mass)
     }
 
     /// Gravitational acceleration [m/s²], world axes.
     #[must_use]
     pub fn gravity(&self) -> Vec3<R> {
-        self.gravity
+        self.params.gravity
     }
 
     /// Names sensors, each of which is a frame of the same name.
@@ -253,7 +272,8 @@ impl<R: Real> Model<R> {
         for sensor in &sensors {
             assert!(self.names.frame(&sensor.name).is_some(), "the sensor `{}` is no frame", sensor.name);
         }
-        Arc::make_mut(&mut self.names).sensors = sensors;
+        let structure = Arc::make_mut(&mut self.structure);
+        Arc::make_mut(&mut structure.names).sensors = sensors;
     }
 
     /// The user's objects: joints, bodies, frames.
@@ -314,7 +334,7 @@ impl Model<f64> {
     ///
     /// If there is no such element.
     pub fn set_free_length(&mut self, k: usize, length: f64) {
-        self.spring_dampers[k].free_length = length;
+        Arc::make_mut(&mut self.structure).spring_dampers[k].free_length = length;
     }
 
     /// Next time event: the first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if

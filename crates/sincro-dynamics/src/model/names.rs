@@ -50,8 +50,8 @@ pub struct FrameInfo {
     pub link: Option<usize>,
     /// Its pose in that link, or in the world.
     pub pose: Pose<f64>,
-    /// Centre of mass in its own frame and mass, if it is a body.
-    pub body: Option<([f64; 3], f64)>,
+    /// True if it is a body: [`Model::mass_properties`](super::Model::mass_properties) has its mass.
+    pub is_body: bool,
 }
 
 /// A sensor on a frame: what its values are called.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sincro_math::Real;
 
-use super::{Dof, Link, Model};
+use super::{Dof, Link, Model, ModelParams, Structure};
 use crate::actuation::spring_damper::{LineActuator, LinkPoint};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::actuation::{ForceLaw, SpringDamper};
@@ -56,11 +56,11 @@ impl<R: Real> Model<R> {
             sign: num(&|m| m.links[l].sign),
             axis: vec3(&|m| m.links[l].axis),
             pitch: num(&|m| m.links[l].pitch),
-            inertia: RigidInertia {
-                mass: num(&|m| m.links[l].inertia.mass),
-                moment: vec3(&|m| m.links[l].inertia.moment),
-                rotational: Sym3(core::array::from_fn(|i| num(&|m| m.links[l].inertia.rotational.0[i]))),
-            },
+        });
+        let inertias = (0..first.links.len()).map(|l| RigidInertia {
+            mass: num(&|m| m.params.inertias[l].mass),
+            moment: vec3(&|m| m.params.inertias[l].moment),
+            rotational: Sym3(core::array::from_fn(|i| num(&|m| m.params.inertias[l].rotational.0[i]))),
         });
         let dofs = (0..first.dofs.len()).map(|d| Dof {
             armature: num(&|m| m.dofs[d].armature),
@@ -75,14 +75,14 @@ impl<R: Real> Model<R> {
             torque: num(&|m| m.dofs[d].torque),
             q_idx: first.dofs[d].q_idx,
         });
-        let motors = (0..first.motors.len()).map(|i| Motor {
-            dof: first.motors[i].dof,
-            mode: first.motors[i].mode,
-            max_torque: num(&|m| m.motors[i].max_torque),
-            kp: num(&|m| m.motors[i].kp),
-            max_velocity: num(&|m| m.motors[i].max_velocity),
-            stiffness: num(&|m| m.motors[i].stiffness),
-            damping: num(&|m| m.motors[i].damping),
+        let motors = (0..first.params.motors.len()).map(|i| Motor {
+            dof: first.params.motors[i].dof,
+            mode: first.params.motors[i].mode,
+            max_torque: num(&|m| m.params.motors[i].max_torque),
+            kp: num(&|m| m.params.motors[i].kp),
+            max_velocity: num(&|m| m.params.motors[i].max_velocity),
+            stiffness: num(&|m| m.params.motors[i].stiffness),
+            damping: num(&|m| m.params.motors[i].damping),
         });
         let lanes = |f: &dyn Fn(&Model<f64>) -> crate::signal::Signal| (0..R::LANES).map(|k| f(of(k))).collect();
         let applied = (0..first.applied.len())
@@ -147,13 +147,17 @@ impl<R: Real> Model<R> {
                 }),
             }
         });
-        Ok(Self {
-            drives: first.drives.clone(),
-            constraints: Arc::clone(&first.constraints),
+        let params = ModelParams {
+            gravity: vec3(&|m| m.params.gravity),
+            inertias: inertias.collect(),
+            masses: first.params.masses.clone(),
+            motors: motors.collect(),
+            drives: first.params.drives.clone(),
+            constraints: Arc::clone(&first.params.constraints),
+        };
+        let structure = Structure {
             links: links.collect(),
             dofs: dofs.collect(),
-            gravity: vec3(&|m| m.gravity),
-            motors: motors.collect(),
             applied: applied.collect(),
             wrenches: wrenches.collect(),
             rotors: rotors.collect(),
@@ -164,7 +168,8 @@ impl<R: Real> Model<R> {
             sprung: first.sprung.clone(),
             nonlinear_springs: first.nonlinear_springs.clone(),
             names: Arc::clone(&first.names),
-        })
+        };
+        Ok(Self::new(structure, params))
     }
 }
 
@@ -172,7 +177,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     let links = |m: &Model<f64>| -> Vec<_> {
         m.links.iter().map(|l| (l.parent, l.kind, l.turned, l.shift, l.q_idx, l.v_idx)).collect()
     };
-    let motors = |m: &Model<f64>| -> Vec<_> { m.motors.iter().map(|x| (x.dof, x.mode)).collect() };
+    let motors = |m: &Model<f64>| -> Vec<_> { m.params.motors.iter().map(|x| (x.dof, x.mode)).collect() };
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
     let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body, x.input)).collect() };
     let rotors = |m: &Model<f64>| -> Vec<_> {
@@ -198,7 +203,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (drags(a) == drags(b), "drag elements"),
         (lines(a) == lines(b), "springs and dampers between two points"),
         (a.wind == b.wind, "wind"),
-        (a.constraints == b.constraints, "loop joints, limits and contacts"),
+        (a.params.constraints == b.params.constraints, "loop joints, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
         (a.nonlinear_springs == b.nonlinear_springs, "nonlinear springs of joints"),
         (a.sprung == b.sprung, "set of ball and free joints with springs"),

@@ -22,7 +22,7 @@ use crate::actuation::DriveKind;
 use crate::joint::{Link, Stage, StageVisitor, WORLD};
 use crate::model::Model;
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
-use crate::spatial::{ArticulatedInertia, Force, Motion};
+use crate::spatial::{ArticulatedInertia, Force, Motion, RigidInertia};
 use crate::state::State;
 
 /// Inputs of forward dynamics. Lengths are `n_q` for `q`, `n_v` for everything else but `external`.
@@ -106,7 +106,8 @@ fn velocities_base_to_tip<R: Real>(model: &Model<R>, input: &Input<'_, R>, scrat
         let link = &model.links[i];
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &done[link.parent as usize].v);
-        link.kind.dispatch(Velocity { link, q: input.q, v: input.v, parent, out: &mut rest[0] });
+        let inertia = &model.params.inertias[i];
+        link.kind.dispatch(Velocity { link, inertia, q: input.q, v: input.v, parent, out: &mut rest[0] });
         if let Some(external) = input.external {
             rest[0].pa -= external[i];
         }
@@ -116,6 +117,7 @@ fn velocities_base_to_tip<R: Real>(model: &Model<R>, input: &Input<'_, R>, scrat
 /// Pass 1 for one link.
 struct Velocity<'a, R> {
     link: &'a Link<R>,
+    inertia: &'a RigidInertia<R>,
     q: &'a [R],
     v: &'a [R],
     parent: Option<&'a Motion<R>>,
@@ -127,7 +129,7 @@ impl<R: Real> StageVisitor for Velocity<'_, R> {
 
     #[inline(always)]
     fn visit<S: Stage>(self) {
-        let Self { link, q, v, parent, out } = self;
+        let Self { link, inertia, q, v, parent, out } = self;
         S::place(link, &q[link.q_idx as usize..], &mut out.at);
         // v_J = S q̇
         let v_joint = joint_motion::<S, R>(link, &v[link.v_idx as usize..]);
@@ -143,7 +145,7 @@ impl<R: Real> StageVisitor for Velocity<'_, R> {
             }
         }
         // pA = v ×* I v
-        out.pa = out.v.cross_force(&link.inertia.mul(&out.v));
+        out.pa = out.v.cross_force(&inertia.mul(&out.v));
     }
 }
 
@@ -164,13 +166,15 @@ fn inertias_tip_to_base<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize]);
         let dofs = &mut scratch.dofs[link.v_idx as usize..];
-        link.kind.dispatch(Inertia { link, input, this: &mut rest[0], parent, dofs });
+        let inertia = &model.params.inertias[i];
+        link.kind.dispatch(Inertia { link, inertia, input, this: &mut rest[0], parent, dofs });
     }
 }
 
 /// Pass 2 for one link.
 struct Inertia<'a, R> {
     link: &'a Link<R>,
+    inertia: &'a RigidInertia<R>,
     input: &'a Input<'a, R>,
     this: &'a mut LinkScratch<R>,
     parent: Option<&'a mut LinkScratch<R>>,
@@ -182,9 +186,9 @@ impl<R: Real> StageVisitor for Inertia<'_, R> {
 
     #[inline(always)]
     fn visit<S: Stage>(self) {
-        let Self { link, input, this, parent, dofs } = self;
+        let Self { link, inertia, input, this, parent, dofs } = self;
         // `ia` holds what the children left there
-        let ia = if link.has_children { this.ia.plus_rigid(&link.inertia) } else { link.inertia.articulated() };
+        let ia = if link.has_children { this.ia.plus_rigid(inertia) } else { inertia.articulated() };
         let mut left = Remainder { ia, pa: this.pa, is_root: parent.is_none() };
         if !left.is_root {
             // bias of the velocity product, for the whole link at once
@@ -264,7 +268,7 @@ fn accelerations_base_to_tip<R: Real>(
     v_dot: &mut [R],
 ) {
     // gravity as an upward acceleration of the base
-    let gravity = if input.gravity { -model.gravity } else { crate::spatial::Vec3::zero() };
+    let gravity = if input.gravity { -model.params.gravity } else { crate::spatial::Vec3::zero() };
     let base = Motion { ang: crate::spatial::Vec3::zero(), lin: gravity };
     for i in 0..model.links.len() {
         let link = &model.links[i];
@@ -350,7 +354,7 @@ pub(crate) fn factor_at_rest(model: &Model<f64>, state: &State<f64>, scratch: &m
     let n = model.n_v();
     let diagonal: Vec<f64> = model.dofs.iter().map(|d| d.armature).collect();
     let (torque, mut v_dot, mut mask) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    for drive in model.drives.iter().filter(|drive| drive.kind == DriveKind::Lock) {
+    for drive in model.drives().iter().filter(|drive| drive.kind == DriveKind::Lock) {
         mask[drive.dof] = 1.0;
     }
     let input = Input {

@@ -34,9 +34,7 @@ pub fn mass_matrix<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>,
     let n = model.n_v();
     mass.fill(R::zero());
     kinematics::place(model, q, scratch);
-    for (composite, link) in scratch.composite.iter_mut().zip(&model.links) {
-        *composite = link.inertia;
-    }
+    scratch.composite.copy_from_slice(&model.params.inertias);
     for i in (0..model.links.len()).rev() {
         let link = &model.links[i];
         if let Some(parent) = link.parent() {

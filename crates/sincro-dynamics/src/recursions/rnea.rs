@@ -9,7 +9,7 @@ use crate::joint::{Link, Stage, StageVisitor, WORLD};
 use crate::model::Model;
 use crate::recursions::aba::joint_motion;
 use crate::scratch::{LinkScratch, Scratch};
-use crate::spatial::{Force, Motion, Vec3};
+use crate::spatial::{Force, Motion, RigidInertia, Vec3};
 
 /// Joint torques `torque` [N·m] or forces `[N]` (`n_v`) of motion (`q`, `v`, `v_dot`): `M·v̇ + bias − gravity −
 /// external`.
@@ -63,13 +63,14 @@ impl<R: Real> Task for InverseDynamics<'_, R> {
     #[inline(always)]
     fn run(self) {
         let Self { model, q, v, v_dot, external, scratch, torque } = self;
-        let base = (Motion::zero(), Motion { ang: Vec3::zero(), lin: -model.gravity });
+        let base = (Motion::zero(), Motion { ang: Vec3::zero(), lin: -model.params.gravity });
         for i in 0..model.links.len() {
             let link = &model.links[i];
             let (done, rest) = scratch.links.split_at_mut(i);
             let parent = (link.parent != WORLD).then(|| &done[link.parent as usize]);
             let parent = parent.map_or((&base.0, &base.1), |p| (&p.v, &p.a));
-            link.kind.dispatch(Outward { link, q, v, v_dot, parent, out: &mut rest[0] });
+            let inertia = &model.params.inertias[i];
+            link.kind.dispatch(Outward { link, inertia, q, v, v_dot, parent, out: &mut rest[0] });
             if let Some(external) = external {
                 rest[0].pa -= external[i];
             }
@@ -86,6 +87,7 @@ impl<R: Real> Task for InverseDynamics<'_, R> {
 /// Base to tip: twist, acceleration and the wrench they take.
 struct Outward<'a, R> {
     link: &'a Link<R>,
+    inertia: &'a RigidInertia<R>,
     q: &'a [R],
     v: &'a [R],
     v_dot: &'a [R],
@@ -98,7 +100,7 @@ impl<R: Real> StageVisitor for Outward<'_, R> {
 
     #[inline(always)]
     fn visit<S: Stage>(self) {
-        let Self { link, q, v, v_dot, parent, out } = self;
+        let Self { link, inertia, q, v, v_dot, parent, out } = self;
         let v_idx = link.v_idx as usize;
         S::place(link, &q[link.q_idx as usize..], &mut out.at);
         // v = X v_parent + S q̇,  a = X a_parent + S q̈ + v × S q̇
@@ -107,7 +109,7 @@ impl<R: Real> StageVisitor for Outward<'_, R> {
         out.v = link.motion_in_link::<S>(&out.at, parent.0) + v_joint;
         out.a = link.motion_in_link::<S>(&out.at, parent.1) + a_joint + S::velocity_product(&out.v, &v_joint);
         // f = I a + v ×* I v
-        out.pa = link.inertia.mul(&out.a) + out.v.cross_force(&link.inertia.mul(&out.v));
+        out.pa = inertia.mul(&out.a) + out.v.cross_force(&inertia.mul(&out.v));
     }
 }
 

@@ -287,8 +287,8 @@ impl Observation<'_> {
     fn add_drives(&self, scales: &Scales, found: &mut LawResiduals) {
         let (model, modes) = (self.model(), &self.mechanism.drives);
         let reaction = |dof: usize| self.mechanism.scratch.reaction[dof];
-        let largest = model.drives.iter().map(|drive| reaction(drive.dof).abs()).fold(0.0, f64::max);
-        for (k, drive) in model.drives.iter().enumerate() {
+        let largest = model.params.drives.iter().map(|drive| reaction(drive.dof).abs()).fold(0.0, f64::max);
+        for (k, drive) in model.params.drives.iter().enumerate() {
             let element = LawElement::Drive(k);
             let kind = if is_linear(model, drive.dof) { ResidualKind::Speed } else { ResidualKind::AngularSpeed };
             let missing = self.target_velocities[k] - self.state.v[drive.dof];
@@ -298,7 +298,7 @@ impl Observation<'_> {
                 continue;
             }
             found.add(Law::DriveVelocity, missing.abs(), scales.speed, kind, element);
-            let limits = model.drives.iter().zip(modes).filter(|(d, mode)| d.dof == drive.dof && **mode == 0.0);
+            let limits = model.params.drives.iter().zip(modes).filter(|(d, mode)| d.dof == drive.dof && **mode == 0.0);
             let limit = limits.map(|(d, _)| model.drive_limit(d)).try_fold(0.0, |sum, limit| Some(sum + limit?));
             let (Some(limit), true) = (limit, self.inputs_are_continuous) else { continue };
             let excess = (reaction(drive.dof).abs() - limit).max(0.0);

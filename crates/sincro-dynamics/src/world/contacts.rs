@@ -5,7 +5,7 @@ use super::{Method, Stop, World};
 use crate::actuation::DriveKind;
 use crate::constraint::warm_start::{WarmStart, ZenoFallback};
 use crate::coupled::{Coupled, CoupledSystem};
-use crate::integrate::{Failure, FixedStep, SemiImplicitEuler, System};
+use crate::integrate::{Failure, FixedStep, SemiImplicitEuler};
 use crate::mechanism::constraints::{ActivationRule, ProjectedRows};
 
 /// Maximum number of successive impacts at one instant (propagation through a stack); the rest counts as inelastic.
@@ -39,14 +39,14 @@ impl World {
         if !self.is_constrained() {
             return;
         }
-        let n = self.model().n_v();
+        let layout = self.layout();
         for _ in 0..MAX_IMPACTS {
-            if !self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Touching).has_impact {
+            if !self.mechanism.detect_contacts(&self.y[layout.velocities()], ActivationRule::Touching).has_impact {
                 return;
             }
             self.apply_impact();
         }
-        self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Touching);
+        self.mechanism.detect_contacts(&self.y[layout.velocities()], ActivationRule::Touching);
     }
 
     /// Applies an impact: rates jump; the totals get the energy lost and the impulses of ideal motors.
@@ -54,19 +54,19 @@ impl World {
         if !self.is_constrained() {
             return;
         }
-        let n = self.model().n_v();
+        let layout = self.layout();
         self.mechanism.locked_mask.fill(0.0);
         for i in 0..self.target_velocities.len() {
             if self.is_unlimited(i) {
-                self.mechanism.locked_mask[self.mechanism.model.drives[i].dof] = 1.0;
+                self.mechanism.locked_mask[self.mechanism.model.params.drives[i].dof] = 1.0;
             }
         }
-        let lost = self.mechanism.apply_impact(&mut self.y[n..2 * n]);
+        let lost = self.mechanism.apply_impact(&mut self.y[layout.velocities()]);
         self.statistics.impacts += 1;
-        if self.mechanism.dim() == 2 * n {
+        if !layout.tracks_totals() {
             return;
         }
-        self.y[2 * n + 1] += lost;
+        self.y[layout.dissipation()] += lost;
         self.add_motor_impulses(Self::is_unlimited);
     }
 
@@ -76,7 +76,7 @@ impl World {
             self.mechanism.mark_locked();
             let projected = self.mechanism.project(&mut self.y, ProjectedRows::Sticking);
             self.statistics.closing_work += projected.closing_work;
-            if projected.has_impulses && self.mechanism.tracks_totals() {
+            if projected.has_impulses && self.layout().tracks_totals() {
                 self.add_motor_impulses(|world, drive| world.mechanism.drives[drive] == 0.0);
             }
         }
@@ -84,13 +84,13 @@ impl World {
 
     /// Adds work and impulses of the motors chosen, whose velocities an impulse has left as they are, to the totals.
     fn add_motor_impulses(&mut self, is_chosen: impl Fn(&Self, usize) -> bool) {
-        let n = self.model().n_v();
+        let layout = self.layout();
         for i in 0..self.target_velocities.len() {
-            let drive = self.mechanism.model.drives[i];
+            let drive = self.mechanism.model.params.drives[i];
             if let (DriveKind::Motor(motor), true) = (drive.kind, is_chosen(self, i)) {
                 let impulse = self.mechanism.scratch.reaction[drive.dof];
-                self.y[2 * n] += impulse * self.y[n + drive.dof];
-                self.y[2 * n + 2 + motor.index()] += impulse;
+                self.y[layout.work()] += impulse * self.y[layout.velocity(drive.dof)];
+                self.y[layout.motor_impulse(motor)] += impulse;
             }
         }
     }
@@ -127,11 +127,11 @@ impl World {
             self.restore();
             return Err((t, Stop::Integration(Failure::NotFinite { t })));
         }
-        let n = self.model().n_v();
+        let layout = self.layout();
         self.project_penetrations(is_large && matches!(self.method, Method::SemiImplicitEuler));
         for i in 0..self.target_velocities.len() {
             if self.mechanism.drives[i] == 0.0 {
-                self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
+                self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities[i];
             }
         }
         Ok(())
@@ -140,8 +140,8 @@ impl World {
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is
     /// solved by sweeps.
     fn detect_step_contacts(&mut self, h: f64) -> bool {
-        let n = self.model().n_v();
-        self.mechanism.detect_contacts(&self.y[n..2 * n], ActivationRule::Within(h));
+        let layout = self.layout();
+        self.mechanism.detect_contacts(&self.y[layout.velocities()], ActivationRule::Within(h));
         self.mechanism.is_large_contact_problem()
     }
 
@@ -176,13 +176,13 @@ impl World {
     }
 
     /// Finds the forces of the next step from the present state with the contacts last detected, by sweeps, and stays
-    /// there; the velocities at its end are left in `slope`.
+    /// there; the velocities at its end are left in `step_end_velocities`.
     pub(super) fn find_step_forces<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
-        let n = self.model().n_v();
+        let layout = self.layout();
         self.try_step(t, self.next_step, true, system);
-        self.slope[..n].copy_from_slice(&self.y[n..2 * n]);
+        self.step_end_velocities.copy_from_slice(&self.y[layout.velocities()]);
         self.restore();
-        if !self.slope[..n].iter().all(|v| v.is_finite()) {
+        if !self.step_end_velocities.iter().all(|v| v.is_finite()) {
             // a step that fails does so when it is made
             self.mechanism.load(&self.state, &mut self.y);
         }

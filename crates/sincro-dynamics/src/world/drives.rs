@@ -9,14 +9,14 @@ use crate::coupled::CoupledSystem;
 impl World {
     /// Latches the target velocity of each drive for this tick.
     pub(super) fn latch_target_velocities(&mut self) {
-        for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
+        for (i, drive) in self.mechanism.model.params.drives.iter().enumerate() {
             self.target_velocities[i] =
                 self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands);
         }
     }
 
     pub(super) fn is_unlimited(&self, drive: usize) -> bool {
-        self.mechanism.model.drive_limit(&self.mechanism.model.drives[drive]).is_none()
+        self.mechanism.model.drive_limit(&self.mechanism.model.params.drives[drive]).is_none()
     }
 
     /// Applies the velocity jumps at the start of a tick and resolves the modes of the drives after them.
@@ -52,13 +52,13 @@ impl World {
     /// Brings the drives marked in `jumps` to their target velocity by an impulse that leaves every other generalised
     /// momentum unchanged; unlimited motors keep their velocity. Returns true if there was an impulse.
     pub(super) fn apply_impulse(&mut self) -> bool {
-        let n = self.model().n_v();
+        let layout = self.layout();
         let mut needed = false;
         self.mechanism.locked_mask.fill(0.0);
         self.mechanism.prescribed_acceleration.fill(0.0);
         for i in 0..self.target_velocities.len() {
             if self.jumps[i] || self.is_unlimited(i) {
-                let dof = self.mechanism.model.drives[i].dof;
+                let dof = self.mechanism.model.params.drives[i].dof;
                 let change = self.target_velocities[i] - self.velocity(dof);
                 self.mechanism.locked_mask[dof] = 1.0;
                 self.mechanism.prescribed_acceleration[dof] = change;
@@ -67,14 +67,14 @@ impl World {
         }
         if needed {
             self.mechanism.impulse(&mut self.accelerations);
-            for k in 0..n {
-                self.y[n + k] += self.accelerations[k];
+            for (v, change) in self.y[layout.velocities()].iter_mut().zip(&self.accelerations) {
+                *v += *change;
             }
             self.add_impulses_to_totals();
         }
         for i in 0..self.target_velocities.len() {
             if self.jumps[i] {
-                self.y[n + self.mechanism.model.drives[i].dof] = self.target_velocities[i];
+                self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities[i];
             }
         }
         needed
@@ -82,11 +82,11 @@ impl World {
 
     /// Adds work and impulses of a velocity jump to the totals: ΔT = Σ λ·(mean of the velocities before and after).
     fn add_impulses_to_totals(&mut self) {
-        let n = self.model().n_v();
-        if !self.mechanism.tracks_totals() {
+        let layout = self.layout();
+        if !layout.tracks_totals() {
             return;
         }
-        for (i, drive) in self.mechanism.model.drives.iter().enumerate() {
+        for (i, drive) in self.mechanism.model.params.drives.iter().enumerate() {
             if !self.jumps[i] && !self.is_unlimited(i) {
                 continue;
             }
@@ -94,11 +94,10 @@ impl World {
             let work = impulse * (self.target_velocities[i] - 0.5 * self.mechanism.prescribed_acceleration[drive.dof]);
             match drive.kind {
                 DriveKind::Lock => {}
-                DriveKind::Friction => self.y[2 * n + 1] -= work,
+                DriveKind::Friction => self.y[layout.dissipation()] -= work,
                 DriveKind::Motor(motor) => {
-                    let motor = motor.index();
-                    self.y[2 * n] += work;
-                    self.y[2 * n + 2 + motor] += impulse;
+                    self.y[layout.work()] += work;
+                    self.y[layout.motor_impulse(motor)] += impulse;
                 }
             }
         }
@@ -111,11 +110,12 @@ impl World {
     /// Prescribes the accelerations by which locked drives reach their target velocity within `h`.
     pub(super) fn mark_targets(&mut self, h: f64) {
         self.mechanism.mark_locked();
-        let n = self.model().n_v();
+        let layout = self.layout();
         for i in 0..self.target_velocities.len() {
             if self.mechanism.drives[i] == 0.0 {
-                let dof = self.mechanism.model.drives[i].dof;
-                self.mechanism.prescribed_acceleration[dof] = (self.target_velocities[i] - self.before[n + dof]) / h;
+                let dof = self.mechanism.model.params.drives[i].dof;
+                self.mechanism.prescribed_acceleration[dof] =
+                    (self.target_velocities[i] - self.before[layout.velocity(dof)]) / h;
             }
         }
     }

@@ -48,8 +48,7 @@ impl World {
         self.crossings.extend(furthest.map(Crossing::Target));
         if self.mechanism.drives.contains(&0.0) || self.is_constrained() {
             self.evaluate_held(t, system);
-            let n = self.model().n_v();
-            let of_contacts = self.mechanism.contact_events(&self.y[n..2 * n]);
+            let of_contacts = self.mechanism.contact_events(&self.y[self.layout().velocities()]);
             self.crossings.extend(of_contacts.into_iter().flatten().map(Crossing::Contact));
             let overload = self.find_overload();
             self.crossings.extend(overload.map(Crossing::Overload));
@@ -142,10 +141,11 @@ impl World {
             return f64::INFINITY;
         }
         self.evaluate_held(reached, system);
-        let n = self.model().n_v();
+        let layout = self.layout();
         self.mechanism.drive_monitor.passage(h, |i| {
-            let dof = self.mechanism.model.drives[i].dof;
-            (self.mechanism.drives[i], self.y[n + dof], self.slope[n + dof])
+            let dof = self.mechanism.model.params.drives[i].dof;
+            let at = layout.velocity(dof);
+            (self.mechanism.drives[i], self.y[at], self.slope[at])
         })
     }
 

@@ -7,7 +7,8 @@
 //!
 //! After a failure the state is that of the last sub-step that could be made, everything finite.
 //!
-//! A world owns its model, state, mechanism and the working memory of its method; they are not yet separate values.
+//! A world owns its state, the parameters of its model (the structure is shared), and the working memory of mechanism
+//! and method.
 
 pub mod audit;
 mod bracket;
@@ -34,6 +35,7 @@ use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::constraints::ActivationRule;
+use crate::mechanism::layout::Layout;
 use crate::mechanism::{Mechanism, PassedSingularities};
 use crate::model::Model;
 use crate::state::State;
@@ -156,7 +158,12 @@ pub struct World {
     /// y at the present instant during a look-ahead.
     present: Vec<f64>,
     accelerations: Vec<f64>,
+    /// f(t, y) as last evaluated.
     slope: Vec<f64>,
+    /// f(t, y) with the modes just decided, while the former ones are tried.
+    decided_slope: Vec<f64>,
+    /// Velocities at the end of the next step, where its forces are found over the whole of it.
+    step_end_velocities: Vec<f64>,
     negated_jacobian_diagonal: Vec<f64>,
     attached_before: Vec<f64>,
     substeps: u32,
@@ -230,6 +237,8 @@ impl World {
             y: vec![0.0; dim],
             before: vec![0.0; dim],
             slope: vec![0.0; dim],
+            decided_slope: vec![0.0; dim],
+            step_end_velocities: accelerations.clone(),
             negated_jacobian_diagonal: vec![0.0; n_states],
             attached_before: vec![0.0; n_states],
             substeps: 1,
@@ -418,7 +427,6 @@ impl World {
 
     /// Accelerations [rad/s²], [m/s²] and motor torques [N·m], `[N]` at the present state, as the drives now stand.
     pub fn rates(&mut self, t: f64) -> (&[f64], &[f64]) {
-        let n = self.model().n_v();
         self.mechanism.load(&self.state, &mut self.y);
         if self.is_next_step_large() {
             return self.step_rates(t);
@@ -430,7 +438,8 @@ impl World {
         let own = self.mechanism.dim();
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
         self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
-        self.accelerations.copy_from_slice(&self.slope[n..2 * n]);
+        let velocities = self.layout().velocities();
+        self.accelerations.copy_from_slice(&self.slope[velocities]);
         (&self.accelerations, self.mechanism.motor_torque())
     }
 
@@ -440,7 +449,7 @@ impl World {
         self.latch_target_velocities();
         self.find_step_forces(t, &mut NoCoupling);
         for k in 0..n {
-            self.accelerations[k] = (self.slope[k] - self.state.v[k]) / self.next_step;
+            self.accelerations[k] = (self.step_end_velocities[k] - self.state.v[k]) / self.next_step;
         }
         self.mechanism.find_motor_torques(&self.state.v, (self.next_step, 0.0));
         // the modes are those of the step that has been made
@@ -483,6 +492,11 @@ impl World {
         self.mark_changed();
         self.mechanism.drives.copy_from_slice(&self.state.drives);
         self.mechanism.set_motor(id, motor);
+        self.resize_drives();
+    }
+
+    /// Makes room for the drives of the mechanism.
+    fn resize_drives(&mut self) {
         let n = self.mechanism.drives.len();
         self.state.drives.resize(n, 0.0);
         self.state.drives.copy_from_slice(&self.mechanism.drives);
@@ -514,6 +528,10 @@ impl World {
     }
 
     fn velocity(&self, dof: usize) -> f64 {
-        self.y[self.model().n_v() + dof]
+        self.y[self.layout().velocity(dof)]
+    }
+
+    fn layout(&self) -> Layout {
+        self.mechanism.layout()
     }
 }

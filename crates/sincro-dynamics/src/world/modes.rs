@@ -43,11 +43,11 @@ impl World {
     /// accelerations: of several solutions, the one that the motion came with continues until an event. Returns true if
     /// it went back.
     fn prefer_former_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
-        let (n, report) = (self.model().n_v(), self.solver_report());
-        self.present.copy_from_slice(&self.slope);
+        let (velocities, report) = (self.layout().velocities(), self.solver_report());
+        self.decided_slope.copy_from_slice(&self.slope);
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
         self.evaluate_checked(t, system);
-        let (former, decided) = (&self.slope[n..2 * n], &self.present[n..2 * n]);
+        let (former, decided) = (&self.slope[velocities.clone()], &self.decided_slope[velocities]);
         let largest = decided.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
         let differ = former.iter().zip(decided).any(|(x, y)| (x - y).abs() > OTHER_MOTION * largest);
         let goes_back = self.mechanism.keeps_laws() && differ;
@@ -132,9 +132,9 @@ impl World {
         let report = self.solver_report();
         self.present_kinks.clone_from(&self.kinks);
         let ahead = self.move_ahead(t, h);
-        let n = self.model().n_v();
+        let layout = self.layout();
         for kink in &self.kinks {
-            self.y[n + kink.dof] = kink.target;
+            self.y[layout.velocity(kink.dof)] = kink.target;
         }
         self.decide_kinks(ahead, system);
         self.y.copy_from_slice(&self.present);

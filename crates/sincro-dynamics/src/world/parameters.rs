@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::World;
 use crate::contact::Material;
 use crate::ids::BodyId;
-use crate::model::{MassProperties, Model};
+use crate::model::{MassProperties, Model, ModelParams};
 use crate::recursions::kinematics;
 use crate::spatial::Vec3;
 
@@ -14,17 +14,29 @@ use crate::spatial::Vec3;
 const NEAR: f64 = 1e-3;
 
 impl World {
-    /// Sets the mass properties of the bodies of a link: all its bodies, by their index among the frames of the names,
-    /// in that order. Coordinates and rates stay; the change of energy is counted as work, unless no step has been made
-    /// yet.
+    /// Replaces all parameters, as when a snapshot is restored; no work is counted. Drives that were not there are
+    /// locked.
     ///
     /// # Panics
     ///
-    /// If there is no such link or frame.
-    pub fn set_mass_properties(&mut self, link: usize, bodies: &[(BodyId, MassProperties)]) {
+    /// If they are of a model of another structure.
+    pub fn set_params(&mut self, params: &ModelParams<f64>) {
+        self.mark_changed();
+        self.mechanism.model.set_params(params);
+        self.mechanism.resize_drives();
+        self.resize_drives();
+    }
+
+    /// Sets the mass properties of a body in its own frame. Coordinates and rates stay; the change of energy is counted
+    /// as work, unless no step has been made yet.
+    ///
+    /// # Panics
+    ///
+    /// If the model has no such body.
+    pub fn set_mass_properties(&mut self, body: BodyId, mass: MassProperties) {
         self.mark_changed();
         let before = self.energy().total();
-        self.mechanism.model.set_mass_properties(link, bodies);
+        self.mechanism.model.set_mass_properties(body, mass);
         if self.state.tick > 0 {
             self.state.totals[0] += self.energy().total() - before;
         }
@@ -34,7 +46,7 @@ impl World {
     pub fn set_gravity(&mut self, gravity: Vec3<f64>) {
         self.mark_changed();
         let before = self.energy().total();
-        self.mechanism.model.gravity = gravity;
+        self.mechanism.model.params.gravity = gravity;
         if self.state.tick > 0 {
             self.state.totals[0] += self.energy().total() - before;
         }
@@ -44,14 +56,15 @@ impl World {
     /// changes nothing, if the bounds given are not those that exist.
     pub fn set_limits(&mut self, dof: usize, bounds: [Option<f64>; 2]) -> bool {
         self.mark_changed();
-        let has =
-            |sign: f64, model: &Model<f64>| model.constraints.limits.iter().any(|l| l.dof == dof && l.sign == sign);
+        let has = |sign: f64, model: &Model<f64>| {
+            model.params.constraints.limits.iter().any(|l| l.dof == dof && l.sign == sign)
+        };
         let model = &mut self.mechanism.model;
         let signs = [1.0, -1.0];
         if signs.iter().zip(bounds).any(|(sign, bound)| bound.is_some() != has(*sign, model)) {
             return false;
         }
-        for limit in Arc::make_mut(&mut model.constraints).limits.iter_mut().filter(|l| l.dof == dof) {
+        for limit in Arc::make_mut(&mut model.params.constraints).limits.iter_mut().filter(|l| l.dof == dof) {
             let bound = bounds[usize::from(limit.sign < 0.0)];
             limit.bound = bound.unwrap_or(limit.bound);
         }
@@ -65,7 +78,7 @@ impl World {
     /// If there is no such gear.
     pub fn set_gear(&mut self, k: usize, ratio: f64, offset: f64) {
         self.mark_changed();
-        let gear = &mut Arc::make_mut(&mut self.mechanism.model.constraints).gears[k];
+        let gear = &mut Arc::make_mut(&mut self.mechanism.model.params.constraints).gears[k];
         (gear.ratio, gear.offset) = (ratio, offset);
     }
 
@@ -77,13 +90,12 @@ impl World {
     /// If there is no such pair.
     pub fn set_pair(&mut self, pair: usize, is_ignored: bool, material: Material) {
         self.mark_changed();
-        let mechanism = &mut self.mechanism;
-        if let Some(constraints) = mechanism.constraints.as_deref_mut() {
-            constraints.detector.ignored[pair] = is_ignored;
-        }
-        // the scene's own set of constraints is copied once, when the first material differs
-        if mechanism.model.constraints.pairs[pair].material != material {
-            Arc::make_mut(&mut mechanism.model.constraints).pairs[pair].material = material;
+        let set = &mut self.mechanism.model.params.constraints;
+        let known = &set.pairs[pair];
+        // the scene's own set of constraints is copied once, when the first pair differs
+        if known.is_ignored != is_ignored || known.material != material {
+            let changed = &mut Arc::make_mut(set).pairs[pair];
+            (changed.is_ignored, changed.material) = (is_ignored, material);
         }
     }
 
@@ -97,8 +109,8 @@ impl World {
         let (model, scratch) = (&mechanism.model, &mut mechanism.scratch);
         kinematics::poses(model, &self.state.q, scratch);
         c.motions.place(model, scratch, &self.state.v);
-        let set = &*model.constraints;
-        let fall = 4.0 * h * h * model.gravity.norm();
+        let set = &*model.params.constraints;
+        let fall = 4.0 * h * h * model.params.gravity.norm();
         let speed = |k: usize| c.speed(k, &set.colliders[k], &scratch.poses);
         let is_near = |k: &usize| {
             let pair = &set.pairs[*k];

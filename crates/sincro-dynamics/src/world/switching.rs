@@ -90,15 +90,15 @@ impl World {
             let (missing, before) = (self.velocity_error(i), self.mechanism.drives[i]);
             if missing != 0.0 {
                 self.mechanism.drives[i] = missing.signum();
-            } else if self.model().is_held(self.mechanism.model.drives[i].dof) {
+            } else if self.model().is_held(self.mechanism.model.params.drives[i].dof) {
                 self.mechanism.drives[i] = 0.0;
             } else {
-                let dof = self.mechanism.model.drives[i].dof;
+                let dof = self.mechanism.model.params.drives[i].dof;
                 let known = self.kinks.iter().position(|kink| kink.dof == dof);
                 self.add_to_kink(i, known);
                 if self.is_constrained() {
-                    let n = self.model().n_v();
-                    self.y[n + dof] = self.target_velocities[i];
+                    let velocity = self.layout().velocity(dof);
+                    self.y[velocity] = self.target_velocities[i];
                 }
             }
             unchanged &= before == self.mechanism.drives[i];
@@ -108,7 +108,7 @@ impl World {
 
     /// Adds limited drive `i` to a kink, or a new one with its mode; it takes the mode of the kink.
     fn add_to_kink(&mut self, i: usize, known: Option<usize>) {
-        let drive = self.mechanism.model.drives[i];
+        let drive = self.mechanism.model.params.drives[i];
         let limit = self.mechanism.model.saturated_torque(&drive, self.velocity(drive.dof)).unwrap_or(f64::INFINITY);
         let k = known.unwrap_or(self.kinks.len());
         if known.is_none() {
@@ -199,7 +199,7 @@ impl World {
 
     /// Marks the kinks whose modes contradict their law in the last evaluation, and counts them.
     fn mark_infeasible(&mut self, law: Law) -> usize {
-        let (n, rounding) = (self.model().n_v(), self.mechanism.rounding());
+        let (layout, rounding) = (self.layout(), self.mechanism.rounding());
         let mut count = 0;
         for k in 0..self.kinks.len() {
             let Kink { dof, limit, target, saturation, .. } = self.kinks[k];
@@ -207,7 +207,7 @@ impl World {
                 self.mechanism.is_overloaded(dof, limit)
             } else if law == Law::Acceleration {
                 let scale = self.mechanism.acceleration_scale(dof);
-                self.slope[n + dof] * saturation > rounding * scale
+                self.slope[layout.velocity(dof)] * saturation > rounding * scale
             } else {
                 self.mechanism.velocity_band().is_beyond(target, self.velocity(dof), saturation)
             };
@@ -231,9 +231,9 @@ impl World {
     /// Decides the modes of the kinks a little later than `t`; state and time stay.
     fn look_ahead<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
         let ahead = self.move_ahead(t, h);
-        let n = self.model().n_v();
+        let layout = self.layout();
         for kink in &self.kinks {
-            self.y[n + kink.dof] = kink.target;
+            self.y[layout.velocity(kink.dof)] = kink.target;
         }
         self.solve_modes(ahead, system);
         self.y.copy_from_slice(&self.present);
@@ -242,7 +242,7 @@ impl World {
 
     /// Velocity error of a drive, target minus present velocity, zero within rounding.
     pub(super) fn velocity_error(&self, i: usize) -> f64 {
-        let v = self.velocity(self.mechanism.model.drives[i].dof);
+        let v = self.velocity(self.mechanism.model.params.drives[i].dof);
         self.mechanism.velocity_band().error(self.target_velocities[i], v)
     }
 
@@ -253,26 +253,27 @@ impl World {
 
     /// Velocity of a saturated drive beyond its target and rounding [rad/s] or [m/s].
     pub(super) fn target_passage(&self, i: usize) -> f64 {
-        let v = self.velocity(self.mechanism.model.drives[i].dof);
+        let v = self.velocity(self.mechanism.model.params.drives[i].dof);
         self.mechanism.velocity_band().passage(self.target_velocities[i], v, self.mechanism.drives[i])
     }
 
     /// Returns true if a saturated drive is so close to its target velocity, in the state last evaluated, that it
     /// reaches it within the resolution of time `[s]`: its own limit and what accelerates it now are an impulse then.
     pub(super) fn reaches_target(&self, i: usize, resolution: f64) -> bool {
-        let drive = self.mechanism.model.drives[i];
+        let drive = self.mechanism.model.params.drives[i];
         let (target, v) = (self.target_velocities[i], self.velocity(drive.dof));
         let Some(limit) = self.mechanism.model.drive_limit(&drive).filter(|_| self.mechanism.drives[i] != 0.0) else {
             return false;
         };
-        let acceleration = self.slope[self.model().n_v() + drive.dof].abs() + limit / self.mechanism.inertia(drive.dof);
+        let acceleration =
+            self.slope[self.layout().velocity(drive.dof)].abs() + limit / self.mechanism.inertia(drive.dof);
         target != v && (target - v).abs() <= SIMULTANEOUS * (1.0 + v.abs()) + 4.0 * resolution * acceleration
     }
 
     /// The locked drive that is overloaded most in the last evaluation, of those that are no constraints.
     pub(super) fn find_overload(&self) -> Option<usize> {
         let overload = |i: &usize| self.mechanism.drive_overload(*i);
-        let is_locked = |i: &usize| self.mechanism.is_locked(self.mechanism.model.drives[*i].dof);
+        let is_locked = |i: &usize| self.mechanism.is_locked(self.mechanism.model.params.drives[*i].dof);
         let locked = (0..self.target_velocities.len()).filter(|i| self.mechanism.drives[*i] == 0.0 && is_locked(i));
         locked.filter(|i| overload(i) > 0.0).max_by(|i, j| overload(i).total_cmp(&overload(j)))
     }
@@ -305,7 +306,7 @@ impl World {
         self.kinks.clear();
         for i in 0..self.target_velocities.len() {
             self.kink_of[i] = NO_KINK;
-            let dof = self.mechanism.model.drives[i].dof;
+            let dof = self.mechanism.model.params.drives[i].dof;
             if !self.is_unlimited(i) && !self.model().is_held(dof) {
                 let target = self.target_velocities[i];
                 let known = self.kinks.iter().position(|kink| kink.dof == dof && kink.target == target);
@@ -318,9 +319,9 @@ impl World {
     /// Saturates all but one of several kinks of one degree of freedom that are locked at different velocities: the one
     /// nearest to the velocity at the start of the step stays.
     fn separate_kinks(&mut self) {
-        let n = self.model().n_v();
+        let layout = self.layout();
         for k in 0..self.kinks.len() {
-            let (v, kink) = (self.before[n + self.kinks[k].dof], self.kinks[k]);
+            let (v, kink) = (self.before[layout.velocity(self.kinks[k].dof)], self.kinks[k]);
             let distance = |other: &Kink| (other.target - v).abs();
             let is_nearer = |(j, other): (usize, &Kink)| {
                 let order = (distance(other), j).partial_cmp(&(distance(&kink), k));

@@ -219,7 +219,7 @@ impl Exchange {
         let (n_q, n_v) = (self.world.state.q.len(), self.world.state.v.len());
         let own = self.mechanism.dim();
         let (q, v) = (&self.x[..n_q], &self.x[n_q..n_q + n_v]);
-        let rotors = self.mechanism.rotor_states();
+        let rotors = self.mechanism.layout().rotor_states();
         if self.quaternions.is_empty() {
             out[..n_q].copy_from_slice(v);
         } else {

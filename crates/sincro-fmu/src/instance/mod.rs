@@ -18,7 +18,7 @@ use sincro_sim::trace::Trace;
 use sincro_sim::{Extensions, Loaded, load_without_variants};
 
 use crate::manifest::Manifest;
-use crate::tunable::Tuning;
+use crate::tunable;
 use crate::variables::{Catalogue, Role};
 use exchange::Exchange;
 pub use state::FmuState;
@@ -46,7 +46,6 @@ struct Run {
     loaded: Loaded,
     lockstep: LockStep,
     recorder: Recorder,
-    tuning: Tuning,
     /// Values of parameters that it began with.
     begun_with: Vec<f64>,
     trace: Trace,
@@ -195,7 +194,7 @@ impl Instance {
             }
             (Role::Tunable(_, what), Some(run)) => {
                 let world = run.lockstep.world();
-                run.tuning.set(world, what, value).map_err(|why| format!("`{}`: {why}", variable.name))?;
+                tunable::set(world, what, value).map_err(|why| format!("`{}`: {why}", variable.name))?;
                 run.is_observed = false;
             }
             (Role::Fixed(_), Some(_)) => {
@@ -463,12 +462,10 @@ impl Run {
         if let Err(halt) = lockstep.start() {
             return Err(explain(halt, &mut lockstep, &loaded));
         }
-        let tuning = Tuning::new(&loaded);
         let mut run = Self {
             loaded,
             lockstep,
             recorder,
-            tuning,
             begun_with,
             trace,
             row: Vec::new(),

@@ -75,15 +75,10 @@ impl Instance {
             self.begin()?;
         }
         let run = self.run.as_mut().ok_or("the run has not begun")?;
-        for (vr, variable) in self.catalogue.variables.iter().enumerate() {
-            let (old, new) = (self.values[vr], state.values[vr]);
-            match &variable.role {
-                Role::Input(command) => run.lockstep.hold_command(*command, new),
-                Role::Tunable(_, what) if old != new => {
-                    let world = run.lockstep.world();
-                    run.tuning.set(world, what, new).map_err(|why| format!("`{}`: {why}", variable.name))?;
-                }
-                _ => {}
+        // tunable parameters come back with the snapshot
+        for (variable, value) in self.catalogue.variables.iter().zip(&state.values) {
+            if let Role::Input(command) = &variable.role {
+                run.lockstep.hold_command(*command, *value);
             }
         }
         self.values.clone_from(&state.values);

@@ -77,7 +77,7 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
         list.vector(&format!("{name}.reaction_torque"), &XYZ, "N·m", |c| Probe::JointReaction(id, c));
     }
     for (i, frame) in model.names().frames.iter().enumerate() {
-        frame_signals(&mut list, &frame.name, i, frame.body.is_some());
+        frame_signals(&mut list, &frame.name, i, frame.is_body);
         if model.wind().is_some() {
             list.vector(&format!("{}.wind", frame.name), &XYZ, "m/s", |k| Probe::Frame(FrameQuantity::Wind, i, k));
         }

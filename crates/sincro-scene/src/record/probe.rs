@@ -4,6 +4,7 @@
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
 use sincro_dynamics::coupled::{MechanismResponse, StateView};
 use sincro_dynamics::energy::{energy, momentum};
+use sincro_dynamics::ids::BodyId;
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
@@ -185,7 +186,7 @@ fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, co
             at.model.wind().map_or(R::zero(), |wind| wind.at(at.t).velocity_at(place)[component])
         }
         FrameQuantity::CenterOfMass => {
-            let com = at.model.names().frames[frame].body.map_or([0.0; 3], |(com, _)| com);
+            let com = at.model.mass_properties(BodyId::new(frame)).map_or([0.0; 3], |mass| mass.center_of_mass);
             pose().point(Vec3(com.map(R::splat)))[component]
         }
     }

@@ -529,6 +529,7 @@ impl LockStep {
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
         let diagram = self.control.as_ref().and_then(Controller::save);
         Snapshot {
+            params: self.world.model().params().clone(),
             state: self.world.state.clone(),
             trace,
             control: self.world.control(),
@@ -557,8 +558,8 @@ impl LockStep {
     /// # }
     /// ```
     pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.world.set_params(&snapshot.params);
         self.world.state = snapshot.state.clone();
-        self.world.mark_changed();
         if let Some(control) = snapshot.control {
             self.world.set_control(control);
         }

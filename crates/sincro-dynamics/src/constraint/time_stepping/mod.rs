@@ -61,7 +61,7 @@ impl<R: Real> Constraints<R> {
     /// Returns true if the constraints last classified as closed have so many rows that a problem at velocity level is
     /// solved by sweeps.
     pub fn is_large(&self, model: &Model<R>) -> bool {
-        let set = &*model.constraints;
+        let set = &*model.params.constraints;
         let rows = self.memory.closed_slots().map(|slot| match slot.checked_sub(set.limits.len()) {
             Some(contact) => set.pairs[pair_of(set, contact)].rows_per_point(),
             None => 1,
@@ -91,7 +91,7 @@ impl<R: Real> Constraints<R> {
         self.read_blocks(&sweeps);
         self.time_stepping = sweeps;
         self.memory.keep(&self.blocks, &self.lambda);
-        let n_limits = model.constraints.limits.len();
+        let n_limits = model.params.constraints.limits.len();
         let id = |slot: usize| self.candidates.get(slot - n_limits).map_or(0, |candidate| candidate.id);
         self.memory.keep_features(|slot| if slot < n_limits { 0 } else { id(slot) });
         (self.conditioning, self.is_swept) = (1.0, true);
@@ -111,7 +111,7 @@ impl<R: Real> Constraints<R> {
         self.velocity_change = velocity;
         self.b.clear();
         self.b.extend(self.rows.iter().map(|row| self.motions.placed_rate(row, &self.velocity_change)));
-        let rest_speed = model.constraints.rest_speed;
+        let rest_speed = model.params.constraints.rest_speed;
         for block in self.blocks.iter().filter(|block| !block.is_drive()) {
             let i = block.row;
             let distance = self.residual[i].lane(0);

@@ -1,0 +1,98 @@
+//! Layout of y, the vector that is integrated: the one place that knows which of its entries are what.
+
+use core::ops::Range;
+
+use sincro_math::Real;
+
+use crate::ids::MotorId;
+use crate::model::Model;
+
+/// Layout of y and of its slope: displacement in the chart, velocities, totals if they are tracked, states of rotors.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    n_v: usize,
+    n_totals: usize,
+    n_rotor_states: usize,
+}
+
+impl Layout {
+    /// Layout for `model`; totals have a place if `tracks_totals`.
+    #[must_use]
+    pub fn new<R: Real>(model: &Model<R>, tracks_totals: bool) -> Self {
+        let n_totals = if tracks_totals { 2 + model.motors().len() } else { 0 };
+        Self { n_v: model.n_v(), n_totals, n_rotor_states: model.n_rotor_states() }
+    }
+
+    /// Number of entries.
+    #[inline(always)]
+    #[must_use]
+    pub fn dim(self) -> usize {
+        2 * self.n_v + self.n_totals + self.n_rotor_states
+    }
+
+    /// Displacement of the coordinates in the chart of the step (n_v).
+    #[inline(always)]
+    #[must_use]
+    pub fn displacement(self) -> Range<usize> {
+        0..self.n_v
+    }
+
+    /// Velocities (n_v).
+    #[inline(always)]
+    #[must_use]
+    pub fn velocities(self) -> Range<usize> {
+        self.n_v..2 * self.n_v
+    }
+
+    /// Velocity of one degree of freedom.
+    #[inline(always)]
+    #[must_use]
+    pub fn velocity(self, dof: usize) -> usize {
+        self.n_v + dof
+    }
+
+    /// Displacement and velocities.
+    #[must_use]
+    pub fn motion(self) -> Range<usize> {
+        0..2 * self.n_v
+    }
+
+    /// Returns true if work, dissipation and motor impulses are integrated.
+    #[inline(always)]
+    #[must_use]
+    pub fn tracks_totals(self) -> bool {
+        self.n_totals > 0
+    }
+
+    /// Totals: work `[J]`, dissipation `[J]`, impulse of each motor [N·m·s] or [N·s]; empty if they are not tracked.
+    #[inline(always)]
+    #[must_use]
+    pub fn totals(self) -> Range<usize> {
+        2 * self.n_v..2 * self.n_v + self.n_totals
+    }
+
+    /// Work `[J]`, if totals are tracked.
+    #[must_use]
+    pub fn work(self) -> usize {
+        2 * self.n_v
+    }
+
+    /// Dissipation `[J]`, if totals are tracked.
+    #[must_use]
+    pub fn dissipation(self) -> usize {
+        2 * self.n_v + 1
+    }
+
+    /// Impulse of a motor, if totals are tracked.
+    #[must_use]
+    pub fn motor_impulse(self, motor: MotorId) -> usize {
+        2 * self.n_v + 2 + motor.index()
+    }
+
+    /// States of rotors.
+    #[inline(always)]
+    #[must_use]
+    pub fn rotor_states(self) -> Range<usize> {
+        2 * self.n_v + self.n_totals..self.dim()
+    }
+}

@@ -1,0 +1,33 @@
+//! Structure of a model: what never changes once it is built.
+
+use std::sync::Arc;
+
+use super::{Dof, Link, Names};
+use crate::actuation::spring::NonlinearSpring;
+use crate::actuation::{AppliedTorque, AppliedWrench, SpringDamper};
+use crate::aero::AirDrag;
+use crate::aero::rotor::MountedRotor;
+use crate::aero::wind::Wind;
+
+/// Tree of links with its elements, shared by all copies of a [`Model`](super::Model), whose methods read it.
+#[derive(Clone, Debug)]
+pub struct Structure<R> {
+    /// Moving links, parents before children.
+    pub(crate) links: Vec<Link<R>>,
+    /// Passive properties of each degree of freedom.
+    pub(crate) dofs: Vec<Dof<R>>,
+    /// Torques that are functions of time.
+    pub(crate) applied: Vec<AppliedTorque>,
+    /// External forces.
+    pub(crate) wrenches: Vec<AppliedWrench<R>>,
+    pub(crate) rotors: Vec<MountedRotor<R>>,
+    pub(crate) drags: Vec<AirDrag<R>>,
+    pub(crate) spring_dampers: Vec<SpringDamper<R>>,
+    pub(crate) wind: Option<Arc<Wind>>,
+    /// Number of coordinates.
+    pub(crate) n_q: usize,
+    /// Links of ball and free joints with springs.
+    pub(crate) sprung: Vec<usize>,
+    pub(crate) nonlinear_springs: Vec<NonlinearSpring>,
+    pub(crate) names: Arc<Names>,
+}
