@@ -226,8 +226,8 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
     };
     let lists = [
         ("armature", spec.armature.len()),
-        ("spring", spec.spring.len()),
-        ("spring", spec.spring_law.len()),
+        // a law of its own is a second list of the same springs
+        ("spring", if spec.spring.len() == n { spec.spring_law.len() } else { spec.spring.len() }),
         ("damping", spec.damping.len()),
         ("friction", spec.friction.len()),
         ("torque", spec.torque.len()),
@@ -352,7 +352,8 @@ pub(super) fn massless_joints(model: &Model<f64>) -> Vec<Diagnostic> {
     let inertias = crate::recursions::aba::joint_inertias(model, &crate::state::State::new(model));
     let scale = inertias.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let mut found = Findings(Vec::new());
-    let is_locked = |dof: usize| model.drives.iter().any(|drive| drive.dof == dof && drive.kind == DriveKind::Lock);
+    let is_locked =
+        |dof: usize| model.params.drives.iter().any(|drive| drive.dof == dof && drive.kind == DriveKind::Lock);
     for (dof, &inertia) in inertias.iter().enumerate().filter(|(dof, _)| !is_locked(*dof)) {
         // relative to rounding of the largest: 1e-12 kg·m² beside 1 kg·m² is a legitimate inertia, 1e-18 is not
         if inertia.is_nan() || inertia <= 1e-17 * scale {

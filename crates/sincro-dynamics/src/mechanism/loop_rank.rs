@@ -78,7 +78,7 @@ impl Mechanism<f64> {
     fn find_free_rows(&mut self) {
         self.locked_mask.fill(0.0);
         self.prescribed_acceleration.fill(0.0);
-        for drive in self.model.drives.iter().filter(|drive| drive.kind == DriveKind::Lock) {
+        for drive in self.model.params.drives.iter().filter(|drive| drive.kind == DriveKind::Lock) {
             self.locked_mask[drive.dof] = 1.0;
         }
     }
@@ -89,6 +89,13 @@ impl Mechanism<f64> {
         self.place_loops(&zero);
         let c = self.constraints.as_deref_mut().expect("there are loops");
         c.find_independent_rows(&self.model, &self.scratch, least, independent);
+    }
+
+    /// Change of velocities that removes the rates of the loops for velocities `v`, at the chart's origin.
+    pub(crate) fn velocity_change_of_loops(&mut self, v: &[f64]) -> Vec<f64> {
+        let mut kept = Vec::new();
+        self.find_rows(INDEPENDENT, &mut kept);
+        self.change_by(&kept, Some(v))
     }
 
     /// Change of coordinates that removes the residuals of the rows `kept`, or, with rates `v`, of these.

@@ -1,12 +1,9 @@
-//! Contact, limits, closures and couplings: from what is written to the builder's specifications, and what of it cannot
-//! start.
+//! Contact, limits, closures and couplings: from what is written to the builder's specifications.
 
 use sincro_dynamics::constraint::LoopJointKind;
 use sincro_dynamics::contact::{Material, PairLaw, Surface};
-use sincro_dynamics::initial;
-use sincro_dynamics::model::{GearSpec, LoopJointSpec, Model, ModelBuilder, NodeId};
+use sincro_dynamics::model::{GearSpec, LoopJointSpec, ModelBuilder, NodeId};
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
-use sincro_dynamics::state::State;
 
 use super::body;
 use super::file::{
@@ -23,12 +20,6 @@ use crate::document::Document;
 use crate::folder::Folder;
 use crate::names::fits;
 use crate::suggest;
-
-/// A closure open by more than this at the start is closed by moving joints, and a warning says so `[m]`, `[rad]`.
-const CLOSED: f64 = 1e-6;
-
-/// Overlap at the start that is put down to rounding of figures in the file `[m]`.
-const OVERLAP: f64 = 1e-9;
 
 /// Contact geometry and material of a body.
 #[derive(Default)]
@@ -322,64 +313,6 @@ fn with_z_along(n: Vec3<f64>) -> Mat3<f64> {
     let x = e - z.scale(z[k]);
     let x = x.scale(1.0 / x.norm());
     Mat3([x.0, z.cross(x).0, z.0]).transpose()
-}
-
-/// Closes the loops of the initial state, and looks for what overlaps or is beyond its stops.
-pub(super) fn check_start(
-    model: &Model<f64>,
-    initial: &State<f64>,
-    file: &SceneFile,
-    objects: &[Object],
-    document: &Document,
-    diagnostics: &mut Diagnostics,
-) {
-    for opening in
-        initial::constraint_residuals(model, initial).into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED)
-    {
-        let k = file.closure.iter().position(|c| format!("/{}", c.name) == opening.name);
-        let at = document.title_at(&k.map_or(String::new(), |k| format!("/closure/{k}")));
-        let gap = if opening.angle > CLOSED && opening.distance <= CLOSED {
-            format!("its axes are off by {:.6e} rad", opening.angle)
-        } else {
-            format!("its ends are {:.6e} m apart", opening.distance)
-        };
-        let diagnostic = Diagnostic::error(&at, format!("closure `{}` is open at the start: {gap}", opening.name));
-        diagnostics.push(diagnostic.with_help(match initial::assemble(model, initial) {
-            Some(q) => format!("it closes if the joints start at {}", names(model, initial, &q)),
-            None => "no position of the joints near the given ones closes it: check lengths and places".into(),
-        }));
-    }
-    for beyond in initial::limit_violations(model, initial) {
-        let object = objects.iter().find(|o| o.path == beyond.joint);
-        let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
-        let message =
-            format!("joint `{}` starts at {}, beyond its limit {}", beyond.joint, beyond.position, beyond.limit);
-        diagnostics.push(Diagnostic::error(&at, message).with_help("start within the limits, or move them"));
-    }
-    if file.allow_overlap {
-        return;
-    }
-    for overlap in initial::penetrations(model, initial).into_iter().filter(|o| o.depth > OVERLAP) {
-        let object = objects.iter().find(|o| o.path == overlap.a || o.path == overlap.b);
-        let at = object.map_or_else(|| document.at(""), |o| o.location.clone());
-        let message = format!("`{}` and `{}` overlap at the start by {:.6e} m", overlap.a, overlap.b, overlap.depth);
-        let help = "move one of them, give both the same `group` in `contact`, or set allow_overlap = true";
-        diagnostics.push(Diagnostic::error(&at, message).with_help(help));
-    }
-}
-
-/// The joints that would start elsewhere, and where.
-fn names(model: &Model<f64>, initial: &State<f64>, q: &[f64]) -> String {
-    let mut list = Vec::new();
-    for joint in &model.names().joints {
-        for k in joint.q_idx..joint.q_idx + joint.n_q {
-            if (q[k] - initial.q[k]).abs() > 1e-9 {
-                list.push(format!("{} = {:.12}", joint.name, q[k]));
-            }
-        }
-    }
-    list.truncate(6);
-    list.join(", ")
 }
 
 /// Warns of surfaces that can touch nothing: all are in the same group, or no other body has a contact, where a body

@@ -22,6 +22,7 @@ mod script;
 mod sensor;
 mod signal_file;
 mod spring_damper;
+mod start;
 mod stills;
 mod text;
 mod tree;
@@ -57,6 +58,7 @@ use crate::script::{Script, ScriptParser};
 use crate::sensor::SensorSpec;
 use file::{ForceFile, InFrameFile};
 use signal_file::SignalReader;
+use start::Start;
 use tree::Entry;
 
 /// A scene, ready to run.
@@ -429,8 +431,10 @@ impl Assembly {
         let initial = initial::state(&model, &starts, document, &mut diagnostics);
         spring_damper::set_free_lengths(&mut model, &initial, file, document, &mut diagnostics);
         self.check_fixtures(&model, &mut diagnostics);
-        contact::check_start(&model, &initial, file, &self.objects, document, &mut diagnostics);
         let commands = self.motors(&model);
+        let start = Start { model: &model, initial: &initial, file, objects: &self.objects, document };
+        start.check(&mut diagnostics);
+        start.check_motors(&commands, &mut diagnostics);
         self.warn_of_idle_forces(&model, &mut diagnostics);
         if model.wind().is_some() && model.rotors().is_empty() && model.drags().is_empty() {
             let diagnostic =

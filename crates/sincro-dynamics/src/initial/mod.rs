@@ -1,5 +1,7 @@
-//! Consistency of an initial state: residuals of loop joints and gears, joint limits, penetrations, and the mobility of
-//! the mechanism.
+//! Consistency of an initial state: residuals of loop joints and gears, joint limits, penetrations, velocities that open
+//! loops, and the mobility of the mechanism.
+
+mod velocities;
 
 use crate::contact::candidate_list::SlotCandidate;
 use crate::integrate::System;
@@ -8,6 +10,8 @@ use crate::mechanism::constraints::ActivationRule;
 use crate::mechanism::constraints::ProjectedRows;
 use crate::model::Model;
 use crate::state::State;
+
+pub use velocities::{ConstraintRate, MotorConflict, consistent_velocities, constraint_rates, motor_conflict};
 
 /// Constraint residual of a loop joint or gear.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +113,7 @@ pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
 pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     let set = model.constraints();
     let (mut mechanism, y) = placed(model, x);
-    mechanism.detect_contacts(&y[model.n_v()..], ActivationRule::All);
+    mechanism.detect_contacts(&y[mechanism.layout().velocities()], ActivationRule::All);
     let Some(c) = mechanism.constraints.as_deref() else { return Vec::new() };
     let mut found: Vec<Penetration> = Vec::new();
     for candidates in c.candidates.by_pair() {

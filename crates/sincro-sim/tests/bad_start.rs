@@ -1,0 +1,83 @@
+//! Starts that contradict themselves: velocities that open loops, and motors whose commands do.
+
+use sincro_testing::{SceneFolder, repository_scene};
+
+use sincro_scene::overrides::Override;
+use sincro_sim::{Extensions, load};
+
+const EXPERIMENT: &str =
+    "format = 2\ntitle = \"Wheels\"\nstep = 0.005\nduration = 0.1\nrecord = [\"/left.position\"]\n";
+
+/// Two wheels geared with ratio −0.25; the lines given are part of their joints.
+fn wheels(left: &str, right: &str) -> String {
+    let wheel = |name: &str, more: &str| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\naxis = [0.0, 0.0, 1.0]\n{more}\n\
+             [[body]]\nname = \"wheel\"\nparent = \"/{name}\"\nmass = 1.0\ninertia = {{ xx = 1.0, yy = 1.0, zz = 1.0 }}\n"
+        )
+    };
+    let gear = "[[coupling]]\nname = \"gear\"\njoints = [\"/left\", \"/right\"]\nratio = -0.25\n";
+    format!("format = 2\n{}{}{gear}", wheel("left", left), wheel("right", right))
+}
+
+fn loaded(left: &str, right: &str) -> Result<(), String> {
+    SceneFolder::of(&wheels(left, right), EXPERIMENT).load(&[]).map(|_| ())
+}
+
+fn velocity(v: f64) -> String {
+    format!("initial = {{ velocity = {v:?} }}")
+}
+
+fn motor(command: f64, more: &str) -> String {
+    format!("motor = {{ mode = \"velocity\", command = {command:?}{more} }}")
+}
+
+#[test]
+fn velocities_that_open_a_gear_are_refused() {
+    let message = loaded(&velocity(4.0), "").unwrap_err();
+    assert_eq!(
+        message,
+        "scene.toml:23:8: error: the initial velocities open closure `/gear`: its ends part at 1.000000e0 m/s\n  \
+         help: it stays closed with the velocities /left = 3.764705882353, /right = -0.941176470588"
+    );
+    assert_eq!(loaded(&velocity(4.0), &velocity(-1.0)), Ok(()));
+    assert_eq!(loaded(&velocity(3.764705882353), &velocity(-0.941176470588)), Ok(()));
+}
+
+#[test]
+fn motors_that_contradict_a_gear_are_refused() {
+    let message = loaded(&motor(4.0, ""), &motor(1.0, "")).unwrap_err();
+    assert_eq!(
+        message,
+        "scene.toml:3:8: error: the commands of the motors of `/left` and `/right` contradict `/gear`, which they open \
+         at 2.000000e0 m/s or rad/s\n  \
+         help: these motors hold their velocities exactly: give one of them a `max_torque`, or commands that agree"
+    );
+    assert_eq!(loaded(&motor(4.0, ""), &motor(-1.0, "")), Ok(()));
+    assert_eq!(loaded(&motor(4.0, ""), &motor(1.0, ", max_torque = 3.0")), Ok(()));
+    assert_eq!(loaded(&motor(4.0, ""), ""), Ok(()));
+}
+
+#[test]
+fn velocities_of_a_four_bar_follow_its_crank() {
+    let scene = repository_scene("slider-crank");
+    let with = |settings: &[(String, String)]| {
+        let settings: Vec<Override> = settings.iter().map(|(key, value)| Override::new(key, value)).collect();
+        load(&scene, &settings, Extensions::default()).map_err(|diagnostics| diagnostics.to_string())
+    };
+    let loaded = with(&[]).unwrap();
+    let crank = loaded.scene.model.names().joints[0].name.clone();
+    let message = with(&[(format!("{crank}.initial.velocity"), "1.5".to_owned())]).unwrap_err();
+    let (what, help) = message.split_once("it stays closed with the velocities ").expect("a help with velocities");
+    assert!(what.contains("the initial velocities open closure"), "{what}");
+    // what the help says is accepted, and moves
+    let settings: Vec<(String, String)> = help
+        .lines()
+        .next()
+        .unwrap()
+        .split(", ")
+        .map(|pair| pair.split_once(" = ").map(|(name, v)| (format!("{name}.initial.velocity"), v.to_owned())).unwrap())
+        .collect();
+    let moving = with(&settings).unwrap();
+    assert!(moving.scene.initial.v[0] > 0.1, "{:?}", moving.scene.initial.v);
+}
