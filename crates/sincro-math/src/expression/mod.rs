@@ -50,15 +50,23 @@ use parse::Names;
 
 pub use error::ParseError;
 
-/// Longest formula in bytes. It bounds time and memory for whatever is pasted; a formula by hand has a hundred.
+/// Length limit of a formula in bytes; [`Expression::parse`] refuses longer ones. Bounds time and memory for pasted
+/// text.
 pub const MAX_LENGTH: usize = 65_536;
 
-/// Deepest nesting of brackets, arguments, signs and exponents. It bounds the stack of the parser.
+/// Limit on the nesting of brackets, arguments, signs and exponents; [`Expression::parse`] refuses deeper formulas.
+/// Bounds the stack of the parser.
 pub const MAX_DEPTH: usize = 100;
 
-/// A formula, ready to be evaluated.
+/// Compiled formula of named values, for scenes, blocks and force laws; displays as the text from which it was read.
 ///
-/// It prints as the text it was read from.
+/// ```
+/// use sincro_math::expression::Expression;
+///
+/// let energy = Expression::parse("0.5*m*v^2", &["m", "v"])?;
+/// assert_eq!(energy.eval(&[2.0, 3.0], &mut energy.scratch()), 9.0);
+/// # Ok::<(), sincro_math::expression::ParseError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     text: String,
@@ -132,19 +140,19 @@ impl Expression {
         eval::run_in(&self.program, values, stack)
     }
 
-    /// Scratch memory for [`Expression::eval`].
+    /// Empty stack for [`Expression::eval`], with memory for [`Expression::stack_depth`] values.
     #[must_use]
     pub fn scratch<R: Real>(&self) -> Vec<R> {
         Vec::with_capacity(self.stack_depth)
     }
 
-    /// Largest number of values in the scratch memory of [`Expression::eval`].
+    /// Largest number of intermediate values at once: the length that the stack of [`Expression::eval_in`] needs.
     #[must_use]
     pub fn stack_depth(&self) -> usize {
         self.stack_depth
     }
 
-    /// The value, if the formula depends on no name.
+    /// Value of a formula that depends on no name; `None` if it uses one.
     ///
     /// ```
     /// use sincro_math::expression::Expression;
@@ -160,13 +168,14 @@ impl Expression {
         }
     }
 
-    /// Returns true if the `slot`-th name given to [`Expression::parse`] appears in the formula.
+    /// Returns true if the name of index `slot` in the list given to [`Expression::parse`] appears in the formula;
+    /// false for an index beyond the list.
     #[must_use]
     pub fn uses(&self, slot: usize) -> bool {
         self.program.iter().any(|op| matches!(op, Op::Value(used) if *used as usize == slot))
     }
 
-    /// The formula as it was written.
+    /// Formula as it was written.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
@@ -179,7 +188,8 @@ impl fmt::Display for Expression {
     }
 }
 
-/// Returns true if a formula can refer to something called `text`.
+/// Returns true if `text` can be a name in a formula: letters, digits and `_`, beginning with a letter or `_`, with
+/// single dots inside and primes at the end, and no reserved word (`and`, `or`, `not`).
 ///
 /// ```
 /// use sincro_math::expression::is_name;
