@@ -12,7 +12,7 @@ pub struct Rk4<R> {
 }
 
 impl<R: Real> Rk4<R> {
-    /// Creates the method for systems of `dim` unknowns.
+    /// Creates the method for systems with `dim` unknowns ([`System::dim`]).
     #[must_use]
     pub fn new(dim: usize) -> Self {
         let zero = vec![R::zero(); dim];

@@ -27,7 +27,8 @@ impl Model<f64> {
         self.links[link].inertia = sum;
     }
 
-    /// Copies the parameters of another model of the same structure. Its motors are not among them.
+    /// Copies the parameters of `other`, a model of the same structure: inertias, gravity, names and constraints.
+    /// Motors and springs stay.
     pub fn copy_parameters_from(&mut self, other: &Self) {
         for (own, new) in self.links.iter_mut().zip(&other.links) {
             own.inertia = new.inertia;
