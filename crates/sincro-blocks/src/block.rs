@@ -269,7 +269,7 @@ impl Ports {
     }
 }
 
-/// Sample time of a block, as far as its kind determines it.
+/// Sample time of a block, as far as its kind determines it: constant, inherited, continuous or discrete.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Integrator;
@@ -295,7 +295,7 @@ pub enum SampleTimeKind {
     Discrete,
 }
 
-/// Lengths of the vectors of a block's state.
+/// Numbers of states of a block, continuous and discrete: the lengths of its state vectors.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Integrator;

@@ -111,8 +111,8 @@ impl Diagram {
         self.add(name, Content::Block(Box::new(block)), Some(sample_time))
     }
 
-    /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it
-    /// that have none of their own.
+    /// Adds a diagram as a block, named `name`; its ports are its `inputs` and `outputs`. `sample_time` `[s]` is that
+    /// of all blocks in it that have none of their own, `None` to inherit it.
     ///
     /// ```
     /// use sincro_blocks::library::maths::Gain;

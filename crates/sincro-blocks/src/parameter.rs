@@ -208,7 +208,8 @@ pub trait ParameterSet: Sized {
     /// Reads all parameters, each on its own: checks against each other come later. Errors are noted in the reader.
     fn read(reader: &mut Reader<'_>) -> Self;
 
-    /// Names and lengths of the parameters that are one number for all components or one for each.
+    /// Names and lengths of the parameters that are one number for all components or one for each, in the order of
+    /// their declaration.
     fn widths(&self) -> Vec<(&'static str, usize)>;
 }
 

@@ -135,7 +135,7 @@ impl<R: Number> Runner<R> {
     }
 
     /// Evaluates the outputs at tick `tick` (counted in base steps from 0), at time `t` `[s]`, up to those that depend
-    /// on late measurements.
+    /// on late measurements ([`Program::late`], such as accelerations).
     pub fn evaluate(&mut self, tick: u64, t: f64) {
         self.find_due(tick);
         self.evaluate_range(0..self.program.n_early, tick, t);

@@ -3,8 +3,8 @@
 /// A name that is nearer than this (Jaro–Winkler, 1 = the same) was probably meant.
 const NEAR: f64 = 0.8;
 
-/// Known name that `name` was probably meant to be (Jaro–Winkler similarity of 0.8 or more, letter case ignored), for
-/// error messages; `None` if none is near.
+/// Known name that `name` was probably meant to be, for error messages: the nearest with a Jaro–Winkler similarity of
+/// 0.8 or more, letter case ignored; `None` if none is near.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = name.to_lowercase();

@@ -92,7 +92,8 @@ pub fn momentum<R: Real>(model: &Model<R>, scratch: &Scratch<R>) -> Force<R> {
     sum
 }
 
-/// Mechanical energy `[J]` at coordinates `q` (n_q) and velocities `v` (n_v); recomputes the kinematics in `scratch`.
+/// Mechanical energy `[J]` at coordinates `q` (n_q) and velocities `v` (n_v); recomputes the kinematics of that state
+/// in `scratch`.
 #[must_use]
 pub fn energy_at(model: &Model<f64>, q: &[f64], v: &[f64], scratch: &mut Scratch<f64>) -> Energy<f64> {
     kinematics::motions(model, q, v, v, scratch);

@@ -79,7 +79,7 @@ impl<R: Real> Scratch<R> {
         }
     }
 
-    /// Bytes that it takes on the heap.
+    /// Bytes that it takes on the heap; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         size_of_val(&*self.links) + size_of_val(&*self.dofs) + size_of_val(&*self.poses) + size_of_val(&*self.reaction)

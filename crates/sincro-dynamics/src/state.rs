@@ -87,7 +87,7 @@ impl<R: Real> State<R> {
         }
     }
 
-    /// Bytes that it takes on the heap.
+    /// Bytes that it takes on the heap; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         let n = self.q.len()

@@ -2,7 +2,7 @@
 //! resolve.
 //!
 //! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything
-//! beyond left free ([`crate::recursions::aba::joint_inertias`]), the rate is that of the faster root of D s² + c s + k
+//! beyond left free (`joint_inertias` in `recursions/aba.rs`), the rate is that of the faster root of D s² + c s + k
 //! = 0. Coupling between joints is neglected, and D changes with the pose.
 
 use crate::actuation::{MotorMode, SpringDamper};

@@ -56,7 +56,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Volume `[m³]`.
+    /// Volume of the solid `[m³]`.
     #[must_use]
     pub fn volume(&self) -> f64 {
         match *self {

@@ -28,8 +28,8 @@
 
 use crate::Real;
 
-/// Largest |angle| `[rad]` reduced by the fast path: below it the quotient has at most 20 bits, so that its product
-/// with each 33-bit part of π/2 is exact.
+/// Limit on |angle| `[rad]` of the fast path of [`sin_cos`]; larger angles take a slower one. Below it the quotient by
+/// π/2 has at most 20 bits, so that its product with each 33-bit part of π/2 is exact.
 pub const REDUCTION_LIMIT: f64 = 1.0e6;
 
 // π/2 = PIO2_1 + PIO2_2 + PIO2_3: the first two have 33 significant bits.

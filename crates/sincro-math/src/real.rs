@@ -51,7 +51,7 @@ pub trait Real:
     /// bundles panic for a `k` beyond the last lane.
     fn lane(self, k: usize) -> f64;
 
-    /// Square root; NaN below zero. On dual numbers the derivative is infinite at zero.
+    /// Square root, in the root of the unit; NaN below zero. On dual numbers the derivative is infinite at zero.
     fn sqrt(self) -> Self;
 
     /// Sine and cosine (dimensionless, in this order) of an angle `[rad]`; absolute error below 1.8e-16, NaN where the

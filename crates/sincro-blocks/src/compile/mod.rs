@@ -65,8 +65,8 @@ pub struct Terminal {
     pub width: usize,
     /// Unit of all components; `None` if it has none.
     pub unit: Option<Unit>,
-    /// Of a measurement: true if it depends on the commands of the same instant, as an acceleration does. Of a command:
-    /// true if it is taken at ticks only and held, as the velocity of an ideal motor is.
+    /// True of a measurement that depends on the commands of the same instant, as an acceleration does; true of a
+    /// command that is taken at ticks only and held, as the velocity of an ideal motor is.
     pub is_special: bool,
 }
 

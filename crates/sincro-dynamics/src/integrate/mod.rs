@@ -106,14 +106,14 @@ pub trait FixedStep<R: Real> {
 pub enum Failure {
     /// State or slopes are not finite.
     NotFinite {
-        /// Time of the failure `[s]`.
+        /// Start of the failed step `[s]`.
         t: f64,
     },
     /// Error control asked for a step too small to advance time.
     StepTooSmall {
-        /// Time of the failure `[s]`.
+        /// Start of the failed step `[s]`.
         t: f64,
-        /// The step it asked for `[s]`.
+        /// Step size that error control asked for `[s]`.
         h: f64,
     },
 }
@@ -141,7 +141,8 @@ pub struct Control {
 }
 
 impl Control {
-    /// Creates the control of the error to the relative `accuracy` (dimensionless), with a first step of `h` `[s]`.
+    /// Creates a step-size control with the local error `accuracy` allowed in a step, relative to max(|y|, 1)
+    /// (dimensionless), and a first step of `h` `[s]`.
     #[must_use]
     pub fn new(accuracy: f64, h: f64) -> Self {
         Self { accuracy, h, last_error: 1.0 }

@@ -4,7 +4,7 @@ use sincro_math::Real;
 
 use super::{FixedStep, System, combine};
 
-/// Classical Runge–Kutta method of order 4 with a fixed step, and its working memory.
+/// Classical Runge–Kutta method of order 4 with a fixed step, and its working memory: for smooth systems.
 #[derive(Clone, Debug)]
 pub struct Rk4<R> {
     k: [Vec<R>; 4],

@@ -129,7 +129,7 @@ impl<R: Real> Mechanism<R> {
         &self.model
     }
 
-    /// Bytes that it takes on the heap, the model left out.
+    /// Bytes that it takes on the heap, the model left out; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         let numbers = [
@@ -191,7 +191,8 @@ impl<R: Real> Mechanism<R> {
         self.tracks_totals
     }
 
-    /// Range of indices of the rotor states in y.
+    /// Range of indices in y of the rotor states (speeds `[rad/s]`, mass flows `[kg/s]`), in the order of the rotors
+    /// that have one.
     #[inline(always)]
     #[must_use]
     pub fn rotor_states(&self) -> core::ops::Range<usize> {

@@ -221,7 +221,8 @@ pub struct SpringDamperSpec {
     pub points: [[f64; 3]; 2],
     /// Length at which the deflection is zero `[m]`; `None`: the distance of the points with all coordinates zero.
     pub free_length: Option<f64>,
-    /// Force `[N]` over deflection `[m]` and rate [m/s]; positive forces push the points apart.
+    /// Force `[N]` over deflection (length less free length) `[m]` and rate `[m/s]`; positive forces push the points
+    /// apart.
     pub law: ForceLaw<f64>,
     /// True for a rope, which never pushes.
     pub tension_only: bool,
@@ -425,7 +426,7 @@ impl ModelBuilder {
         self.contact_pairs.push((bodies, law));
     }
 
-    /// Adds a loop joint between two frames; its constraint closes a loop of the tree.
+    /// Adds a loop joint named `name` between two frames; its constraint closes a loop of the tree.
     ///
     /// ```
     /// use sincro_dynamics::model::{LoopJointKind, LoopJointSpec};
@@ -453,7 +454,7 @@ impl ModelBuilder {
         self.loop_joints.push((name.into(), spec));
     }
 
-    /// Adds a gear (mimic) constraint between two joints.
+    /// Adds a gear (mimic) constraint named `name` between two joints with one degree of freedom each.
     ///
     /// ```
     /// use sincro_dynamics::model::GearSpec;

@@ -139,7 +139,7 @@ impl Names {
         self.rotors.iter().position(|r| r == name).map(RotorId::new)
     }
 
-    /// Joint of that id.
+    /// Joint of that id, with its place in q and v.
     ///
     /// # Panics
     ///

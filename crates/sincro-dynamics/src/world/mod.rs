@@ -347,7 +347,7 @@ impl World {
         self.settled_at = None;
     }
 
-    /// Bytes that this world takes on the heap, the model left out.
+    /// Bytes that this world takes on the heap, the model left out; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         let own = self.y.len() * 3 + self.base_before.len() + self.target_velocities.len() + self.accelerations.len();

@@ -176,7 +176,7 @@ impl World {
         self.state.commands[motor.index()] = command;
     }
 
-    /// Kinetic and potential energy in the present state `[J]`.
+    /// Kinetic and potential energy in the present state `[J]`; computed anew by each call.
     pub fn energy(&mut self) -> Energy<f64> {
         let mechanism = &mut self.mechanism;
         energy_at(&mechanism.model, &self.state.q, &self.state.v, &mut mechanism.scratch)

@@ -27,7 +27,7 @@ pub struct Force<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// Motion of zero.
+    /// Motion vector with both parts zero, such as the twist of a body at rest.
     #[inline(always)]
     pub fn zero() -> Self {
         Self { ang: Vec3::zero(), lin: Vec3::zero() }
@@ -56,7 +56,7 @@ impl<R: Real> Motion<R> {
 }
 
 impl<R: Real> Force<R> {
-    /// Force of zero.
+    /// Force vector with both parts zero.
     #[inline(always)]
     pub fn zero() -> Self {
         Self { ang: Vec3::zero(), lin: Vec3::zero() }

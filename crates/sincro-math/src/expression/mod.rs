@@ -76,11 +76,12 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Reads a formula of the given names; the value of `names[i]` is expected in `values[i]` by [`Expression::eval`].
+    /// Parses a formula of the given `names`; the value of `names[i]` is expected in `values[i]` by
+    /// [`Expression::eval`].
     ///
     /// # Errors
     ///
-    /// The first thing in the text that is not understood: where, what, and a help where there is one.
+    /// [`ParseError`] with the first fault of the text: position, description, and a help where there is one.
     ///
     /// ```
     /// use sincro_math::expression::Expression;
@@ -97,11 +98,11 @@ impl Expression {
         Ok(Self { text: text.to_owned(), program, stack_depth, n_names: names.len() })
     }
 
-    /// The names that a formula uses, in the order they first appear; `pi` and functions are not among them.
+    /// Names that a formula uses, in the order in which they first appear; `pi` and functions are not among them.
     ///
     /// # Errors
     ///
-    /// As [`Expression::parse`], but that any name is known.
+    /// [`ParseError`] as of [`Expression::parse`], except that any name is known.
     ///
     /// ```
     /// use sincro_math::expression::Expression;
@@ -117,7 +118,8 @@ impl Expression {
         }
     }
 
-    /// The value of the formula. `values[i]` belongs to the `i`-th name given to [`Expression::parse`].
+    /// Value of the formula. `values[i]` belongs to the `i`-th name given to [`Expression::parse`]; units are the
+    /// caller's, angles of trigonometric functions `[rad]`.
     ///
     /// `stack` is scratch memory of any content; one from [`Expression::scratch`], or with a capacity of at least
     /// [`Expression::stack_depth`], never grows.
@@ -130,7 +132,7 @@ impl Expression {
         eval::run(&self.program, values, stack)
     }
 
-    /// The value of the formula, as [`Expression::eval`] gives it, with a stack of given length.
+    /// Value of the formula, as of [`Expression::eval`], with a stack of fixed length and any content.
     ///
     /// # Panics
     ///
