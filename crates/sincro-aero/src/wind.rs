@@ -240,8 +240,8 @@ impl Wind {
         self.gusts.is_empty() && self.turbulence.is_none()
     }
 
-    /// Time of the next time event `[s]`: the first instant after `t` `[s]` at which a gust begins, reaches its final
-    /// peak or ends; infinite if there is none. Steps of error-controlled methods end there.
+    /// Time of the next time event `[s]`: the first instant after `t` `[s]` at which a gust begins or ends, or one that
+    /// holds reaches its peak; infinite if there is none. Steps of error-controlled methods end there.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         let ends = self.gusts.iter().flat_map(|g| [g.start, g.start + if g.holds { 1.0 } else { 2.0 } * g.rise]);

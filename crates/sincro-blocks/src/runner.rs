@@ -257,8 +257,8 @@ impl<R: Number> Runner<R> {
         });
     }
 
-    /// Computes the diagonal of −∂f/∂x of the continuous states at time `t` `[s]` `[1/s]`; `diagonal` has
-    /// `Program::n_states` entries. See [`crate::block::Block::neg_jacobian_diagonal`].
+    /// Computes the diagonal of −∂f/∂x `[1/s]` of the continuous states at time `t` `[s]`; `diagonal` has
+    /// `Program::n_states` entries, `tick` is the last tick. See [`crate::block::Block::neg_jacobian_diagonal`].
     pub fn neg_jacobian_diagonal(&mut self, tick: u64, t: f64, diagonal: &mut [R]) {
         diagonal.fill(R::zero());
         self.with_each_state(tick, t, f64::INFINITY, |instance, at, states| {

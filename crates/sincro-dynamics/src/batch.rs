@@ -70,6 +70,24 @@ pub struct BatchSettings {
 /// # Panics
 ///
 /// If the method is one with error control, whose worlds have no common step.
+///
+/// ```
+/// use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance};
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -1.0], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // eight pendulums, from 0.1 to 0.8 rad: one second with steps of 1 ms
+/// let start = |k: u32| State { q: vec![0.1 * f64::from(k + 1)], ..State::new(&model) };
+/// let mut worlds: Vec<_> = (0..8).map(|k| BatchWorld::new(model.clone(), start(k))).collect();
+/// advance(&mut worlds, &BatchSettings { method: MethodKind::Rk4, h: 0.001, n_steps: 1000, record_every: 0 })?;
+/// assert!(worlds.iter().all(|world| world.stop.is_none() && world.state.q[0] < 0.0)); // on the other side
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<(), PackError> {
     let fixed = matches!(settings.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
     assert!(fixed, "a batch has a fixed step");

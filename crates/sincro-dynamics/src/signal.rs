@@ -16,7 +16,7 @@ use sincro_math::elementary::sin_cos;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Signal {
-    /// The same at all times.
+    /// Same value at all times, in the unit of the signal.
     Constant(f64),
     /// `from` before `time`, `to` from then on.
     Step {
@@ -46,7 +46,7 @@ pub enum Signal {
         angular_frequency: f64,
         /// Phase at t = 0 `[rad]`.
         phase: f64,
-        /// Mean value.
+        /// Mean value, in the value's unit.
         offset: f64,
     },
     /// From `start` on `high` for the first `width` seconds of every `period`, `low` otherwise.

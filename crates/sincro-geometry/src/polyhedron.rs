@@ -145,6 +145,15 @@ pub type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 /// Convex hull of points `[m]` as a closed mesh in the same frame. `None` for fewer than four points, for coordinates
 /// that are not finite, and for points that span no volume.
+///
+/// ```
+/// use sincro_geometry::polyhedron::{convex_hull, mass_properties};
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let (corners, triangles) = convex_hull(&points).unwrap();
+/// let tetrahedron = mass_properties(&corners, &triangles, 6000.0); // [kg/m³]
+/// assert!((tetrahedron.mass - 1000.0).abs() < 1e-9); // 1/6 m³ of it [kg]
+/// ```
 #[must_use]
 pub fn convex_hull(points: &[[f64; 3]]) -> Option<Triangles> {
     if points.len() < 4 || !points.iter().flatten().all(|x| x.is_finite()) {

@@ -36,6 +36,16 @@ impl FieldOfView {
     ///
     /// `x_sg` is the pose of the surface's frame in that of the sensor `[m]`. A solid that contains the origin, or the
     /// centre of the near end, is not detected.
+    ///
+    /// ```
+    /// use sincro_geometry::spatial::{Pose, Vec3};
+    /// use sincro_geometry::{FieldOfView, Geometry, Shape, Surface, Volume};
+    ///
+    /// let sensor = FieldOfView::new(Volume::Cone { angle: 0.5 }, 0.0, 3.0).unwrap();
+    /// let ball = Geometry::new(Surface::Solid(Shape::Sphere { radius: 0.5 })).unwrap();
+    /// let seen = sensor.detect(&ball, &Pose::translation(Vec3([0.0, 0.0, 2.0])), 10.0).unwrap();
+    /// assert!((seen.distance - 1.5).abs() < 1e-9); // [m]
+    /// ```
     #[must_use]
     pub fn detect(&self, geometry: &Geometry, x_sg: &Pose<f64>, max_distance: f64) -> Option<Detection> {
         let max_distance = max_distance.min(self.reach);

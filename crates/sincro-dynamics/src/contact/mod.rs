@@ -76,8 +76,8 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Contact law of a pair of surfaces: geometric mean of the friction coefficients, sum of the compliances 1/k, and
-    /// the larger of the two for all else.
+    /// Contact law of a pair of surfaces: geometric mean of the friction coefficients, sum of the compliances 1/k, the
+    /// larger of the two for all else; the group of the result is 0.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self {

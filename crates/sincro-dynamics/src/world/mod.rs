@@ -485,6 +485,23 @@ impl World {
     /// # Panics
     ///
     /// In the next evaluation, if the model has no such link.
+    ///
+    /// ```
+    /// use sincro_dynamics::actuation::ExternalForce;
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0; 3]);
+    /// # let base = builder.joint("base", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+    /// # let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+    /// # builder.body("ball", base, Pose::identity(), BodySpec { mass });
+    /// # let model = builder.build()?.0;
+    /// let force = Vec3([0.0, 0.0, 2.0 * model.total_mass()]); // accelerates by 2 m/s²
+    /// let mut world = World::builder(model).step_size(0.01).build()?;
+    /// world.apply_external_force(ExternalForce { link: 0, point: Vec3([0.0; 3]), force, torque: Vec3([0.0; 3]) });
+    /// world.step()?;
+    /// assert!((world.state.v[5] - 2.0 * 0.01).abs() < 1e-12); // [m/s]
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn apply_external_force(&mut self, applied: ExternalForce<f64>) {
         self.mechanism.apply_external_force(applied);
     }

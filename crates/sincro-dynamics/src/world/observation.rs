@@ -115,6 +115,20 @@ pub(super) fn contacts_of(mechanism: &Mechanism<f64>) -> impl Iterator<Item = Co
 
 impl World {
     /// Computes accelerations, forces and kinematics in the present state at time `t` `[s]`, and returns them.
+    ///
+    /// ```
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// # let base = builder.joint("base", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+    /// # let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+    /// # builder.body("ball", base, Pose::identity(), BodySpec { mass });
+    /// # let model = builder.build()?.0;
+    /// let mut world = World::builder(model).build()?; // a ball in free fall
+    /// let observation = world.observe(0.0);
+    /// assert!((observation.accelerations[5] + 9.81).abs() < 1e-12); // three angular, three linear [m/s²]
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn observe(&mut self, t: f64) -> Observation<'_> {
         self.rates(t);
         self.mechanism.update_kinematics(&self.state, &self.accelerations);
