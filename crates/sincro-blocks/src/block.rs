@@ -315,11 +315,11 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Memory of a block without states.
+    /// No states: for blocks whose outputs follow from their inputs.
     pub const NONE: Self = Self { continuous: 0, discrete: 0 };
-    /// Memory of a block with one continuous state.
+    /// One continuous state; as [`Block::STATE`], one for each component of the outputs.
     pub const CONTINUOUS: Self = Self { continuous: 1, discrete: 0 };
-    /// Memory of a block with one discrete state.
+    /// One discrete state; as [`Block::STATE`], one for each component of the outputs.
     pub const DISCRETE: Self = Self { continuous: 0, discrete: 1 };
 }
 
@@ -446,7 +446,8 @@ impl<'a, R: Real> At<'a, R> {
         }
     }
 
-    /// Time `[s]` for functions of time alone: just before the time event at which an integration step ends.
+    /// Time `[s]` for functions of time alone: `t`, but at the time event that ends the present integration step the
+    /// instant just before it.
     #[must_use]
     pub fn time(&self) -> f64 {
         if self.t >= self.time_event - 2.0 * SAME_INSTANT { self.time_event - 2.0 * SAME_INSTANT } else { self.t }

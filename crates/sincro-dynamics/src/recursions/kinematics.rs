@@ -58,7 +58,8 @@ impl<R: Real> StageVisitor for PoseInParent<'_, R> {
     }
 }
 
-/// Computes the poses of all link frames in the world at coordinates `q` (n_q), into [`Scratch::link_poses`].
+/// Computes the poses of all link frames in the world `[m]` at coordinates `q` (n_q), into [`Scratch::link_poses`]; for
+/// [`frame_pose`] without velocities.
 pub fn poses<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>) {
     place(model, q, scratch);
     chain_poses(model, scratch);
