@@ -21,39 +21,56 @@ use sincro_math::Real;
 use crate::wind::Air;
 use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
 
-/// A drag element on a link.
+/// Aerodynamic drag element fixed on a link: quadratic drag by flat-plate areas plus linear drag, at one point.
+///
+/// Of a built model: `Model::drags` of `sincro-dynamics`. Evaluated as velocity in the air, resistance, wrench:
+///
+/// ```
+/// use sincro_aero::AirDrag;
+/// use sincro_geometry::spatial::{Pose, Vec3};
+///
+/// let [area, linear] = [Vec3([0.2, 0.2, 0.5]), Vec3([0.0; 3])];
+/// let plate = AirDrag { link: 0, pose: Pose::identity(), area, linear, density: 1.225 };
+/// let drag = plate.resistance(Vec3([10.0, 0.0, 0.0])); // 10 m/s along x
+/// assert!((drag.force[0] + 0.5 * 1.225 * 0.2 * 100.0).abs() < 1e-12); // N
+/// assert!((drag.dissipation + drag.force[0] * 10.0).abs() < 1e-12); // W
+/// ```
 #[derive(Clone, Debug)]
 pub struct AirDrag<R> {
-    /// The link.
+    /// Index of the link that carries it, counted from 0 in the model's links.
     pub link: usize,
-    /// Its axes and centre of pressure in the link.
+    /// Pose of the element in its link `[m]`: the origin is the centre of pressure, the axes are those of `area` and
+    /// `linear`.
     pub pose: Pose<R>,
-    /// Drag coefficient by area along each axis `[m²]`.
+    /// Equivalent flat-plate area along each axis of the element `[m²]`: drag coefficient times area, not negative.
     pub area: Vec3<R>,
-    /// Linear coefficient along each axis [N·s/m].
+    /// Linear drag coefficient along each axis of the element `[N·s/m]`, not negative.
     pub linear: Vec3<R>,
-    /// Density of the air [kg/m³].
+    /// Density of the air `[kg/m³]`.
     pub density: f64,
 }
 
-/// Aerodynamic force on a drag element.
+/// Result of [`AirDrag::resistance`]: force on the centre of pressure and the power that it dissipates.
 #[derive(Clone, Copy, Debug)]
 pub struct Resistance<R> {
-    /// Force on the centre of pressure, axes of the element `[N]`.
+    /// Force of the air on the element at its centre of pressure `[N]`, in the axes of the element.
     pub force: Vec3<R>,
-    /// Power that becomes heat `[W]`; not negative.
+    /// Power `−F·u` that becomes heat `[W]`; not negative.
     pub dissipation: R,
 }
 
 impl<R: Real> AirDrag<R> {
-    /// Velocity of the centre of pressure in the air [m/s], axes of the element, for the twist of its link in link axes
-    /// and the link's pose in the world.
+    /// Velocity `[m/s]` of the centre of pressure relative to the air, in the axes of the element.
+    ///
+    /// `twist` is that of its link about the link's origin, in link axes (angular `[rad/s]`, linear `[m/s]`); `x_wl` is
+    /// the pose of the link in the world `[m]`; without `air` the air rests.
     #[inline(always)]
     pub fn velocity(&self, twist: &Motion<R>, x_wl: &Pose<R>, air: Option<&Air<'_>>) -> Vec3<R> {
         velocity_in_air(&self.pose, twist, x_wl, air)
     }
 
-    /// Force `[N]` and dissipation `[W]` at a velocity `u` in the air `[m/s]`, both vectors in the axes of the element.
+    /// Drag force `[N]` and dissipated power `[W]` at the velocity `u` `[m/s]` of the centre of pressure relative to
+    /// the air (from [`AirDrag::velocity`]), both vectors in the axes of the element.
     #[inline(always)]
     pub fn resistance(&self, u: Vec3<R>) -> Resistance<R> {
         // below that the root has no slope, and 0 · ∞ would be the derivative
@@ -63,8 +80,8 @@ impl<R: Real> AirDrag<R> {
         Resistance { force, dissipation: -force.dot(u) }
     }
 
-    /// Wrench about the link's origin `[N·m]`, `[N]`, in link axes, of a force on the centre of pressure `[N]` in the
-    /// axes of the element.
+    /// Wrench of a `force` on the centre of pressure `[N]`, given in the axes of the element: moment about the link's
+    /// origin `[N·m]` and force `[N]`, in link axes.
     #[inline(always)]
     pub fn wrench(&self, force: Vec3<R>) -> Force<R> {
         let lin = self.pose.rot.mul_vec(force);

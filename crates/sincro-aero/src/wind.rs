@@ -36,60 +36,63 @@ use sincro_math::random::SplitMix64;
 use sincro_geometry::spatial::Vec3;
 use sincro_math::error::InvalidParameters;
 
-/// Mean wind over height.
+/// Profile of the mean wind over the height above ground (z of the world): a factor on the mean velocity of a [`Wind`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Profile {
-    /// The same everywhere.
+    /// The same at every height.
     Constant,
-    /// Proportional to height above ground.
+    /// Proportional to the height above ground, zero below it.
     Linear {
-        /// Height at which the wind has its given velocity `[m]`.
+        /// Height at which the factor is 1 `[m]`, positive.
         reference: f64,
     },
-    /// By the logarithm of height over roughness; none below it.
+    /// Proportional to ln(height/roughness); zero at heights below the roughness.
     Logarithmic {
-        /// Height at which the wind has its given velocity `[m]`.
+        /// Height at which the factor is 1 `[m]`, above the roughness.
         reference: f64,
-        /// Roughness of the ground `[m]`: 0.046 in the source for approach and landing, 0.61 elsewhere.
+        /// Roughness length of the ground `[m]`, positive: 0.046 in the source for approach and landing, 0.61
+        /// elsewhere.
         roughness: f64,
     },
 }
 
-/// A gust (A/2)(1 − cos(π s)), s the time since its start by its rise.
+/// Discrete gust of the form 1 − cosine: peak·(1 − cos(π s))/2, s the time since its start over the rise time. Added to
+/// the mean wind by [`Wind::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gust {
-    /// Start `[s]`.
+    /// Time at which it begins `[s]`.
     pub start: f64,
-    /// Time to the peak `[s]`.
+    /// Time from the start to the peak `[s]`, positive.
     pub rise: f64,
-    /// Velocity at the peak `[m/s]`, world axes.
+    /// Velocity of the air at the peak `[m/s]`, in world axes (x, y, z).
     pub peak: [f64; 3],
-    /// True if it stays at its peak, as in the source; else it falls as it rose.
+    /// True if it stays at its peak, as in the source; otherwise it falls as it rose and ends after twice the rise
+    /// time.
     pub holds: bool,
 }
 
-/// Intensity and length scale of turbulence.
+/// Standard deviations and length scales of turbulence, computed or given; field of a [`TurbulenceSpec`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scales {
-    /// As [`dryden_scales`] gives them near the ground.
+    /// Those of [`dryden_scales`], for flight near the ground.
     LowAltitude {
-        /// Mean wind at 20 feet, W₂₀ `[m/s]`.
+        /// Mean wind at 20 feet (6.1 m), W₂₀ `[m/s]`, 0 to 1000.
         wind_at_20_feet: f64,
-        /// Height h `[m]`, 3.048 to 304.8: lengths and deviations are those at this height, whatever height is asked
-        /// for.
+        /// Height h `[m]`, 3.048 to 304.8; the scales are those of this height wherever the wind is evaluated.
         height: f64,
     },
-    /// Given outright.
+    /// Given numbers, in the order u (along the mean wind), v (across it), w (upwards).
     Given {
-        /// Standard deviations of u, v, w `[m/s]`.
+        /// Standard deviations σu, σv, σw `[m/s]`, 0 to 1000.
         deviations: [f64; 3],
-        /// Lengths Lu, Lv, Lw `[m]`.
+        /// Length scales Lu, Lv, Lw `[m]`, 0.001 to 1e6.
         lengths: [f64; 3],
     },
 }
 
 impl Scales {
-    /// Standard deviations `[m/s]` and lengths `[m]` of u, v, w.
+    /// Standard deviations `[m/s]` and length scales `[m]`, each in the order u (along the mean wind), v (across), w
+    /// (up).
     #[must_use]
     pub fn values(&self) -> ([f64; 3], [f64; 3]) {
         match *self {
@@ -99,25 +102,28 @@ impl Scales {
     }
 }
 
-/// Dryden turbulence with its seed, scales and airspeed.
+/// Dryden turbulence to be added to a [`Wind`]: seed, scales and airspeed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurbulenceSpec {
-    /// Another seed is another turbulence with the same spectra.
+    /// Seed of the frequencies and phases: each seed is another sample of the same spectra.
     pub seed: u64,
-    /// Intensity and length scale.
+    /// Standard deviations and length scales.
     pub scales: Scales,
-    /// V `[m/s]`: velocity relative to the air; of a hovering vehicle that of the mean wind. Of a convected field it is
-    /// [`horizontal_speed`] of the mean wind: a vehicle that moves crosses the field by itself.
+    /// Speed V `[m/s]`, 0.001 to 1000, at which the vehicle crosses the turbulence: its velocity relative to the air,
+    /// for a hovering vehicle that of the mean wind. Of a convected field it must be [`horizontal_speed`] of the mean
+    /// wind, because a vehicle that moves crosses the field by itself.
     pub airspeed: f64,
-    /// True if the turbulence is a frozen field that the horizontal mean wind carries past: places along the wind see
-    /// it one after the other. Else it is the same everywhere.
+    /// True if the turbulence is a frozen field that the horizontal mean wind carries past, so that places along the
+    /// wind see it one after the other; otherwise it is the same at all places.
     pub convected: bool,
 }
 
-/// Number of harmonics in each component: their spread around the spectrum falls, the cost rises with it.
+/// Number of harmonics in each turbulence component (u, v, w); more of them follow the spectrum closer, at proportional
+/// cost.
 pub const N_HARMONICS: usize = 64;
 
-/// End of the band in units of V/L.
+/// End of the turbulence band, as a multiple of the corner frequency V/L (dimensionless): no harmonic has a frequency
+/// above `BAND`·V/L `[rad/s]`.
 pub const BAND: f64 = 100.0;
 
 /// Times closer than this are the same instant `[s]`.
@@ -126,13 +132,14 @@ const SAME_INSTANT: f64 = 1e-9;
 /// Relative difference of two velocities that is put down to rounding.
 const SAME_SPEED: f64 = 1e-9;
 
-/// Horizontal part of a mean wind [m/s].
+/// Magnitude `[m/s]` of the horizontal part (x, y) of a `mean` wind velocity `[m/s]` in world axes, z up.
 #[must_use]
 pub fn horizontal_speed(mean: [f64; 3]) -> f64 {
     (mean[0] * mean[0] + mean[1] * mean[1]).sqrt()
 }
 
-/// The air's velocity over time and height.
+/// Velocity of the air over time and place: mean wind with a profile over the height, gusts and turbulence. Rotors and
+/// drag elements of a model feel it (`ModelBuilder::wind`).
 ///
 /// ```
 /// use sincro_aero::wind::{Profile, Wind};
@@ -169,11 +176,13 @@ struct Component {
 }
 
 impl Wind {
-    /// Wind of velocity `mean` [m/s] (world axes, z up) with `profile` over height, gusts and turbulence on top.
+    /// Creates a wind of velocity `mean` `[m/s]` (world axes, z up) at the reference height of `profile`, with gusts
+    /// and turbulence added to it.
     ///
     /// # Errors
     ///
-    /// All that is wrong with the numbers, one sentence each.
+    /// [`InvalidParameters`] with one sentence for each number that is not finite or out of the range stated at its
+    /// field, and for convected turbulence without a horizontal mean wind or with another airspeed than its own.
     pub fn new(
         mean: [f64; 3],
         profile: Profile,
@@ -188,15 +197,14 @@ impl Wind {
         Ok(Self { mean, profile, gusts, turbulence })
     }
 
-    /// Velocity of the air [m/s] in world axes at time `t` `[s]` and `height` above ground `[m]`, over the world's
-    /// origin.
+    /// Velocity of the air `[m/s]` in world axes at time `t` `[s]`, at the place (0, 0, `height`) of the world `[m]`.
     #[must_use]
     #[inline(always)]
     pub fn velocity<R: Real>(&self, t: f64, height: R) -> Vec3<R> {
         self.at(t).velocity(height)
     }
 
-    /// The wind at time `t` `[s]`, its height still open: for whoever asks in several places.
+    /// Wind at the instant `t` `[s]`, with gusts summed once: to be evaluated at several places.
     #[must_use]
     pub fn at(&self, t: f64) -> Air<'_> {
         let mut unsteady = [0.0; 3];
@@ -216,7 +224,8 @@ impl Wind {
         Air { wind: self, t, unsteady }
     }
 
-    /// Height at which the wind has its given velocity `[m]`; none if that is everywhere.
+    /// Height at which the mean wind has its given velocity `[m]`; `None` for a constant profile, where it has it
+    /// everywhere.
     #[must_use]
     pub fn reference_height(&self) -> Option<f64> {
         match self.profile {
@@ -225,13 +234,14 @@ impl Wind {
         }
     }
 
-    /// Returns true if it has neither gusts nor turbulence.
+    /// Returns true if it has neither gusts nor turbulence, so that it does not depend on time.
     #[must_use]
     pub fn is_steady(&self) -> bool {
         self.gusts.is_empty() && self.turbulence.is_none()
     }
 
-    /// Next time event: the first instant after `t` `[s]` at which a gust begins or ends; infinite if there is none.
+    /// Time of the next time event `[s]`: the first instant after `t` `[s]` at which a gust begins or ends, or one that
+    /// holds reaches its peak; infinite if there is none. Steps of error-controlled methods end there.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         let ends = self.gusts.iter().flat_map(|g| [g.start, g.start + if g.holds { 1.0 } else { 2.0 } * g.rise]);
@@ -239,7 +249,7 @@ impl Wind {
     }
 }
 
-/// The wind at one instant.
+/// Wind at one instant, from [`Wind::at`]; gives the velocity of the air at any place.
 #[derive(Clone, Copy, Debug)]
 pub struct Air<'a> {
     wind: &'a Wind,
@@ -250,14 +260,14 @@ pub struct Air<'a> {
 }
 
 impl Air<'_> {
-    /// Velocity of the air [m/s] in world axes at a `height` above ground `[m]`, over the world's origin.
+    /// Velocity of the air `[m/s]` in world axes, at the place (0, 0, `height`) of the world `[m]`.
     #[must_use]
     #[inline(always)]
     pub fn velocity<R: Real>(&self, height: R) -> Vec3<R> {
         self.velocity_at(Vec3([R::zero(), R::zero(), height]))
     }
 
-    /// Velocity of the air [m/s] in world axes at a place `p` `[m]` in the world.
+    /// Velocity of the air `[m/s]` at the place `p` `[m]`, both in world axes; the height above ground is z of `p`.
     #[must_use]
     #[inline(always)]
     pub fn velocity_at<R: Real>(&self, p: Vec3<R>) -> Vec3<R> {
@@ -296,8 +306,10 @@ impl Gust {
     }
 }
 
-/// Standard deviations `[m/s]` and lengths `[m]` of u, v, w at low altitude: σw = 0.1 W₂₀, σu = σv = σw/d^0.4, Lw = h,
-/// Lu = Lv = h/d^1.2, with d = 0.177 + 0.000823 h (h in feet).
+/// Dryden scales at low altitude: standard deviations `[m/s]` and lengths `[m]`, each in the order u, v, w (along the
+/// mean wind, across it, up), for the mean wind W₂₀ at 20 feet `[m/s]` and the height h `[m]`, 3.048 to 304.8.
+///
+/// σw = 0.1 W₂₀, σu = σv = σw/d^0.4, Lw = h, Lu = Lv = h/d^1.2, with d = 0.177 + 0.000823 h (here h in feet).
 #[must_use]
 pub fn dryden_scales(wind_at_20_feet: f64, height: f64) -> ([f64; 3], [f64; 3]) {
     const FOOT: f64 = 0.3048;

@@ -52,7 +52,8 @@ use crate::kind::Described;
 use crate::reader::Reader;
 use crate::unit::{Unit, common};
 
-/// A block: an immutable set of parameters with its equations. All that changes is in the state that it is handed.
+/// Kind of block: an immutable set of parameters with its equations, implemented for every block of the library and for
+/// one's own. All that changes during a run is in the states and memory that are passed to it.
 ///
 /// ```
 /// use sincro_blocks::prelude::*;
@@ -107,115 +108,123 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
     /// True if all inputs have one unit and the outputs have it too: for blocks that pass a signal on, add or compare.
     const KEEPS_UNIT: bool = false;
 
-    /// Checks parameters against each other, notes the errors in the reader, and computes what is derived from them.
+    /// Checks parameters against each other after they were read, notes errors in the reader ([`Reader::fault`]), and
+    /// computes what is derived from them; by default nothing.
     fn validate(&mut self, _parameters: &mut Reader<'_>) {}
 
-    /// Names of the inputs and outputs: by default, the input `u` and the output `y`.
+    /// Names of the inputs and outputs, in the order of their indices; by default the input `u` and the output `y`.
     fn ports(&self) -> Ports {
         Ports::single()
     }
 
-    /// Widths of the outputs, as far as they follow from the parameters and the widths of the inputs that are known so
-    /// far (`None`: not yet). By default the block works component by component: see [`elementwise`].
+    /// Widths of the outputs (numbers of components), in the order of the ports, as far as they follow from the
+    /// parameters and from the widths of the inputs; `None`: not yet known. By default [`elementwise`].
     ///
     /// # Errors
     ///
-    /// Widths that do not fit each other, in words.
+    /// A message about widths that do not fit each other, for the error of the diagram.
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         Ok(vec![elementwise(inputs, &self.parameter_widths())?; self.ports().outputs.len()])
     }
 
-    /// Units of the outputs, as far as they follow from the units of the inputs that are known. By default see
-    /// [`Block::KEEPS_UNIT`].
+    /// Units of the outputs, in the order of the ports, as far as they follow from the units of the inputs; `None`: not
+    /// known. By default see [`Block::KEEPS_UNIT`].
     ///
     /// # Errors
     ///
-    /// Units that do not fit each other, in words.
+    /// A message about units that do not fit each other, for the error of the diagram.
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
         let unit = if Self::KEEPS_UNIT { common(inputs)? } else { None };
         Ok(vec![unit; self.ports().outputs.len()])
     }
 
-    /// Sample time of the block, as far as it follows from its kind and its parameters.
+    /// Sample time of the block, as far as it follows from its kind and its parameters; by default
+    /// [`Block::SAMPLE_TIME`].
     fn sample_time_kind(&self) -> SampleTimeKind {
         Self::SAMPLE_TIME
     }
 
-    /// Returns true if the outputs depend on the present value of this input (direct feedthrough). An input without
-    /// direct feedthrough breaks algebraic loops.
+    /// Returns true if the outputs depend on the present value of input port `input` (counted from 0): direct
+    /// feedthrough, the default. An input without it breaks algebraic loops.
     fn has_direct_feedthrough(&self, _input: usize) -> bool {
         true
     }
 
-    /// Number of continuous and discrete states. By default [`Block::STATE`] for each component of the outputs.
+    /// Numbers of continuous and discrete states in the compiled diagram; by default [`Block::STATE`] for each
+    /// component of the outputs.
     fn memory(&self, node: &Node) -> Memory {
         let n = node.n_out();
         Memory { continuous: n * Self::STATE.continuous, discrete: n * Self::STATE.discrete }
     }
 
-    /// Checks parameters against what only the compiled diagram tells, such as a delay against the base step.
+    /// Checks parameters against sizes and sample time in the compiled diagram, such as a delay against the base step;
+    /// by default nothing.
     ///
     /// # Errors
     ///
-    /// The error, and a help for it.
+    /// Message and help, in this order, for the error of the diagram.
     fn check(&self, _node: &Node) -> Result<(), (String, String)> {
         Ok(())
     }
 
-    /// Writes the initial continuous states and memory, both zero before and as long as [`Block::memory`] says.
+    /// Writes the initial continuous states and discrete states (`memory`), each as many as [`Block::memory`] says, in
+    /// their own units; zero where nothing is written.
     fn start<R: Real>(&self, _node: &Node, _states: &mut [R], _memory: &mut [R]) {}
 
-    /// Buffers for intermediate results; made once for each instance, so that no evaluation allocates.
+    /// Buffers for intermediate results, made once for each instance so that no evaluation allocates; by default empty.
     fn work<R: Real>(&self) -> Self::Work<R> {
         Self::Work::default()
     }
 
-    /// Computes the outputs into `y`, the components of all ports one after the other. May read only inputs with direct
-    /// feedthrough.
+    /// Computes the outputs into `y`: the components of all output ports one after the other, each in its own unit. May
+    /// read only inputs with direct feedthrough.
     fn output<R: Real>(&self, at: &At<'_, R>, work: &mut Self::Work<R>, y: &mut [R]);
 
-    /// Computes the time derivatives `f(x, u, t)` of the continuous states `x` `[unit of the state / s]`; as many as
-    /// there are states.
+    /// Computes the time derivatives `f(x, u, t)` of the continuous states `x` into `derivatives`: one for each state,
+    /// in its unit per second. By default nothing.
     fn derivatives<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _derivatives: &mut [R]) {}
 
-    /// Diagonal of `−∂f/∂x` [1/s], `f` as in [`Block::derivatives`]: implicit integrators damp the new state by it, and
-    /// stiffness warnings rely on it. Zero where it is left out.
+    /// Computes the diagonal of `−∂f/∂x` `[1/s]` into `diagonal`, one entry for each continuous state, `f` as in
+    /// [`Block::derivatives`]: implicit integrators damp the new state by it, and warnings about stiffness use it. Zero
+    /// where nothing is written.
     fn neg_jacobian_diagonal<R: Real>(&self, _at: &At<'_, R>, _diagonal: &mut [R]) {}
 
     /// Computes the discrete states of the next tick, after all outputs of a tick are known. `memory` holds the present
-    /// ones; `states` the continuous states, which may be set too (a reset); `at.states` is empty here.
+    /// ones and takes the new ones; `states` are the continuous states, which may be set too (a reset); `at.states` is
+    /// empty here.
     fn update<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _memory: &mut [R], _states: &mut [R]) {}
 
-    /// Next time event: the first instant after `t` at which the outputs or one of their derivatives jump, if that
-    /// depends on time alone; infinite if there is none.
+    /// Next time event: the first instant after time `t` `[s]` at which the outputs or one of their derivatives jump,
+    /// if that depends on time alone; infinite if there is none, the default.
     fn next_time_event(&self, _t: f64) -> f64 {
         f64::INFINITY
     }
 
-    /// Highest frequency `[Hz]` in the outputs of a source up to time `until` `[s]`, if that depends on time alone;
-    /// zero for blocks that are no source. `is_sampled`: evaluated at ticks only. Jumps and corners that are located as
-    /// time events have none.
+    /// Highest frequency `[Hz]` in the outputs of a source up to time `until` `[s]`, for choosing step sizes; 0 for
+    /// blocks that are no source. `is_sampled`: it is evaluated at ticks only. Jumps and corners that are located as
+    /// time events count as 0.
     fn highest_frequency(&self, _until: f64, _is_sampled: bool) -> f64 {
         0.0
     }
 
-    /// Remark for the end of a run, from the memory: that the block limited a signal, and when first.
+    /// Remark for the report at the end of a run, from the discrete states, such as that the block limited a signal and
+    /// when first; `None` without.
     fn notice(&self, _node: &Node, _memory: &[f64]) -> Option<String> {
         None
     }
 
-    /// Reason for outputs that are not finite, if the block knows more than they tell.
+    /// Reason for outputs that are not finite, such as an error in a script; `None` if the block knows none.
     fn fault(&self) -> Option<String> {
         None
     }
 
-    /// Text in its box in a drawing, such as `2.5` or `1/s`; empty for the name of its kind.
+    /// Text in the box of the block in a drawing, such as `2.5` or `1/s`; empty for the name of its kind.
     fn label(&self) -> String {
         String::new()
     }
 }
 
-/// Names of ports, in their order.
+/// Names of the ports of a block, in the order of their indices.
 ///
 /// ```
 /// use sincro_blocks::prelude::*;
@@ -233,14 +242,14 @@ pub struct Ports {
 }
 
 impl Ports {
-    /// Ports with these names.
+    /// Ports with the given names of inputs and outputs.
     #[must_use]
     pub fn new(inputs: &[&str], outputs: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|n| (*n).to_owned()).collect();
         Self { inputs: owned(inputs), outputs: owned(outputs) }
     }
 
-    /// Inputs `u1`, `u2` … (or `u`, if it is one) and the output `y`.
+    /// Inputs `u1`, `u2` …, `n_inputs` of them (a single one is `u`), and the output `y`.
     #[must_use]
     pub fn numbered(n_inputs: usize) -> Self {
         let inputs = if n_inputs == 1 { vec!["u".into()] } else { (1..=n_inputs).map(|k| format!("u{k}")).collect() };
@@ -260,7 +269,7 @@ impl Ports {
     }
 }
 
-/// Sample time of a block, as far as its kind determines it.
+/// Sample time of a block, as far as its kind determines it: constant, inherited, continuous or discrete.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Integrator;
@@ -286,7 +295,7 @@ pub enum SampleTimeKind {
     Discrete,
 }
 
-/// Lengths of the vectors of a block's state.
+/// Numbers of states of a block, continuous and discrete: the lengths of its state vectors.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Integrator;
@@ -299,22 +308,22 @@ pub enum SampleTimeKind {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
-    /// States that are integrated together with the world.
+    /// Number of continuous states, which are integrated together with the world.
     pub continuous: usize,
-    /// Numbers that change at ticks.
+    /// Number of discrete states, which change at ticks.
     pub discrete: usize,
 }
 
 impl Memory {
-    /// Memory of a block without states.
+    /// No states: for blocks whose outputs follow from their inputs.
     pub const NONE: Self = Self { continuous: 0, discrete: 0 };
-    /// Memory of a block with one continuous state.
+    /// One continuous state; as [`Block::STATE`], one for each component of the outputs.
     pub const CONTINUOUS: Self = Self { continuous: 1, discrete: 0 };
-    /// Memory of a block with one discrete state.
+    /// One discrete state; as [`Block::STATE`], one for each component of the outputs.
     pub const DISCRETE: Self = Self { continuous: 0, discrete: 1 };
 }
 
-/// Sizes and sample time of a block in a compiled diagram.
+/// Sizes and sample time of one block in a compiled diagram.
 ///
 /// ```
 /// use sincro_blocks::prelude::*;
@@ -325,33 +334,33 @@ impl Memory {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Widths of the inputs.
+    /// Widths of the inputs (numbers of components), in the order of the ports.
     pub inputs: Vec<usize>,
-    /// Widths of the outputs.
+    /// Widths of the outputs, in the order of the ports.
     pub outputs: Vec<usize>,
     /// Base step `[s]`.
     pub step: f64,
-    /// Base steps between two updates: 1 for continuous blocks.
+    /// Number of base steps between two updates; 1 for continuous blocks.
     pub every: u64,
-    /// Seed of its random numbers, made from that of the run and the block's path.
+    /// Seed of its random numbers, derived from that of the run and the path of the block.
     pub seed: u64,
 }
 
 impl Node {
-    /// Time between two updates `[s]`.
+    /// Time between two updates, `every` times `step` `[s]`.
     #[must_use]
     pub fn period(&self) -> f64 {
         self.every as f64 * self.step
     }
 
-    /// Number of all outputs together.
+    /// Number of components of all outputs together.
     #[must_use]
     pub fn n_out(&self) -> usize {
         self.outputs.iter().sum()
     }
 }
 
-/// Time, inputs and state of a block at the instant of evaluation.
+/// Time, inputs and state of a block at the instant of evaluation: the argument of [`Block::output`] and its siblings.
 ///
 /// ```
 /// use sincro_blocks::library::sources::Constant;
@@ -390,20 +399,20 @@ pub struct At<'a, R> {
     /// Time event at which the present integration step ends `[s]`, else infinite: functions of time take the value
     /// before it.
     pub time_event: f64,
-    /// Base steps since the start, at the last tick.
+    /// Number of base steps from the start to the last tick.
     pub tick: u64,
     /// Sizes and sample time of the block.
     pub node: &'a Node,
-    /// Its continuous states.
+    /// Continuous states of the block, each in its own unit; empty in [`Block::update`].
     pub states: &'a [R],
-    /// Its memory.
+    /// Discrete states of the block, each in its own unit.
     pub memory: &'a [R],
     pub(crate) signals: &'a [R],
     pub(crate) ports: &'a [(u32, u32)],
 }
 
 impl<'a, R: Real> At<'a, R> {
-    /// Components of input port `k`, counted from 0, in the unit of the signal.
+    /// Components of input port `k` (counted from 0), in the unit of the signal. Panics if there is no such port.
     #[must_use]
     #[inline(always)]
     pub fn input(&self, k: usize) -> &'a [R] {
@@ -411,14 +420,15 @@ impl<'a, R: Real> At<'a, R> {
         &self.signals[start as usize..(start + len) as usize]
     }
 
-    /// First component of input port `k`, in the unit of the signal.
+    /// First component of input port `k` (counted from 0), in the unit of the signal. Panics if there is no such port.
     #[must_use]
     #[inline(always)]
     pub fn scalar(&self, k: usize) -> R {
         self.signals[self.ports[k].0 as usize]
     }
 
-    /// Component `i` of input port `k`, in the unit of the signal; a scalar stands for a vector of equal components.
+    /// Component `i` of input port `k` (both counted from 0), in the unit of the signal; a scalar stands for a vector
+    /// of equal components. `i` must be below the width of the port.
     #[must_use]
     #[inline(always)]
     pub fn component(&self, k: usize, i: usize) -> R {
@@ -427,7 +437,8 @@ impl<'a, R: Real> At<'a, R> {
         self.signals[start as usize + i]
     }
 
-    /// Copies input port `k` into `to`, component by component; a scalar stands for a vector of equal components.
+    /// Copies input port `k` (counted from 0) into `to`, component by component; a scalar fills it. `to` is no longer
+    /// than the port is wide.
     #[inline(always)]
     pub fn copy_input(&self, k: usize, to: &mut [R]) {
         for (i, x) in to.iter_mut().enumerate() {
@@ -435,35 +446,40 @@ impl<'a, R: Real> At<'a, R> {
         }
     }
 
-    /// Time `[s]` for functions of time alone: just before the time event at which an integration step ends.
+    /// Time `[s]` for functions of time alone: `t`, but at the time event that ends the present integration step the
+    /// instant just before it.
     #[must_use]
     pub fn time(&self) -> f64 {
         if self.t >= self.time_event - 2.0 * SAME_INSTANT { self.time_event - 2.0 * SAME_INSTANT } else { self.t }
     }
 }
 
-/// Times closer than this are the same instant `[s]`: ticks are exact multiples, typed numbers are not.
+/// Tolerance of instants `[s]`: times closer than this are the same, because ticks are exact multiples and typed
+/// numbers are not.
 pub const SAME_INSTANT: f64 = 1e-9;
 
-/// Component `i` of a parameter, in its unit; one number stands for all components.
+/// Component `i` (counted from 0) of a parameter that is one number for all components or one for each, in its unit.
+/// Panics for an index beyond a list.
 #[must_use]
 #[inline(always)]
 pub fn of(parameter: &[f64], i: usize) -> f64 {
     if parameter.len() == 1 { parameter[0] } else { parameter[i] }
 }
 
-/// Writes component `i` of a parameter into entry `i` of `to`, in its unit; one number stands for all.
+/// Fills `to` with a parameter that is one number for all components or one for each, in its unit. Panics if such a
+/// list is shorter than `to`.
 pub fn fill<R: Real>(to: &mut [R], parameter: &[f64]) {
     for (i, x) in to.iter_mut().enumerate() {
         *x = R::splat(of(parameter, i));
     }
 }
 
-/// Width of an elementwise block: all inputs and parameters are scalars or have one width in common.
+/// Common width of an elementwise block, whose inputs and parameters are scalars or have one width in common. `inputs`
+/// are the widths known so far, `parameters` names and lengths; `None` while it is not determined.
 ///
 /// # Errors
 ///
-/// Two of them that differ.
+/// A message that names two of them with different widths.
 pub fn elementwise(inputs: &[Option<usize>], parameters: &[(&str, usize)]) -> Result<Option<usize>, String> {
     let mut wide: Option<(String, usize)> = None;
     let named = inputs.iter().enumerate().filter_map(|(k, w)| w.map(|w| (format!("input {}", k + 1), w)));

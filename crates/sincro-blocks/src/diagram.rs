@@ -21,7 +21,8 @@
 use crate::endpoint::Endpoint;
 use crate::instance::DynBlock;
 
-/// Blocks and wires; on its own or inside another diagram.
+/// Block diagram: blocks and wires, on its own or nested in another diagram. Compiled by
+/// [`compile`](crate::compile::compile).
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Integrator;
@@ -38,45 +39,46 @@ use crate::instance::DynBlock;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Diagram {
-    /// Blocks and inner diagrams, in the order in which they were added: it decides among blocks that could be
+    /// Blocks and inner diagrams, in the order in which they were added, which decides among blocks that could be
     /// evaluated in any order.
     pub entries: Vec<Entry>,
-    /// Wires.
+    /// Wires, in the order in which they were added.
     pub wires: Vec<Wire>,
-    /// Names of the ports through which signals come in, if it stands inside another diagram.
+    /// Names of its input ports, if it is nested in another diagram.
     pub inputs: Vec<String>,
-    /// Names of the ports through which signals go out.
+    /// Names of its output ports.
     pub outputs: Vec<String>,
 }
 
-/// A block with its name.
+/// Entry of a diagram: a block or inner diagram with its name, sample time and unit.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Letters, digits, `_` and `-`; unique in the diagram.
+    /// Name, unique in the diagram: letters, digits, `_` and `-`.
     pub name: String,
-    /// The block.
+    /// Block or inner diagram.
     pub content: Content,
-    /// Sample time `[s]` of the block, or of all blocks in a diagram that have none of their own.
+    /// Sample time `[s]` of the block, or of all blocks in an inner diagram that have none of their own; `None` to
+    /// inherit it.
     pub sample_time: Option<f64>,
-    /// Unit of the output, if it is declared.
+    /// Unit of the output, such as `N·m`; `None` if it is not declared.
     pub unit: Option<String>,
 }
 
-/// Content of an entry.
+/// Content of an [`Entry`].
 #[derive(Clone, Debug)]
 pub enum Content {
-    /// A block of the library.
+    /// Block of a kind of the library, or of one's own.
     Block(Box<dyn DynBlock>),
-    /// A diagram of its own: the name of its definition, and its content.
+    /// Inner diagram: name of its definition, and the diagram.
     Diagram(String, Box<Diagram>),
 }
 
-/// A wire: what it carries, and where to.
+/// Wire of a diagram: one or several sources, and a target.
 #[derive(Clone, Debug)]
 pub struct Wire {
-    /// Sources; several are put one after the other into one vector.
+    /// Sources; several are concatenated to one vector, in this order.
     pub from: Vec<Endpoint>,
-    /// Target.
+    /// Target: an input port.
     pub to: Endpoint,
 }
 
@@ -87,12 +89,12 @@ impl Diagram {
         Self::default()
     }
 
-    /// Adds a block under a name that no other entry has; continuous, or with the sample time of its inputs.
+    /// Adds a block under a name that no other entry has; it is continuous, or takes the sample time of its inputs.
     pub fn block(&mut self, name: &str, block: impl DynBlock + 'static) -> &mut Self {
         self.add(name, Content::Block(Box::new(block)), None)
     }
 
-    /// Adds a block with a sample time `[s]`.
+    /// Adds a block with a sample time `[s]`, which must be a multiple of the base step.
     ///
     /// ```
     /// use sincro_blocks::library::maths::Gain;
@@ -109,8 +111,8 @@ impl Diagram {
         self.add(name, Content::Block(Box::new(block)), Some(sample_time))
     }
 
-    /// Adds a diagram as a block; its ports are `inputs` and `outputs`. `sample_time` `[s]` is that of all blocks in it
-    /// that have none of their own.
+    /// Adds a diagram as a block, named `name`; its ports are its `inputs` and `outputs`. `sample_time` `[s]` is that
+    /// of all blocks in it that have none of their own, `None` to inherit it.
     ///
     /// ```
     /// use sincro_blocks::library::maths::Gain;
@@ -129,17 +131,19 @@ impl Diagram {
         self.add(name, Content::Diagram(name.to_owned(), Box::new(inner)), sample_time)
     }
 
-    /// Adds a block, a subsystem or a terminal; `sample_time` is its own `[s]`, none to take that of its inputs.
+    /// Adds a block or an inner diagram under a name that no other entry has; `sample_time` is its own `[s]`, `None` to
+    /// inherit it.
     pub fn add(&mut self, name: &str, content: Content, sample_time: Option<f64>) -> &mut Self {
         self.entries.push(Entry { name: name.to_owned(), content, sample_time, unit: None });
         self
     }
 
-    /// Adds a wire, such as `"pid"` to `"/motor"`, `"plant.x[0]"` to `"error.u2"`, `"[a, b]"` to `"norm"`.
+    /// Adds a wire between endpoints as [`Endpoint::parse`] reads them, such as `"pid"` to `"/motor"`, `"plant.x[0]"`
+    /// to `"error.u2"`, `"[a, b]"` to `"norm"`.
     ///
     /// # Panics
     ///
-    /// If the texts are not endpoints: this is for diagrams written in Rust.
+    /// If a text is not an endpoint: this is for diagrams written in Rust. Unknown names are errors of the compiler.
     pub fn wire(&mut self, from: &str, to: &str) -> &mut Self {
         let from = Endpoint::parse_list(from).unwrap_or_else(|e| panic!("`{from}`: {}", e.message));
         let to = Endpoint::parse(to).unwrap_or_else(|e| panic!("`{to}`: {}", e.message));
@@ -147,7 +151,7 @@ impl Diagram {
         self
     }
 
-    /// The entry of a name.
+    /// Entry of that name; `None` if there is none.
     #[must_use]
     pub fn entry(&self, name: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.name == name)

@@ -3,23 +3,23 @@
 use core::fmt;
 use core::ops::Range;
 
-/// One end of a wire.
+/// End of a wire: a port of a block, of the diagram itself or of the world, or some components of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Endpoint {
-    /// Name of the block, or of a port of the diagram itself; `world` for the world.
+    /// Name of the block, or of a port of the diagram itself; [`WORLD`] for a port of the world.
     pub block: String,
-    /// Name of the port; empty if the block has but one.
+    /// Name of the port; empty if the block has only one.
     pub port: String,
-    /// Components, if not all.
+    /// Range of components, counted from 0; `None` for all.
     pub range: Option<Range<usize>>,
 }
 
-/// Error of a text that is not an endpoint.
+/// Error of [`Endpoint::parse`]: a text that is not an endpoint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EndpointError {
-    /// Byte range in the text.
+    /// Range of the wrong bytes in the text, counted from 0.
     pub span: Range<usize>,
-    /// The error.
+    /// Description of the error.
     pub message: String,
 }
 
@@ -31,11 +31,16 @@ impl fmt::Display for EndpointError {
 
 impl std::error::Error for EndpointError {}
 
-/// The block that stands for the world.
+/// Name of the block that stands for the world in an [`Endpoint`].
 pub const WORLD: &str = "world";
 
 impl Endpoint {
-    /// Parses an endpoint.
+    /// Parses an endpoint: `block`, `block.port`, `/path.of.the.world`, each with components as `[2]` or `[0:3]` (end
+    /// excluded).
+    ///
+    /// # Errors
+    ///
+    /// [`EndpointError`] with the position, if the text has another form.
     ///
     /// # Errors
     ///
@@ -90,11 +95,11 @@ impl Endpoint {
         Ok(Self { block: block.into(), port: port.into(), range })
     }
 
-    /// One endpoint, or several as `[a, b.y, c]`.
+    /// Parses one endpoint, or several written as `[a, b.y, c]`.
     ///
     /// # Errors
     ///
-    /// As [`Endpoint::parse`].
+    /// [`EndpointError`] with the position in `text`, if one of them has another form.
     pub fn parse_list(text: &str) -> Result<Vec<Self>, EndpointError> {
         let trimmed = text.trim();
         let Some(inside) = trimmed.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) else {

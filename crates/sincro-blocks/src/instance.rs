@@ -9,9 +9,9 @@ use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
 use crate::kind::Kind;
 use crate::unit::Unit;
 
-/// The kinds of numbers on which a diagram can run: `f64`, and `Dual<1>` for derivatives.
+/// Kind of numbers on which a diagram can run: `f64` for simulation, `Dual<1>` for derivatives.
 pub trait Number: Real {
-    /// Instance of a block that runs on numbers of this kind.
+    /// Creates an instance of `template` that runs on numbers of this kind.
     fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>>;
 }
 
@@ -27,51 +27,53 @@ impl Number for Dual<1> {
     }
 }
 
-/// A block of any type, as it stands in a diagram. Implemented for every [`Block`].
+/// Block of any kind, as a diagram holds it: [`Block`] without its type. Implemented for every [`Block`].
 pub trait DynBlock: Debug + Send + Sync {
-    /// Description of the block's kind: name, parameters, equation.
+    /// Description of the block's kind: name, category, parameters, equation.
     fn kind(&self) -> &'static Kind;
     /// Names of the inputs and outputs; see [`Block::ports`].
     fn ports(&self) -> Ports;
-    /// Widths of the outputs; see [`Block::widths`].
+    /// Widths of the outputs, as far as they follow from those of the inputs; see [`Block::widths`].
     ///
     /// # Errors
     ///
-    /// Widths that do not fit each other, in words.
+    /// A message about widths that do not fit each other.
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String>;
-    /// Units of the outputs; see [`Block::units`].
+    /// Units of the outputs, as far as they follow from those of the inputs; see [`Block::units`].
     ///
     /// # Errors
     ///
-    /// Units that do not fit each other, in words.
+    /// A message about units that do not fit each other.
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String>;
     /// Sample time, as far as it follows from kind and parameters; see [`Block::sample_time_kind`].
     fn sample_time_kind(&self) -> SampleTimeKind;
-    /// Returns true if the outputs depend on the present value of an input; see [`Block::has_direct_feedthrough`].
+    /// Returns true if the outputs depend on the present value of input port `input` (counted from 0); see
+    /// [`Block::has_direct_feedthrough`].
     fn has_direct_feedthrough(&self, input: usize) -> bool;
-    /// Number of states; see [`Block::memory`].
+    /// Numbers of continuous and discrete states; see [`Block::memory`].
     fn memory(&self, node: &Node) -> Memory;
     /// Checks parameters against the compiled diagram; see [`Block::check`].
     ///
     /// # Errors
     ///
-    /// The error, and a help for it.
+    /// Message and help, in this order.
     fn check(&self, node: &Node) -> Result<(), (String, String)>;
-    /// Next time event after `t` `[s]`; see [`Block::next_time_event`].
+    /// First instant after time `t` at which the outputs jump because of time alone `[s]`; see
+    /// [`Block::next_time_event`].
     fn next_time_event(&self, t: f64) -> f64;
-    /// Highest frequency of a source `[Hz]`; see [`Block::highest_frequency`].
+    /// Highest frequency of a source up to time `until` `[s]`, in `[Hz]`; see [`Block::highest_frequency`].
     fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64;
-    /// Remark for the end of a run; see [`Block::notice`].
+    /// Remark for the report at the end of a run, from the discrete states `memory`; see [`Block::notice`].
     fn notice(&self, node: &Node, memory: &[f64]) -> Option<String>;
-    /// Reason for outputs that are not finite; see [`Block::fault`].
+    /// Reason for outputs that are not finite, if the block knows one; see [`Block::fault`].
     fn fault(&self) -> Option<String>;
-    /// Text in its box in a drawing; see [`Block::label`].
+    /// Text in the box of the block in a drawing; see [`Block::label`].
     fn label(&self) -> String;
-    /// Instance of the block that runs on `f64`, in its initial state.
+    /// Creates an instance that runs on `f64`.
     fn on_numbers(&self) -> Box<dyn RunningBlock<f64>>;
-    /// Instance that runs on dual numbers.
+    /// Creates an instance that runs on dual numbers, for linearisation.
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>>;
-    /// A copy.
+    /// Copy of the block with the same parameters.
     fn boxed_clone(&self) -> Box<dyn DynBlock>;
 }
 
@@ -132,19 +134,20 @@ impl<B: Block> DynBlock for B {
     }
 }
 
-/// A block that runs on numbers of type `R`.
+/// Instance of a block that runs on numbers of type `R`: parameters and buffers; states are passed to it. Created by
+/// [`Number::instance`], called by a [`Runner`](crate::runner::Runner).
 pub trait RunningBlock<R>: Debug + Send + Sync {
-    /// Writes the initial states; see [`Block::start`].
+    /// Writes the initial continuous and discrete states; see [`Block::start`].
     fn start(&self, node: &Node, states: &mut [R], memory: &mut [R]);
-    /// Computes the outputs; see [`Block::output`].
+    /// Computes the components of all outputs into `y`; see [`Block::output`].
     fn output(&mut self, at: &At<'_, R>, y: &mut [R]);
-    /// Computes the derivatives of the continuous states; see [`Block::derivatives`].
+    /// Computes the time derivatives of the continuous states; see [`Block::derivatives`].
     fn derivatives(&mut self, at: &At<'_, R>, derivatives: &mut [R]);
-    /// Diagonal of `−∂f/∂x` [1/s]; see [`Block::neg_jacobian_diagonal`].
+    /// Computes the diagonal of `−∂f/∂x` `[1/s]`; see [`Block::neg_jacobian_diagonal`].
     fn neg_jacobian_diagonal(&self, at: &At<'_, R>, diagonal: &mut [R]);
-    /// Computes the discrete states of the next tick; see [`Block::update`].
+    /// Computes the discrete states of the next tick into `memory`; see [`Block::update`].
     fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]);
-    /// A copy.
+    /// Copy of the instance with its buffers.
     fn boxed_clone(&self) -> Box<dyn RunningBlock<R>>;
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::reader::{NoFiles, Reader, Value};
 
-/// A block with a description, that can be made from named parameters.
+/// Block type with a description of its kind, that can be made from named parameters.
 ///
 /// [`declare_block!`](crate::declare_block) implements it.
 ///
@@ -20,16 +20,16 @@ pub trait Described: Sized {
     /// Description of the kind of block.
     const KIND: &'static Kind;
 
-    /// Names and lengths of the parameters that are one number for all components or one for each.
+    /// Names and lengths of the parameters that are one number for all components or one for each; by default none.
     fn parameter_widths(&self) -> Vec<(&'static str, usize)> {
         Vec::new()
     }
 
-    /// Makes the block from a set of parameters. Errors in them are noted in the reader; the block is then not used.
+    /// Creates the block from a set of parameters. Errors in them are noted in the reader ([`Reader::finish`] returns
+    /// them); the block is then not to be used.
     fn read(parameters: &mut Reader<'_>) -> Self;
 
-    /// The block with all parameters at their defaults; those without a default are NaN, 1 or empty, and still to be
-    /// set.
+    /// Block with all parameters at their defaults; those without a default are NaN, 1 or empty, and still to be set.
     #[must_use]
     fn with_defaults() -> Self {
         static NOTHING: BTreeMap<String, Value> = BTreeMap::new();
@@ -38,7 +38,7 @@ pub trait Described: Sized {
     }
 }
 
-/// Description of a kind of block.
+/// Description of a kind of block: the source of schemas, reference documentation and messages.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Integrator;
@@ -54,15 +54,15 @@ pub struct Kind {
     pub name: &'static str,
     /// Category of the library.
     pub category: Category,
-    /// One sentence, in the user's words.
+    /// Summary in one sentence.
     pub summary: &'static str,
     /// Equation, with the names of ports and parameters.
     pub equation: &'static str,
-    /// Parameters, in the order of the reference.
+    /// Parameters, in the order of the reference documentation.
     pub parameters: &'static [Parameter],
 }
 
-/// Categories of the library.
+/// Category of a kind of block, which orders the library and its reference documentation.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Pid;
@@ -72,25 +72,37 @@ pub struct Kind {
 /// assert_eq!(Category::Logic.title(), "Logic and comparison");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs)]
 pub enum Category {
+    /// Signals that depend on time alone.
     Sources,
+    /// Functions of signals without memory.
     Maths,
+    /// Products and composition of matrices.
     Matrices,
+    /// Limits, dead zones, hysteresis, tables.
     Nonlinear,
+    /// Blocks with continuous states: integrators, transfer functions, PID.
     Continuous,
+    /// Blocks with discrete states: delays, filters, discrete PID.
     Discrete,
+    /// Adaptive laws.
     Adaptation,
+    /// Composition and selection of signals.
     Routing,
+    /// Comparison, logic and counting.
     Logic,
+    /// Quaternions, rotation matrices, Euler angles.
     Rotations,
+    /// Functions of the robot's model.
     Robot,
+    /// Blocks written as scripts or taken from other programs.
     Scripts,
+    /// Plots and terminations.
     Sinks,
 }
 
 impl Category {
-    /// Title for headings, such as `Logic and comparison`.
+    /// Title of the category for headings, such as `Logic and comparison`.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
@@ -111,7 +123,7 @@ impl Category {
     }
 }
 
-/// Description of a parameter of a kind of block.
+/// Description of a parameter of a kind of block; entry of [`Kind::parameters`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parameter {
     /// Key in files.
@@ -124,49 +136,49 @@ pub struct Parameter {
     pub default: Option<&'static str>,
 }
 
-/// Type and range of a parameter's value. Wherever a number stands, a formula of the diagram's parameters may stand as
+/// Type and range of a parameter's value. Where a number stands, a formula of the diagram's parameters may stand as
 /// text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueKind {
-    /// A number.
+    /// Finite number.
     Number,
-    /// A number greater than zero.
+    /// Finite number greater than zero.
     Positive,
-    /// A whole number from 0 on.
+    /// Whole number from 0 on.
     Count,
-    /// A number for all components, or one for each.
+    /// One number for all components, or a list of one for each.
     Numbers,
-    /// Rows of numbers.
+    /// List of rows of numbers.
     Matrix,
     /// True or false.
     Flag,
-    /// A text.
+    /// Text.
     Text,
-    /// A list of texts.
+    /// List of texts.
     Texts,
-    /// Names and what they stand for: numbers or formulas.
+    /// Table of names with numbers or formulas.
     Names,
-    /// One of these words.
+    /// One of the listed words.
     Choice(&'static [&'static str]),
-    /// A file of the scene folder.
+    /// Name of a file in the folder of the scene.
     File,
 }
 
 impl Parameter {
-    /// A parameter that must be given.
+    /// Description of a parameter that must be given: key, type, and meaning with its unit in brackets.
     #[must_use]
     pub const fn required(name: &'static str, takes: ValueKind, doc: &'static str) -> Self {
         Self { name, takes, doc, default: None }
     }
 
-    /// A parameter with a default.
+    /// Description of a parameter with a default, written as in a file: key, type, meaning with its unit in brackets.
     #[must_use]
     pub const fn optional(name: &'static str, takes: ValueKind, doc: &'static str, default: &'static str) -> Self {
         Self { name, takes, doc, default: Some(default) }
     }
 
     /// Meaning as a phrase for tables and messages: the sentence ``Instant of the jump `[s]`.`` becomes
-    /// `instant of the jump [s]`; what is no sentence stays as it is.
+    /// `instant of the jump [s]`; a text that is no sentence stays as it is.
     #[must_use]
     pub fn meaning(&self) -> String {
         let Some(sentence) = self.doc.strip_suffix('.') else { return self.doc.to_owned() };

@@ -19,15 +19,16 @@
 use crate::kind::{Parameter, ValueKind};
 use crate::reader::{Matrix, Reader};
 
-/// Type and range of a parameter that is held as a `T`.
+/// Type and range of a parameter that a block holds as a `T`: stands after `as` in
+/// [`declare_block!`](crate::declare_block). Implemented by the types of this module.
 pub trait ParameterType<T> {
     /// Description for the reference, the schema and messages.
     const VALUE_KIND: ValueKind;
 
-    /// Reads the parameter `key`. Errors are noted in the reader, and a value that does no harm is returned.
+    /// Reads the parameter `key`. Errors are noted in the reader, and a valid placeholder is returned.
     fn read(reader: &mut Reader<'_>, key: &str) -> T;
 
-    /// Number of components, if the parameter is one number for all components or one for each.
+    /// Number of components, if the parameter is one number for all components or one for each; by default `None`.
     fn width(_value: &T) -> Option<usize> {
         None
     }
@@ -94,7 +95,8 @@ fn length(list: &[f64]) -> Option<usize> {
     Some(list.len())
 }
 
-/// Another type, `None` if the parameter is left out; its default stands in the reference only.
+/// Optional parameter of type `P`: `None` if it is left out. Its declared default stands in the reference documentation
+/// only.
 #[derive(Clone, Copy, Debug)]
 pub struct OptionalParameter<P>(P);
 
@@ -110,7 +112,7 @@ impl<T, P: ParameterType<T>> ParameterType<Option<T>> for OptionalParameter<P> {
     }
 }
 
-/// One of the words of an enum that is declared by [`choice!`](crate::choice).
+/// Parameter that is one of the words of an enum declared by [`choice!`](crate::choice).
 ///
 /// ```
 /// use sincro_blocks::prelude::*;
@@ -148,21 +150,21 @@ impl<T: Words> ParameterType<T> for Choice {
     }
 }
 
-/// An enum whose variants have words in files; implemented by [`choice!`](crate::choice).
+/// Enum whose variants have words in files; implemented by [`choice!`](crate::choice), read as [`Choice`].
 pub trait Words: Copy + PartialEq + 'static {
     /// All variants.
     const ALL: &'static [Self];
     /// Their words, in the same order.
     const WORDS: &'static [&'static str];
 
-    /// Word that stands for the variant in a diagram file.
+    /// Word of the variant in a file.
     #[must_use]
     fn word(self) -> &'static str {
         Self::ALL.iter().zip(Self::WORDS).find(|(variant, _)| **variant == self).map_or("", |(_, word)| word)
     }
 }
 
-/// Declares an enum whose variants are the words of a parameter.
+/// Declares an enum of the words that a parameter may be; the parameter is then declared `as Choice`.
 ///
 /// ```
 /// use sincro_blocks::parameter::Words;
@@ -197,15 +199,17 @@ macro_rules! choice {
     };
 }
 
-/// Parameters that are declared together, by [`declare_parameters!`](crate::declare_parameters).
+/// Set of parameters declared together, such as those shared by several blocks; implemented by
+/// [`declare_parameters!`](crate::declare_parameters).
 pub trait ParameterSet: Sized {
     /// Descriptions, in the order of the declaration.
     const PARAMETERS: &'static [Parameter];
 
-    /// Reads all parameters, each on its own: they are not checked against each other yet.
+    /// Reads all parameters, each on its own: checks against each other come later. Errors are noted in the reader.
     fn read(reader: &mut Reader<'_>) -> Self;
 
-    /// Names and lengths of the parameters that are one number for all components or one for each.
+    /// Names and lengths of the parameters that are one number for all components or one for each, in the order of
+    /// their declaration.
     fn widths(&self) -> Vec<(&'static str, usize)>;
 }
 
@@ -253,7 +257,8 @@ macro_rules! declare_parameters {
     };
 }
 
-/// First of at most one default; for [`declare_parameters!`](crate::declare_parameters).
+/// First default of a list with at most one entry, `None` of an empty one; for the macro
+/// [`declare_parameters!`](crate::declare_parameters) only.
 #[doc(hidden)]
 #[must_use]
 pub const fn first(defaults: &[&'static str]) -> Option<&'static str> {

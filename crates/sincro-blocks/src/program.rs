@@ -10,88 +10,89 @@ use crate::compile::{Diagnostic, EARLY, Flat, Interface, LATE};
 use crate::instance::DynBlock;
 use crate::unit::Unit;
 
-/// Rate at which a compiled block is evaluated.
+/// Rate at which a block of a [`Program`] is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rate {
-    /// Once.
+    /// Once, at the start of the run.
     Constant,
     /// At every tick and between ticks, wherever the integrator looks.
     Continuous,
-    /// At every so many ticks; its outputs are held in between.
+    /// At every tick whose number is a multiple of this one; its outputs are held in between.
     Sampled(u64),
 }
 
-/// A block in its place.
+/// Block of a [`Program`] with its sizes and its ranges in the vectors of a [`State`](crate::runner::State).
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Names of the entries that lead to it, with `/` between them.
+    /// Path of the block: names of the entries that lead to it, separated by `/`.
     pub path: String,
-    /// The block.
+    /// Block with its parameters, from which instances are created.
     pub template: Box<dyn DynBlock>,
-    /// Its sizes.
+    /// Widths of the ports, sample time and seed.
     pub node: Node,
     /// Rate of evaluation.
     pub rate: Rate,
-    /// Start and length of every input among the signals.
+    /// First index and length of each input in the signals, in the order of the ports.
     pub ports: Vec<(u32, u32)>,
-    /// Its outputs among the signals.
+    /// Range of its outputs in the signals, port after port.
     pub out: Range<usize>,
-    /// Its continuous states.
+    /// Range of its continuous states.
     pub states: Range<usize>,
-    /// Its memory.
+    /// Range of its discrete states.
     pub memory: Range<usize>,
-    /// Names of its outputs.
+    /// Names of its output ports, in their order.
     pub output_names: Vec<String>,
-    /// Their units, as far as they are known.
+    /// Units of its outputs, in the order of the ports; `None` where unknown.
     pub units: Vec<Option<Unit>>,
     /// True if continuous states or continuous commands depend on it: it is then evaluated in minor steps too.
     pub is_minor: bool,
 }
 
-/// A measurement that the diagram reads.
+/// Measurement of the world that a [`Program`] reads; written into the signals by the program that runs it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Measured {
-    /// Number of the terminal in the [`Interface`].
+    /// Index in [`Interface::measurements`].
     pub terminal: usize,
-    /// Its place among the signals.
+    /// Range of its components in the signals.
     pub out: Range<usize>,
     /// True if blocks that are evaluated in minor steps read it.
     pub is_minor: bool,
 }
 
-/// A command that the diagram gives.
+/// Command to the world that a [`Program`] gives; read from the signals by the program that runs it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Commanded {
-    /// Number of the terminal in the [`Interface`].
+    /// Index in [`Interface::commands`].
     pub terminal: usize,
-    /// Its place among the signals.
+    /// Range of its components in the signals.
     pub signal: Range<usize>,
     /// True if it changes between ticks.
     pub is_continuous: bool,
 }
 
-/// A compiled diagram: its blocks in the order of evaluation, with the places of their signals, states and memory.
+/// Compiled diagram, from [`compile`](crate::compile::compile): blocks in the order of evaluation, with the layout of
+/// signals and states. Immutable; run by a [`Runner`](crate::runner::Runner).
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// All blocks in the order of evaluation.
+    /// Blocks in the order of evaluation.
     pub steps: Vec<Step>,
-    /// Number of steps before the world's late measurements.
+    /// Number of steps, from the first on, that do not depend on `late` measurements.
     pub n_early: usize,
-    /// Measurements that depend on the world's state alone.
+    /// Measurements that depend on the state of the world alone.
     pub early: Vec<Measured>,
-    /// Measurements that depend at once on its commands.
+    /// Measurements that depend on the commands of the same instant, such as accelerations.
     pub late: Vec<Measured>,
-    /// Commands.
+    /// Commands that the diagram gives.
     pub commands: Vec<Commanded>,
-    /// Output ports of inner diagrams: name, place among the signals, unit.
+    /// Output ports of inner diagrams: path and name, range in the signals, unit.
     pub aliases: Vec<(String, Range<usize>, Option<Unit>)>,
-    /// Sample times in use, in base steps.
+    /// Sample times in use, as numbers of base steps.
     pub periods: Vec<u64>,
-    /// Number of signals.
+    /// Number of signal components, the length of `State::signals`.
     pub n_signals: usize,
     /// Number of continuous states.
     pub n_states: usize,
-    /// Length of the memory.
+    /// Number of discrete states.
     pub n_memory: usize,
     /// Base step `[s]`.
     pub step: f64,
@@ -223,14 +224,14 @@ impl Program {
         if problems.is_empty() { Ok(program) } else { Err(problems) }
     }
 
-    /// Paths of the blocks in the order of evaluation.
+    /// Paths of the blocks, in the order of evaluation.
     #[must_use]
     pub fn order(&self) -> Vec<&str> {
         self.steps.iter().map(|step| step.path.as_str()).collect()
     }
 
-    /// The outputs of all blocks, then those of inner diagrams: name (`block`, or `block.port` where there are
-    /// several), place among the signals, unit.
+    /// Outputs of all blocks in the order of evaluation, then those of inner diagrams: name (`block`, or `block.port`
+    /// where there are several), range in the signals, unit.
     pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, Option<&Unit>)> {
         let of_diagrams = self.aliases.iter().map(|(name, range, unit)| (name.clone(), range.clone(), unit.as_ref()));
         let of_blocks = self.steps.iter().flat_map(|step| {
@@ -249,15 +250,15 @@ impl Program {
         of_blocks.chain(of_diagrams)
     }
 
-    /// The first instant after `t` `[s]` at which a function of time that is evaluated between ticks has a jump or a
-    /// kink `[s]`; infinite if there is none.
+    /// Next time event: the first instant after `t` `[s]` at which a function of time that is evaluated between ticks
+    /// has a jump or a corner; infinite if there is none.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         let minor = self.steps.iter().filter(|step| step.is_minor);
         minor.fold(f64::INFINITY, |first, step| first.min(step.template.next_time_event(t)))
     }
 
-    /// Returns true if anything changes between ticks.
+    /// Returns true if anything changes between ticks: a continuous state or a continuous command.
     #[must_use]
     pub fn is_continuous(&self) -> bool {
         self.n_states > 0 || self.commands.iter().any(|c| c.is_continuous)
@@ -299,7 +300,8 @@ fn between_ticks(flat: &Flat, order: &[usize], rates: &[Rate]) -> Vec<bool> {
     (0..flat.nodes.len()).map(|n| needed[n] && rates[n] == Rate::Continuous && n > LATE).collect()
 }
 
-/// A seed for whatever has a path and is random: of the run's seed and the path (FNV-1a).
+/// Seed of a random element, derived from the seed of the run and the path of the element (FNV-1a): independent streams
+/// for different paths.
 #[must_use]
 pub fn seed_of(seed: u64, path: &str) -> u64 {
     path.bytes()

@@ -10,7 +10,7 @@ use sincro_math::expression::{Expression, is_name};
 use crate::kind::{Kind, ValueKind};
 use crate::suggest;
 
-/// A parameter as it is given: what every file format can say.
+/// Value of a parameter as given, in the terms of every file format (TOML, JSON, Lua tables).
 ///
 /// ```
 /// use sincro_blocks::prelude::*;
@@ -21,15 +21,15 @@ use crate::suggest;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A number.
+    /// Number.
     Number(f64),
     /// True or false.
     Flag(bool),
-    /// A text; where a number is wanted, a formula of the diagram's parameters.
+    /// Text; where a number is expected, a formula of the diagram's parameters.
     Text(String),
-    /// A list.
+    /// List of values.
     List(Vec<Value>),
-    /// Names with values, in the order of the file.
+    /// Table of names and values, in the order of the file.
     Table(Vec<(String, Value)>),
 }
 
@@ -57,7 +57,7 @@ impl<T: Into<Value>> From<Vec<T>> for Value {
     }
 }
 
-/// Something wrong with a parameter.
+/// Error of a parameter of a block, collected by a [`Reader`].
 ///
 /// ```
 /// use sincro_blocks::library::continuous::LowPass;
@@ -73,13 +73,14 @@ impl<T: Into<Value>> From<Vec<T>> for Value {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterError {
-    /// Steps to the value: the parameter's key, then indices and names inside it.
+    /// Path to the value: the parameter's key, then indices (counted from 0) and names inside it; empty if the
+    /// parameter is missing.
     pub path: Vec<String>,
-    /// Byte range in the text of the value, if it is a formula that does not parse.
+    /// Range of the wrong bytes in the text of the value, if it is a formula that does not parse; else `None`.
     pub span: Option<core::ops::Range<usize>>,
-    /// The error.
+    /// Description of the error.
     pub message: String,
-    /// Help: a change that would correct it.
+    /// Suggested correction.
     pub help: String,
 }
 
@@ -91,35 +92,36 @@ impl core::fmt::Display for ParameterError {
 
 impl std::error::Error for ParameterError {}
 
-/// Columns of the scene folder's CSV files, given by whoever may read files.
+/// Access to the files that parameters name, relative to the folder of the scene; implemented by programs that may read
+/// files ([`NoFiles`] by others).
 pub trait Files {
-    /// The numbers of a column.
+    /// Numbers of the column named `column` in the CSV file `file`, row by row.
     ///
     /// # Errors
     ///
-    /// The reason, in words.
+    /// A message with the reason: no such file or column, or an entry that is not a number.
     fn column(&self, file: &str, column: &str) -> Result<Vec<f64>, String>;
 
-    /// The whole text.
+    /// Content of the text file `file`; by default an error.
     ///
     /// # Errors
     ///
-    /// The reason, in words.
+    /// A message with the reason for which it cannot be read.
     fn text(&self, file: &str) -> Result<String, String> {
         Err(format!("the file `{file}` cannot be read here"))
     }
 
-    /// All bytes.
+    /// Content of the binary file `file`; by default an error.
     ///
     /// # Errors
     ///
-    /// The reason, in words.
+    /// A message with the reason for which it cannot be read.
     fn bytes(&self, file: &str) -> Result<Vec<u8>, String> {
         Err(format!("the file `{file}` cannot be read here"))
     }
 }
 
-/// No files at all.
+/// Access to no files: every request is an error.
 #[derive(Clone, Copy, Debug)]
 pub struct NoFiles;
 
@@ -129,10 +131,12 @@ impl Files for NoFiles {
     }
 }
 
-/// Largest number of ports of one block.
+/// Limit on the number of ports of one block.
 pub const MAX_PORTS: usize = 10_000;
 
-/// Reads the parameters of one block.
+/// Reader of the parameters of one block: returns values, checked and with defaults, and collects the errors. Used by
+/// [`Described::read`](crate::kind::Described::read). Methods that read a parameter panic if the kind has none of that
+/// key.
 ///
 /// ```
 /// use sincro_blocks::library::maths::Gain;
@@ -193,30 +197,31 @@ impl<'a> Reader<'a> {
         self.faults
     }
 
-    /// Names that formulas may use, with their values in SI units.
+    /// Names that formulas may use (the diagram's parameters), with their values in SI units.
     #[must_use]
     pub fn scope(&self) -> &'a BTreeMap<String, f64> {
         self.scope
     }
 
-    /// Returns true if the parameter is given.
+    /// Returns true if the parameter is given, false if its default applies.
     #[must_use]
     pub fn has(&self, key: &str) -> bool {
         self.given.contains_key(key)
     }
 
-    /// The parameter as it is given.
+    /// Parameter as it is given; `None` if it is not.
     #[must_use]
     pub fn raw(&self, key: &str) -> Option<&'a Value> {
         self.given.get(key)
     }
 
-    /// Notes that a parameter is wrong.
+    /// Records an error of the parameter `key`: message and help.
     pub fn fault(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.fault_at(&[key], None, message, help);
     }
 
-    /// Notes that something inside a parameter is wrong.
+    /// Records an error inside a parameter. `path` is its key, then indices and names; `span` the range of wrong bytes
+    /// in a formula, if there is one.
     pub fn fault_at(
         &mut self,
         path: &[&str],
@@ -250,7 +255,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A finite number (NaN after a fault).
+    /// Reads a finite number, in the parameter's unit (NaN after a fault).
     pub fn number(&mut self, key: &str) -> f64 {
         match self.value(key) {
             Some(value) => self.numeric(&value, &[key]),
@@ -258,7 +263,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A number that may be infinite, written as `inf` or `-inf` in a text.
+    /// Reads a number that may be infinite, written as `inf` or `-inf` in a text, in the parameter's unit (NaN after a
+    /// fault).
     pub fn limit(&mut self, key: &str) -> f64 {
         match self.value(key) {
             Some(value) => self.numeric_or_infinite(&value, &[key]),
@@ -266,7 +272,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// One number, or one for each component, each as in [`Reader::limit`]; never empty.
+    /// Reads one number for all components, or one for each, as [`Reader::limit`] does; never empty (NaN after a
+    /// fault).
     pub fn limits(&mut self, key: &str) -> Vec<f64> {
         match self.value(key) {
             Some(Value::List(list)) if !list.is_empty() => {
@@ -290,7 +297,7 @@ impl<'a> Reader<'a> {
         if x > 0.0 { x } else { 1.0 }
     }
 
-    /// A whole number from 0 on (0 after a fault).
+    /// Reads a whole number from 0 on, below 10⁹ (0 after a fault).
     pub fn count(&mut self, key: &str) -> usize {
         let x = self.number(key);
         let is_whole = x >= 0.0 && x.fract() == 0.0 && x < 1e9;
@@ -300,7 +307,7 @@ impl<'a> Reader<'a> {
         if is_whole { x as usize } else { 0 }
     }
 
-    /// A whole number from 1 on (1 after a fault).
+    /// Reads a whole number from 1 on, below 10⁹ (1 after a fault).
     pub fn positive_count(&mut self, key: &str) -> usize {
         let x = self.number(key);
         let is_whole = x >= 1.0 && x.fract() == 0.0 && x < 1e9;
@@ -310,7 +317,7 @@ impl<'a> Reader<'a> {
         if is_whole { x as usize } else { 1 }
     }
 
-    /// Number of ports, from 1 to [`MAX_PORTS`] (1 after a fault).
+    /// Reads a number of ports, from 1 to [`MAX_PORTS`] (1 after a fault).
     pub fn positive_port_count(&mut self, key: &str) -> usize {
         let n = self.count(key);
         if n > MAX_PORTS {
@@ -323,7 +330,7 @@ impl<'a> Reader<'a> {
         n.max(1)
     }
 
-    /// Number of inputs of a block with as many of them as one likes: from 1 to 1000.
+    /// Reads a number of inputs, from 1 to 1000 (the nearest of these after a fault).
     pub fn input_count(&mut self, key: &str) -> usize {
         let n = self.count(key);
         if !(1..=1000).contains(&n) {
@@ -332,7 +339,8 @@ impl<'a> Reader<'a> {
         n.clamp(1, 1000)
     }
 
-    /// Reads one finite number, or one for each component, in the parameter's unit; never empty.
+    /// Reads one finite number for all components, or one for each, in the parameter's unit; never empty (NaN after a
+    /// fault).
     pub fn numbers(&mut self, key: &str) -> Vec<f64> {
         match self.value(key) {
             Some(Value::List(list)) => {
@@ -347,7 +355,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A list of whole numbers from `least` on and below a million.
+    /// Reads a list of whole numbers from `least` on and below a million; a number is a list of one.
     pub fn counts(&mut self, key: &str, least: usize) -> Vec<usize> {
         let list = self.numbers(key);
         if let Some(bad) = list.iter().find(|x| x.fract() != 0.0 || !(least as f64..1e6).contains(*x)) {
@@ -360,7 +368,8 @@ impl<'a> Reader<'a> {
         list.iter().map(|x| *x as usize).collect()
     }
 
-    /// As [`Reader::numbers`], each greater than zero.
+    /// Reads one number greater than zero for all components, or one for each, in the parameter's unit; never empty (1
+    /// after a fault).
     pub fn positives(&mut self, key: &str) -> Vec<f64> {
         let mut list = self.numbers(key);
         for k in 0..list.len() {
@@ -372,7 +381,8 @@ impl<'a> Reader<'a> {
         list
     }
 
-    /// Rows of equal length; a list of numbers is one row, a number is one by one.
+    /// Reads a matrix from rows of equal length, in the parameter's unit; a list of numbers is one row, a number is 1 ×
+    /// 1 (a 1 × 1 matrix of NaN after a fault).
     pub fn matrix(&mut self, key: &str) -> Matrix {
         let rows: Vec<Vec<f64>> = match self.value(key) {
             Some(Value::List(list)) if list.iter().any(|row| matches!(row, Value::List(_))) => {
@@ -425,7 +435,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The text of a file that the parameter names; empty after a fault.
+    /// Reads the content of the text file that the parameter names (empty after a fault).
     pub fn text_file(&mut self, key: &str) -> String {
         let name = self.text(key);
         self.files.text(&name).unwrap_or_else(|message| {
@@ -434,14 +444,14 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Bytes of a file that is named; none, which is noted, if it cannot be read.
+    /// Reads the content of the binary file that the parameter names; `None` after a fault.
     pub fn binary_file(&mut self, key: &str) -> Option<Vec<u8>> {
         let name = self.text(key);
         let read = self.files.bytes(&name);
         read.map_err(|message| self.fault(key, message, "name a file of the scene folder")).ok()
     }
 
-    /// A list of texts; one text is a list of one.
+    /// Reads a list of texts; one text is a list of one, numbers are written out (empty after a fault).
     pub fn texts(&mut self, key: &str) -> Vec<String> {
         match self.value(key) {
             Some(Value::Text(text)) => vec![text],
@@ -464,7 +474,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// One of the words that the description lists; its index.
+    /// Reads one of the words of the parameter's [`ValueKind::Choice`]; returns its index (0 after a fault).
     pub fn choice(&mut self, key: &str) -> usize {
         let parameter = self.kind.parameters.iter().find(|p| p.name == key);
         let Some(ValueKind::Choice(words)) = parameter.map(|p| p.takes) else {
@@ -482,7 +492,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reads a table of names with finite numbers, in the order in which they were written.
+    /// Reads a table of names with finite numbers, in the order of the file (empty after a fault, NaN for a wrong
+    /// entry).
     pub fn named_numbers(&mut self, key: &str) -> Vec<(String, f64)> {
         match self.value(key) {
             Some(Value::Table(table)) => {
@@ -496,7 +507,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Names with formulas, in their order.
+    /// Reads a table of names with formulas as texts, in the order of the file (empty after a fault).
     pub fn named_texts(&mut self, key: &str) -> Vec<(String, String)> {
         match self.value(key) {
             Some(Value::Table(table)) => {
@@ -518,7 +529,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A formula of `names`; the diagram's parameters are put in as numbers. `path` leads to its text.
+    /// Parses `text` as a formula of `names` and of the diagram's parameters, which are put in as numbers; `None` after
+    /// a fault, which is recorded at `path` (key, indices, names).
     pub fn formula(&mut self, path: &[&str], text: &str, names: &[&str]) -> Option<Formula> {
         let constants: Vec<(&str, f64)> = self
             .scope
@@ -548,7 +560,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A name for use in formulas; a fault if it cannot be one.
+    /// Records a fault of the parameter `key` if `name` cannot be a name in formulas.
     pub fn check_name(&mut self, key: &str, name: &str) {
         if !is_name(name) {
             let help = "names have letters, digits and `_` and begin with a letter";
@@ -556,8 +568,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads the parameter `column` of a block that takes a series from `file`: the finite numbers of that column, row
-    /// by row; none, with a fault noted at `key`, if they cannot be read.
+    /// Reads the column named `column` of the CSV file `file`, row by row, for a parameter of a series; empty after a
+    /// fault, which is recorded at `key`.
     pub fn column(&mut self, key: &str, file: &str, column: &str) -> Vec<f64> {
         match self.files.column(file, column) {
             Ok(numbers) => numbers,
@@ -601,25 +613,25 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A formula of some names, with the diagram's parameters put in.
+/// Formula of a block's parameter, from [`Reader::formula`], with the diagram's parameters put in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
-    /// The formula; its first `n_names` names are the caller's, the others have the values of `constants`.
+    /// Compiled formula; the first `n_names` of its names are the caller's, the others have the values of `constants`.
     pub expression: Expression,
-    /// Number of names that the caller gives values for.
+    /// Number of names for which the caller gives values.
     pub n_names: usize,
-    /// Values of the other names.
+    /// Values of the other names, in their order, in SI units.
     pub constants: Vec<f64>,
 }
 
-/// A matrix, row by row.
+/// Matrix of a block's parameter, stored row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
     /// Number of rows.
     pub rows: usize,
     /// Number of columns.
     pub columns: usize,
-    /// Entries, row by row.
+    /// Entries, row by row: `rows` × `columns` numbers, in the unit of the parameter.
     pub entries: Vec<f64>,
 }
 
@@ -628,7 +640,7 @@ impl Matrix {
     ///
     /// # Panics
     ///
-    /// If they are not.
+    /// If the rows differ in length.
     #[must_use]
     pub fn from_rows(rows: &[&[f64]]) -> Self {
         let columns = rows.first().map_or(0, |row| row.len());
@@ -636,7 +648,7 @@ impl Matrix {
         Self { rows: rows.len(), columns, entries: rows.concat() }
     }
 
-    /// Entry in row `i` and column `k`, both counted from 0, in the unit in which it was given.
+    /// Entry in row `i` and column `k`, both counted from 0, in its unit. Panics if they are beyond the matrix.
     #[must_use]
     #[inline(always)]
     pub fn at(&self, i: usize, k: usize) -> f64 {

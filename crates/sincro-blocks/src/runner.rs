@@ -16,18 +16,20 @@ use crate::block::At;
 use crate::instance::{Number, RunningBlock};
 use crate::program::{Program, Rate, Step};
 
-/// All that changes in a diagram.
+/// State of a running diagram: all that changes, and all that a snapshot must hold. [`Program`] has the ranges of each
+/// block in these vectors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<R> {
-    /// Outputs of all blocks; between their samples they are held here.
+    /// Output components of all blocks and measurements, each in its own unit (`Program::n_signals`); held between
+    /// samples.
     pub signals: Vec<R>,
-    /// Continuous states.
+    /// Continuous states of all blocks, each in its own unit (`Program::n_states`).
     pub continuous: Vec<R>,
-    /// Discrete memory.
+    /// Discrete states of all blocks, each in its own unit (`Program::n_memory`).
     pub memory: Vec<R>,
 }
 
-/// A compiled diagram with its state.
+/// Compiled diagram with its state, run step by step together with a plant: see the verbs in the [module](self).
 ///
 /// ```
 /// use sincro_blocks::compile::Terminal;
@@ -56,7 +58,7 @@ pub struct State<R> {
 #[derive(Clone, Debug)]
 pub struct Runner<R: Number> {
     program: Arc<Program>,
-    /// All that changes.
+    /// State of the diagram.
     pub state: State<R>,
     instances: Vec<Box<dyn RunningBlock<R>>>,
     /// For each of the program's periods: true if it is due.
@@ -73,7 +75,7 @@ pub struct Runner<R: Number> {
 }
 
 impl<R: Number> Runner<R> {
-    /// Creates a runner at the start of a run: initial states, constants evaluated.
+    /// Creates a runner at the start of a run: initial states written, constants evaluated, all other signals zero.
     #[must_use]
     pub fn new(program: Arc<Program>) -> Self {
         let zeros = |n: usize| vec![R::zero(); n];
@@ -117,26 +119,29 @@ impl<R: Number> Runner<R> {
         &self.program
     }
 
-    /// All signals one after the other, each in its own unit, as they were last evaluated.
+    /// Signals of all blocks and measurements (`Program::n_signals`), each in its own unit, as last evaluated;
+    /// [`Program::outputs`] and [`Program::commands`] have the ranges.
     #[must_use]
     #[inline(always)]
     pub fn signals(&self) -> &[R] {
         &self.state.signals
     }
 
-    /// All signals one after the other, each in its own unit, to write measurements into.
+    /// Signals of all blocks and measurements (`Program::n_signals`), each in its own unit, to write measurements into:
+    /// their ranges are in [`Program::early`] and [`Program::late`].
     #[inline(always)]
     pub fn signals_mut(&mut self) -> &mut [R] {
         &mut self.state.signals
     }
 
-    /// Evaluates the outputs at a tick, at time `t` `[s]`, up to those that need the world's accelerations.
+    /// Evaluates the outputs at tick `tick` (counted in base steps from 0), at time `t` `[s]`, up to those that depend
+    /// on late measurements ([`Program::late`], such as accelerations).
     pub fn evaluate(&mut self, tick: u64, t: f64) {
         self.find_due(tick);
         self.evaluate_range(0..self.program.n_early, tick, t);
     }
 
-    /// Goes back to a state as it was after the evaluation of tick `tick`, counted in base steps.
+    /// Continues from a `state` as it was after the evaluation of tick `tick` (counted in base steps from 0).
     pub fn resume(&mut self, state: State<R>, tick: u64) {
         self.state = state;
         self.find_due(tick);
@@ -148,7 +153,7 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// Evaluates the outputs at tick `tick`, at time `t` `[s]`, that depend on measurements written since
+    /// Evaluates the outputs at tick `tick`, at time `t` `[s]`, that depend on late measurements, written since
     /// [`Runner::evaluate`].
     pub fn evaluate_late(&mut self, tick: u64, t: f64) {
         self.evaluate_range(self.program.n_early..self.instances.len(), tick, t);
@@ -179,8 +184,8 @@ impl<R: Number> Runner<R> {
         self.instances[k].output(&at, &mut out[..step.out.len()]);
     }
 
-    /// Computes the memory for the next tick, from the signals of this one, at time `t` `[s]`. To be called once for
-    /// every evaluated tick.
+    /// Computes the discrete states of the next tick from the signals of tick `tick`, at time `t` `[s]`. To be called
+    /// once for every evaluated tick.
     pub fn update(&mut self, tick: u64, t: f64) {
         if self.with_memory.is_empty() {
             return;
@@ -209,24 +214,26 @@ impl<R: Number> Runner<R> {
         core::mem::swap(&mut self.state.memory, &mut self.new_memory);
     }
 
-    /// Outputs of the continuous blocks at time `t` `[s]` between ticks with the continuous states in
-    /// `state.continuous`, up to those that need accelerations. `time_event` `[s]`: see [`At::time_event`].
+    /// Evaluates the outputs of continuous blocks between ticks, at time `t` `[s]`, with the continuous states in
+    /// `state.continuous`, up to those that depend on late measurements. `tick` is the last tick; `time_event` `[s]`
+    /// see [`At::time_event`].
     pub fn minor(&mut self, tick: u64, t: f64, time_event: f64) {
         for i in 0..self.minor.len() {
             self.output(self.minor[i], t, time_event, tick);
         }
     }
 
-    /// Evaluates the outputs between ticks, at time `t` `[s]`, that depend on measurements written since
-    /// [`Runner::minor`].
+    /// Evaluates the outputs between ticks, at time `t` `[s]`, that depend on late measurements, written since
+    /// [`Runner::minor`]; same arguments.
     pub fn minor_late(&mut self, tick: u64, t: f64, time_event: f64) {
         for i in 0..self.minor_late.len() {
             self.output(self.minor_late[i], t, time_event, tick);
         }
     }
 
-    /// Outputs of all continuous blocks at time `t`, whether or not the integrator needs them; those that need
-    /// accelerations if `late`, else the others. `perturbed`: a signal and what is added to it as soon as it is known.
+    /// Evaluates all continuous blocks at time `t` `[s]`, even those that the integrator does not need: those that
+    /// depend on late measurements if `late`, else the others. For linearisation, `perturbed` is an index in the
+    /// signals and the change added to it once it is known, in its unit.
     pub fn evaluate_continuous(&mut self, tick: u64, t: f64, late: bool, perturbed: Option<(usize, R)>) {
         let steps = if late { self.program.n_early..self.instances.len() } else { 0..self.program.n_early };
         for k in steps {
@@ -241,16 +248,17 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// Computes the rates of the continuous states `[unit of the state / s]` at time `t` `[s]`, from the signals as
-    /// they now are; `derivatives` is as long as there are states.
+    /// Computes the time derivatives of the continuous states, each in its unit per second, at time `t` `[s]` from the
+    /// signals as they now are; `derivatives` has `Program::n_states` entries. `tick` and `time_event` as in
+    /// [`Runner::minor`].
     pub fn derivatives(&mut self, tick: u64, t: f64, time_event: f64, derivatives: &mut [R]) {
         self.with_each_state(tick, t, time_event, |instance, at, states| {
             instance.derivatives(at, &mut derivatives[states])
         });
     }
 
-    /// Diagonal of −∂f/∂x of the continuous states at time `t` `[s]`, one entry each `[1/s]`: see
-    /// [`crate::block::Block::neg_jacobian_diagonal`].
+    /// Computes the diagonal of −∂f/∂x `[1/s]` of the continuous states at time `t` `[s]`; `diagonal` has
+    /// `Program::n_states` entries, `tick` is the last tick. See [`crate::block::Block::neg_jacobian_diagonal`].
     pub fn neg_jacobian_diagonal(&mut self, tick: u64, t: f64, diagonal: &mut [R]) {
         diagonal.fill(R::zero());
         self.with_each_state(tick, t, f64::INFINITY, |instance, at, states| {
@@ -282,7 +290,7 @@ impl<R: Number> Runner<R> {
         }
     }
 
-    /// Remarks of the blocks on the run so far, each with the block's path.
+    /// Remarks of the blocks on the run so far: path of the block and text, in the order of evaluation.
     #[must_use]
     pub fn notices(&self) -> Vec<(&str, String)> {
         let of_step = |step: &'_ Step| {
@@ -292,7 +300,8 @@ impl<R: Number> Runner<R> {
         self.program.steps.iter().filter_map(|step| Some((step.path.as_str(), of_step(step)?))).collect()
     }
 
-    /// The first block whose output is not finite, with the number of the component.
+    /// First block with an output that is not finite, and the index of the component among its outputs (counted from
+    /// 0); `None` if all are finite.
     #[must_use]
     pub fn not_finite(&self) -> Option<(&Step, usize)> {
         // x·0 is 0 for every finite x: one sum tells whether to look closer

@@ -9,7 +9,7 @@ use crate::compile::{CompileError, Interface, compile};
 use crate::diagram::Diagram;
 use crate::runner::Runner;
 
-/// A diagram that runs alone.
+/// Simulation of a diagram alone, without a world, at a fixed step: for tests and small examples.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::LowPass;
@@ -28,7 +28,7 @@ use crate::runner::Runner;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Simulator {
-    /// The diagram.
+    /// Diagram with its state.
     pub runner: Runner<f64>,
     tick: u64,
     derivatives: [Vec<f64>; 4],
@@ -36,11 +36,11 @@ pub struct Simulator {
 }
 
 impl Simulator {
-    /// Compiles a diagram with base step `step` `[s]` and evaluates its first tick.
+    /// Compiles a diagram with the base step `step` `[s]` and evaluates its first tick, at t = 0.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the diagram.
+    /// [`CompileError`] with everything that is wrong with the diagram.
     pub fn new(diagram: &Diagram, step: f64) -> Result<Self, CompileError> {
         let program = Arc::new(compile(diagram, &Interface::new(step))?);
         let zero = vec![0.0; program.n_states];
@@ -56,7 +56,8 @@ impl Simulator {
         self.tick as f64 * self.runner.program().step
     }
 
-    /// Goes on by one base step.
+    /// Advances by one base step: continuous states by the Runge–Kutta method of order 4, then the outputs of the new
+    /// tick.
     pub fn advance(&mut self) {
         let (t, h, tick) = (self.t(), self.runner.program().step, self.tick);
         self.runner.update(tick, t);
@@ -80,12 +81,12 @@ impl Simulator {
         self.runner.evaluate(self.tick, now);
     }
 
-    /// Present output of a block, such as `pid` or `loop/pid` (of several: `block.port`): its components in the unit of
-    /// the signal.
+    /// Present output of a block, such as `pid` or `loop/pid` (`block.port` where there are several): its components,
+    /// in the unit of the signal.
     ///
     /// # Panics
     ///
-    /// If there is none of that name.
+    /// If there is no output of that name.
     #[must_use]
     pub fn output(&self, name: &str) -> &[f64] {
         let found = self.runner.program().outputs().find(|(known, ..)| known == name);
@@ -95,6 +96,10 @@ impl Simulator {
 
     /// Advances `n` base steps and returns the first component of an output at every tick, the start included: `n + 1`
     /// numbers in the unit of the signal.
+    ///
+    /// # Panics
+    ///
+    /// If there is no output of that name.
     pub fn record(&mut self, name: &str, n: usize) -> Vec<f64> {
         let mut rows = vec![self.output(name)[0]];
         for _ in 0..n {

@@ -8,7 +8,8 @@ use core::fmt;
 /// Base quantities: kilogram, metre, second, ampere, kelvin, radian.
 const N_BASES: usize = 6;
 
-/// A unit as a text that a person wrote, with its powers of the SI base units.
+/// Unit of a signal, as text with its dimension: the compiler compares the units of connected ports. Displays as
+/// written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
     /// Text as it was written.
@@ -49,11 +50,12 @@ const SYMBOLS: [(&str, f64, [i8; N_BASES]); 26] = [
 ];
 
 impl Unit {
-    /// Parses text such as `N·m·s/rad`, `m/s^2`, `kg·m²`, `1/s`.
+    /// Parses a product of symbols with whole exponents, such as `N·m·s/rad`, `m/s^2`, `kg·m²`, `1/s`; every factor
+    /// after a `/` stands below it.
     ///
     /// # Errors
     ///
-    /// A symbol that means nothing.
+    /// A message that names the symbol or exponent that is unknown.
     ///
     /// ```
     /// use sincro_blocks::unit::Unit;
@@ -93,13 +95,14 @@ impl Unit {
         Ok(())
     }
 
-    /// Size in coherent units, and exponents of kilogram, metre, second, ampere, kelvin, radian.
+    /// Size of the unit in coherent SI units, and its exponents of kilogram, metre, second, ampere, kelvin, radian, in
+    /// this order: of `mm` 0.001 and `[0, 1, 0, 0, 0, 0]`.
     #[must_use]
     pub fn dimension(&self) -> (f64, [i8; 6]) {
         (self.factor, self.exponents)
     }
 
-    /// Returns true if a number means the same in both.
+    /// Returns true if both have the same dimension and size, so that a number means the same in both.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
         self.exponents == other.exponents && (self.factor - other.factor).abs() <= 1e-9 * self.factor.abs()
@@ -128,11 +131,11 @@ impl fmt::Display for Unit {
     }
 }
 
-/// The unit that all known ones have in common: for blocks that pass a signal on, add or compare.
+/// Unit that all known ones have in common, `None` if none is known: for blocks that pass a signal on, add or compare.
 ///
 /// # Errors
 ///
-/// Two that differ.
+/// A message that names two units that differ.
 pub fn common(units: &[Option<Unit>]) -> Result<Option<Unit>, String> {
     let mut first: Option<&Unit> = None;
     for unit in units.iter().flatten() {

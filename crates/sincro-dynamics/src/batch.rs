@@ -21,24 +21,25 @@ use crate::signal::Signal;
 use crate::state::State;
 use crate::world::{MethodKind, Stop, World};
 
-/// One world of a batch.
+/// World of a batch: model, state, commands, and what a run of [`advance`] leaves in it.
 #[derive(Clone, Debug)]
 pub struct BatchWorld {
-    /// Its model; all worlds of a batch have the same structure.
+    /// Model; those of a batch differ in their numbers only.
     pub model: Model<f64>,
-    /// Initial state, and after the run the final one.
+    /// State: the initial one before the run, the last one reached after it.
     pub state: State<f64>,
-    /// Commands of every motor for every tick, tick by tick; empty: those in `state` throughout.
+    /// Commands for every step, each in the unit of its actuator: `n_steps` rows of [`Model::n_commands`] numbers, one
+    /// row after the other; empty to hold those in `state`.
     pub commands: Vec<f64>,
-    /// Reason why it stopped before the end, if it did.
+    /// Reason for which it stopped before the end; `None` if it did not.
     pub stop: Option<Stop>,
-    /// Coordinates and velocities at every recorded tick, one after the other (`n_q + n_v` a record); the start is the
-    /// first.
+    /// Recorded coordinates and velocities in SI units: rows of n_q + n_v numbers, one row after the other, the first
+    /// at the start, then one every `record_every` steps. A run appends to it.
     pub record: Vec<f64>,
 }
 
 impl BatchWorld {
-    /// A world that starts in `state` and keeps its commands.
+    /// World that starts in `state` and holds the commands in it.
     #[must_use]
     pub fn new(model: Model<f64>, state: State<f64>) -> Self {
         Self { model, state, commands: Vec::new(), stop: None, record: Vec::new() }
@@ -48,9 +49,9 @@ impl BatchWorld {
 /// Method, step and length of a batch, the same for all its worlds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BatchSettings {
-    /// A fixed-step method.
+    /// Integration method, one with a fixed step.
     pub method: MethodKind,
-    /// Step `[s]`.
+    /// Step size `[s]`, positive.
     pub h: f64,
     /// Number of steps.
     pub n_steps: u32,
@@ -58,15 +59,35 @@ pub struct BatchSettings {
     pub record_every: u32,
 }
 
-/// Advances a few worlds; best as many as [`sincro_math::lanes::width`], or a multiple.
+/// Advances worlds by `n_steps` steps, as many at a time as the processor has lanes ([`sincro_math::lanes::width`]),
+/// with the same results as one by one. Worlds that lanes cannot take run alone.
 ///
 /// # Errors
 ///
-/// If the worlds differ in structure. A world that stops being finite is not an error of the batch: it says so itself.
+/// [`PackError`] if the models differ in more than numbers; it names the part. A world that stops being finite is no
+/// error of the batch: its own [`BatchWorld::stop`] says so.
 ///
 /// # Panics
 ///
-/// If the method is one of error control, whose worlds have no common step.
+/// If the method is one with error control, whose worlds have no common step.
+///
+/// ```
+/// use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance};
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -1.0], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // eight pendulums, from 0.1 to 0.8 rad: one second with steps of 1 ms
+/// let start = |k: u32| State { q: vec![0.1 * f64::from(k + 1)], ..State::new(&model) };
+/// let mut worlds: Vec<_> = (0..8).map(|k| BatchWorld::new(model.clone(), start(k))).collect();
+/// advance(&mut worlds, &BatchSettings { method: MethodKind::Rk4, h: 0.001, n_steps: 1000, record_every: 0 })?;
+/// assert!(worlds.iter().all(|world| world.stop.is_none() && world.state.q[0] < 0.0)); // on the other side
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<(), PackError> {
     let fixed = matches!(settings.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
     assert!(fixed, "a batch has a fixed step");
@@ -86,7 +107,7 @@ fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     obstacle_to_lanes(&world.model).is_none() && world.model.next_time_event(-1.0) >= end
 }
 
-/// Part of a model that lanes cannot advance together, in words; none if there is none.
+/// Part of a model that lanes cannot advance together, in words for a message; `None` if there is none.
 #[must_use]
 pub fn obstacle_to_lanes(model: &Model<f64>) -> Option<&'static str> {
     if model.params.drives.iter().any(|d| model.drive_limit(d).is_some()) {
@@ -99,7 +120,8 @@ pub fn obstacle_to_lanes(model: &Model<f64>) -> Option<&'static str> {
     (!model.constraints().is_empty()).then_some("contacts, loop joints or limits of joints")
 }
 
-/// Returns true if the forces on a model do not depend on time by themselves: signals are constant, the air is steady.
+/// Returns true if the forces on a model do not depend on time explicitly: its signals are constant, the wind is
+/// steady.
 #[must_use]
 pub fn is_time_invariant(model: &Model<f64>) -> bool {
     let applied = model.applied().iter().flat_map(|a| &a.signal);
@@ -108,8 +130,9 @@ pub fn is_time_invariant(model: &Model<f64>) -> bool {
     applied.chain(wrenches).all(is_constant) && model.wind().is_none_or(Wind::is_steady)
 }
 
-/// Worlds of one structure in lanes, advanced step by step: their states and commands can be set between steps. Their
-/// forces must not depend on time ([`is_time_invariant`]): each lane has a clock of its own.
+/// Worlds of one structure in the lanes of `R`, advanced step by step, for training: states and commands of each lane
+/// can be set between steps. Forces must not depend on time ([`is_time_invariant`]), since each lane has a clock of its
+/// own.
 #[derive(Clone, Debug)]
 pub struct SteppedLanes<R> {
     lanes: LaneWorlds<R>,
@@ -125,15 +148,17 @@ enum FixedMethod<R> {
 }
 
 impl<R: Real> SteppedLanes<R> {
-    /// Lanes of these models; the last one fills the lanes that are left over.
+    /// Puts `models[k]` into lane k; the last model fills the remaining lanes. The initial state is all zeros: set each
+    /// lane before the first step.
     ///
     /// # Errors
     ///
-    /// The models differ in structure.
+    /// [`PackError`] if the models differ in more than their numbers; it names the part.
     ///
     /// # Panics
     ///
-    /// The method is one of error control, or lanes cannot advance the models ([`obstacle_to_lanes`]).
+    /// If the method `kind` has error control, if there is no model, or if lanes cannot take one
+    /// ([`obstacle_to_lanes`]).
     pub fn new(models: &[&Model<f64>], kind: MethodKind) -> Result<Self, PackError> {
         assert!(models.iter().all(|model| obstacle_to_lanes(model).is_none()), "lanes advance these models");
         let mechanism = Mechanism::new(Model::<R>::pack(models)?, false);
@@ -148,7 +173,8 @@ impl<R: Real> SteppedLanes<R> {
         Ok(Self { lanes: LaneWorlds { y: vec![R::zero(); dim], reach_target_velocities, mechanism }, method })
     }
 
-    /// Sets the state of one lane: coordinates (n_q), velocities (n_v), rotors, in SI units.
+    /// Sets the state of lane `lane`, 0 to `R::LANES` − 1 (others: no effect): coordinates (n_q), velocities (n_v) and
+    /// rotor states of `state`, in SI units. Commands and the rest of it are ignored.
     pub fn set_lane(&mut self, lane: usize, state: &State<f64>) {
         let LaneWorlds { mechanism, y, .. } = &mut self.lanes;
         let with = |old: R, new: f64| R::from_lanes(|k| if k == lane { new } else { old.lane(k) });
@@ -165,12 +191,13 @@ impl<R: Real> SteppedLanes<R> {
         }
     }
 
-    /// Commands of all lanes in SI units, one for each motor and rotor, held until they are set again.
+    /// Commands of all lanes, [`Model::n_commands`] numbers in the model's order and each in the unit of its actuator,
+    /// to be written before a step; held until they are written again.
     pub fn commands(&mut self) -> &mut [R] {
         &mut self.lanes.mechanism.commands
     }
 
-    /// Makes one step of length `h` `[s]`.
+    /// Makes one step of length `h` `[s]` in all lanes.
     #[inline(always)]
     pub fn step(&mut self, h: f64) {
         let Self { lanes, method } = self;
@@ -189,8 +216,8 @@ impl<R: Real> SteppedLanes<R> {
         }
     }
 
-    /// State of all lanes as it can be observed; poses `[m]` and twists `[rad/s]`, `[m/s]` of links are computed if
-    /// `with_kinematics`.
+    /// State of all lanes as sensors and controllers see it; with `with_kinematics` the poses `[m]` and twists
+    /// `[rad/s]`, `[m/s]` of links in its scratch are those of the state, else they are outdated. Its time is always 0.
     #[inline(always)]
     pub fn view(&mut self, with_kinematics: bool) -> StateView<'_, R> {
         let LaneWorlds { mechanism, y, reach_target_velocities: zeros } = &mut self.lanes;
@@ -204,14 +231,15 @@ impl<R: Real> SteppedLanes<R> {
         StateView { t: 0.0, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
     }
 
-    /// Returns true if all numbers of a lane are finite.
+    /// Returns true if all coordinates and velocities of lane `lane` (0 to `R::LANES` − 1) are finite.
     #[must_use]
     pub fn is_finite(&self, lane: usize) -> bool {
         self.lanes.y.iter().chain(self.lanes.mechanism.base()).all(|x| x.lane(lane).is_finite())
     }
 }
 
-/// Advances one world by itself, without lanes, by the steps that `settings` say.
+/// Advances one world by itself, without lanes, by `n_steps` steps of `settings`; any method. The results are those of
+/// [`advance`]; if it stops early, [`BatchWorld::stop`] has the reason and `state` the last state reached.
 pub fn advance_alone(world: &mut BatchWorld, settings: &BatchSettings) {
     let (n_q, n_commands) = (world.model.n_q(), world.model.n_commands());
     let control = Control::new(1.0, settings.h);

@@ -12,24 +12,27 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::scratch::Scratch;
 
-/// Coupled system: continuous states z that are integrated together with a mechanism.
+/// Continuous system integrated together with a mechanism, such as a block diagram that controls it: states z, commands
+/// at every evaluation, derivatives of z. Given to [`World::advance_with`](crate::world::World::advance_with).
 pub trait CoupledSystem<R: Real> {
-    /// Continuous states z of the system, as they are between steps, each in its own unit.
+    /// Continuous states z between steps, each in its own unit; the world reads them before a step and writes the new
+    /// ones after it. Their number never changes.
     fn states(&mut self) -> &mut [R];
 
-    /// Announces a sub-step: the time event at its end `[s]` if there is one, else infinity.
+    /// Announces the time event at the end of the coming sub-step `[s]`, infinite if none is there: evaluations at that
+    /// instant still belong to the time before it.
     fn set_time_event(&mut self, event: f64);
 
     /// Next time event: the first instant after `t` `[s]` at which the system is discontinuous because of time alone;
-    /// infinity if there is none.
+    /// infinite if there is none.
     fn next_time_event(&self, t: f64) -> f64;
 
-    /// Writes the commands that the system determines at this instant, with the states `z`, each in the unit of its
-    /// actuator; the others are held.
+    /// Writes the commands that the system determines at this instant with the states `z`. `commands` are all commands
+    /// of the model (n_commands), each in the unit of its actuator; entries that are not written keep their values.
     fn find_commands(&mut self, state_view: &mut StateView<'_, R>, z: &[R], commands: &mut [R]);
 
-    /// Writes the derivatives of `z`, with the accelerations and motor torques that follow from the commands just
-    /// given.
+    /// Writes the derivatives of `z` into `slope` (same length, units of `z` per second), given the accelerations and
+    /// motor torques that follow from the commands just found.
     fn slope(
         &mut self,
         state_view: &mut StateView<'_, R>,
@@ -38,40 +41,40 @@ pub trait CoupledSystem<R: Real> {
         slope: &mut [R],
     );
 
-    /// Diagonal of −∂f/∂z at the instant of the last [`CoupledSystem::slope`], as far as known [1/s]; implicit methods
-    /// evaluate it at the new state.
+    /// Writes the diagonal of −∂f/∂z at the instant of the last [`CoupledSystem::slope`] `[1/s]`, one entry for each
+    /// state, 0 where unknown; implicit methods evaluate these terms at the new state.
     fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]);
 }
 
-/// State view: the mechanism at one instant, as a coupled system or a sensor sees it.
+/// Mechanism at one instant, as a coupled system, sensor or controller sees it.
 #[derive(Debug)]
 pub struct StateView<'a, R> {
     /// Time `[s]`.
     pub t: f64,
-    /// The model.
+    /// Model, which gives the order of the vectors below.
     pub model: &'a Model<R>,
-    /// Coordinates.
+    /// Coordinates `[rad]`, `[m]`, quaternions (w, x, y, z); n_q.
     pub q: &'a [R],
-    /// Velocities.
+    /// Velocities `[rad/s]`, `[m/s]`; n_v.
     pub v: &'a [R],
-    /// States of rotors.
+    /// Rotor states, as [`State::rotors`](crate::state::State::rotors) has them: speeds `[rad/s]`, mass flows `[kg/s]`.
     pub rotors: &'a [R],
-    /// Commands as they were last given; empty while they are being written.
+    /// Commands last given, each in the unit of its actuator (n_commands); empty while they are being written.
     pub commands: &'a [R],
-    /// Working memory for kinematics, of any content.
+    /// Working memory for kinematics; its content is undefined until poses or motions are computed in it.
     pub scratch: &'a mut Scratch<R>,
 }
 
-/// Response of the mechanism to the commands.
+/// Response of the mechanism to the commands just found, argument of [`CoupledSystem::slope`].
 #[derive(Clone, Copy, Debug)]
 pub struct MechanismResponse<'a, R> {
-    /// Accelerations [rad/s²] or [m/s²].
+    /// Accelerations `[rad/s²]`, `[m/s²]`; n_v.
     pub accelerations: &'a [R],
-    /// Smooth torque of each motor [N·m] or `[N]`; empty unless totals are tracked.
+    /// Smooth torque of each motor `[N·m]` or `[N]`, in the order of the motors; empty unless totals are tracked.
     pub motor_torque: &'a [R],
 }
 
-/// The coupled system without states that leaves all commands as they are.
+/// Coupled system without states that leaves all commands as they are: for a mechanism alone.
 #[derive(Clone, Copy, Debug)]
 pub struct NoCoupling;
 
@@ -99,14 +102,14 @@ fn state_view<'a, R: Real>(mechanism: &'a mut Mechanism<R>, t: f64, y: &'a [R]) 
     StateView { t, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
 }
 
-/// Mechanism and coupled system as one [`System`].
+/// Mechanism and coupled system as one [`System`] for an integrator, with the unknowns y = (mechanism's y, z).
 #[derive(Debug)]
 pub struct Coupled<'a, R, A: ?Sized> {
-    /// The mechanism.
+    /// Mechanism, with the commands that the system writes.
     pub mechanism: &'a mut Mechanism<R>,
     /// Coupled system.
     pub system: &'a mut A,
-    /// Diagonal of −∂f/∂z, working memory as long as z.
+    /// Working memory for the diagonal of −∂f/∂z `[1/s]`; its length is the number of states z.
     pub negated_jacobian_diagonal: &'a mut [R],
 }
 

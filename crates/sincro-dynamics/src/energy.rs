@@ -8,7 +8,7 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 
-/// Mechanical energy of all bodies, by kind `[J]`.
+/// Mechanical energy of a mechanism `[J]`: kinetic, and potential of gravity and springs.
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -27,20 +27,21 @@ use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy<R> {
-    /// ½ vᵀ M v, armature included.
+    /// Kinetic energy ½ vᵀ M v `[J]`, armature included.
     pub kinetic: R,
-    /// Potential energy of gravity, zero at the world's origin, and of springs, zero at rest.
+    /// Potential energy `[J]`: of gravity, zero at the world's origin, and of springs, zero at rest.
     pub potential: R,
 }
 
 impl<R: Real> Energy<R> {
-    /// Kinetic plus potential `[J]`.
+    /// Sum of kinetic and potential energy `[J]`.
     pub fn total(&self) -> R {
         self.kinetic + self.potential
     }
 }
 
-/// Energy at a state, after [`kinematics::motions`] at that state.
+/// Energy `[J]` at the coordinates `q` (n_q) and velocities `v` (n_v); `scratch` must hold [`kinematics::motions`] of
+/// the same state.
 pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>) -> Energy<R> {
     let half = R::splat(0.5);
     let mut e = Energy { kinetic: R::zero(), potential: R::zero() };
@@ -77,8 +78,8 @@ fn gravity_energy<R: Real>(gravity: Vec3<R>, inertia: &RigidInertia<R>, pose: &P
     -gravity.dot(first_moment)
 }
 
-/// Momentum of all bodies about the world's origin, world axes: angular [kg·m²/s], linear [kg·m/s]; after
-/// [`kinematics::motions`].
+/// Momentum of all bodies about the world's origin, in world axes: angular `[kg·m²/s]`, linear `[kg·m/s]`; armature
+/// left out. `scratch` must hold [`kinematics::motions`].
 pub fn momentum<R: Real>(model: &Model<R>, scratch: &Scratch<R>) -> Force<R> {
     let mut sum = Force::zero();
     for (i, inertia) in model.params.inertias.iter().enumerate() {
@@ -91,7 +92,8 @@ pub fn momentum<R: Real>(model: &Model<R>, scratch: &Scratch<R>) -> Force<R> {
     sum
 }
 
-/// Mechanical energy `[J]` at coordinates `q` (n_q) and velocities `v` (n_v); recomputes the kinematics in `scratch`.
+/// Mechanical energy `[J]` at coordinates `q` (n_q) and velocities `v` (n_v); recomputes the kinematics of that state
+/// in `scratch`.
 #[must_use]
 pub fn energy_at(model: &Model<f64>, q: &[f64], v: &[f64], scratch: &mut Scratch<f64>) -> Energy<f64> {
     kinematics::motions(model, q, v, v, scratch);

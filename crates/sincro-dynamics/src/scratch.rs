@@ -18,7 +18,7 @@ use crate::spatial::{ArticulatedInertia, Force, Motion, Pose, RigidInertia};
 /// | `ia` | articulated inertia | link | tip to base (ABA) |
 /// | `pa` | articulated bias force; in RNEA the wrench through the joint | link | tip to base |
 #[derive(Clone, Copy, Debug, Default)]
-pub struct LinkScratch<R> {
+pub(crate) struct LinkScratch<R> {
     pub(crate) at: Placement<R>,
     pub(crate) v: Motion<R>,
     pub(crate) c: Motion<R>,
@@ -37,7 +37,7 @@ pub struct LinkScratch<R> {
 /// | `x` | u/D, or the prescribed acceleration of a held one |
 /// | `force` | u = τ − Sᵀ·pA |
 #[derive(Clone, Copy, Debug, Default)]
-pub struct DofScratch<R> {
+pub(crate) struct DofScratch<R> {
     pub(crate) u: Force<R>,
     pub(crate) d: R,
     pub(crate) inv_d: R,
@@ -45,7 +45,8 @@ pub struct DofScratch<R> {
     pub(crate) force: R,
 }
 
-/// Working memory of one world (or of one bundle of lanes).
+/// Working memory of the algorithms on one model: intermediate results of recursions and kinematics. Made once by
+/// [`Scratch::new`], may be dropped at any time; each algorithm says what it leaves in it.
 #[derive(Clone, Debug)]
 pub struct Scratch<R> {
     pub(crate) links: Vec<LinkScratch<R>>,
@@ -59,13 +60,14 @@ pub struct Scratch<R> {
 }
 
 impl<R: Real> Scratch<R> {
-    /// Twist of a link in link axes about its origin, after [`motions`](crate::recursions::kinematics::motions).
+    /// Twist of link `link` (index in [`Model::links`]) about its origin, in link axes: angular `[rad/s]`, linear
+    /// `[m/s]`; after [`motions`](crate::recursions::kinematics::motions). Panics if there is no such link.
     #[must_use]
     pub fn twist(&self, link: usize) -> crate::spatial::Motion<R> {
         self.links[link].v
     }
 
-    /// Allocates the working memory for `model`, filled with zeros.
+    /// Allocates the working memory for `model`, filled with zeros; for no other model.
     #[must_use]
     pub fn new(model: &Model<R>) -> Self {
         Self {
@@ -77,20 +79,21 @@ impl<R: Real> Scratch<R> {
         }
     }
 
-    /// Bytes on the heap.
+    /// Bytes that it takes on the heap; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         size_of_val(&*self.links) + size_of_val(&*self.dofs) + size_of_val(&*self.poses) + size_of_val(&*self.reaction)
     }
 
-    /// Poses of the link frames in the world, as last computed by [`crate::recursions::kinematics::poses`].
+    /// Poses of the link frames in the world `[m]`, in the order of [`Model::links`], as last computed by
+    /// [`crate::recursions::kinematics::poses`].
     #[must_use]
     pub fn link_poses(&self) -> &[Pose<R>] {
         &self.poses
     }
 
-    /// Torque that each held degree of freedom needed beyond the given one in the last
-    /// [`crate::recursions::aba::forward_dynamics`].
+    /// Torque `[N·m]` or force `[N]` that each prescribed degree of freedom needed beyond the given one in the last
+    /// [`crate::recursions::aba::forward_dynamics`]: n_v entries, meaningless for free ones.
     #[must_use]
     pub fn reaction(&self) -> &[R] {
         &self.reaction

@@ -4,45 +4,54 @@ use std::sync::Arc;
 
 use sincro_math::elementary::sin_cos;
 
-/// A number that depends on time `[s]`, and on nothing else.
+/// Function of time alone, for forces and torques of a model: a value in the unit of its use (such as N or N·m) over
+/// time `[s]`.
+///
+/// ```
+/// use sincro_dynamics::signal::Signal;
+///
+/// let pulse = Signal::Pulse { period: 2.0, width: 0.5, low: 0.0, high: 3.0, start: 1.0 };
+/// assert_eq!([0.9, 1.2, 1.6, 3.1].map(|t| pulse.value(t)), [0.0, 3.0, 0.0, 3.0]);
+/// assert_eq!(pulse.next_time_event(1.2), 1.5); // [s]
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Signal {
-    /// The same at all times.
+    /// Same value at all times, in the unit of the signal.
     Constant(f64),
     /// `from` before `time`, `to` from then on.
     Step {
         /// Instant of the jump `[s]`.
         time: f64,
-        /// Before.
+        /// Value before `time`.
         from: f64,
-        /// From `time` on.
+        /// Value from `time` on.
         to: f64,
     },
     /// `from` until `start`, then rising by `slope` a second, constant again from `until`.
     Ramp {
         /// Start of the ramp `[s]`.
         start: f64,
-        /// Rise [1/s].
+        /// Slope, in the value's unit per second.
         slope: f64,
         /// Value at and before the start.
         from: f64,
-        /// End of the ramp `[s]`; infinite for never.
+        /// End of the ramp `[s]`; infinite for none.
         until: f64,
     },
     /// `offset + amplitude·sin(angular_frequency·t + phase)`.
     Sine {
-        /// Peak value.
+        /// Amplitude, in the value's unit.
         amplitude: f64,
-        /// [rad/s]
+        /// Angular frequency `[rad/s]`.
         angular_frequency: f64,
-        /// `[rad]`
+        /// Phase at t = 0 `[rad]`.
         phase: f64,
-        /// Mean value.
+        /// Mean value, in the value's unit.
         offset: f64,
     },
     /// From `start` on `high` for the first `width` seconds of every `period`, `low` otherwise.
     Pulse {
-        /// `[s]`
+        /// Time from one rising edge to the next `[s]`.
         period: f64,
         /// Time at `high` in each period `[s]`.
         width: f64,
@@ -57,9 +66,9 @@ pub enum Signal {
     Table {
         /// Increasing times `[s]`.
         times: Arc<[f64]>,
-        /// Values at those times.
+        /// Values at those times, as many.
         values: Arc<[f64]>,
-        /// Linear between points, else held from each point to the next.
+        /// True for linear interpolation between points, false to hold each value until the next point.
         linear: bool,
     },
 }
@@ -68,7 +77,7 @@ pub enum Signal {
 const SAME_INSTANT: f64 = 1e-9;
 
 impl Signal {
-    /// Value at time `t` `[s]`.
+    /// Value at time `t` `[s]`, in the signal's unit.
     #[must_use]
     pub fn value(&self, t: f64) -> f64 {
         match *self {
@@ -93,7 +102,7 @@ impl Signal {
         }
     }
 
-    /// Value in the signal's unit, if it is the same at all times.
+    /// Value, in the signal's unit, of a [`Signal::Constant`]; `None` for every other kind.
     #[must_use]
     pub fn constant(&self) -> Option<f64> {
         match *self {
@@ -102,8 +111,8 @@ impl Signal {
         }
     }
 
-    /// Highest frequency `[Hz]` of the signal up to time `until` `[s]`: of a sine, or of a table that is read at ticks
-    /// only (`is_sampled`). Jumps and corners inside a step are located as time events and have none.
+    /// Highest frequency `[Hz]` of the signal up to time `until` `[s]`, for choosing a step size: of a sine, or of a
+    /// table that is read at ticks only (`is_sampled`); else 0, since jumps and corners are located as time events.
     #[must_use]
     pub fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
         match self {
@@ -117,8 +126,8 @@ impl Signal {
         }
     }
 
-    /// Next time event: the first instant after `t` at which the signal or its slope jumps, so that no integration step
-    /// straddles it; infinite if there is none.
+    /// Next time event: the first instant after `t` `[s]` at which the signal or its slope jumps, so that no
+    /// integration step straddles it; infinite if there is none.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         let after = |x: f64| if x > t + SAME_INSTANT { x } else { f64::INFINITY };

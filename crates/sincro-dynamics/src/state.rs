@@ -43,27 +43,29 @@ use crate::spatial::{Quat, Vec3};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<R> {
-    /// Coordinates.
+    /// Coordinates `[rad]`, `[m]`, quaternions (w, x, y, z); n_q, a joint's at
+    /// [`JointInfo::q_idx`](crate::model::JointInfo).
     pub q: Vec<R>,
-    /// Velocities.
+    /// Velocities `[rad/s]`, `[m/s]`; n_v, a joint's at [`JointInfo::v_idx`](crate::model::JointInfo).
     pub v: Vec<R>,
-    /// Latched commands: of motors, in the units of each one's mode; of forces `[N]`, [N·m].
+    /// Latched commands, each in the unit of its actuator, in the order of [`Model::n_commands`].
     pub commands: Vec<R>,
-    /// State of each set-valued drive.
+    /// State of each drive, in the order of [`Model::drives`]: 0 locked, +1 or −1 saturated upwards or downwards.
     pub drives: Vec<R>,
-    /// Warm start of the constraint solver.
+    /// Warm start of the constraint solver; see the table.
     pub contacts: Vec<R>,
-    /// Integrated work `[J]`, dissipation `[J]`, and impulse of each motor [N·m·s].
+    /// Integrated work `[J]`, dissipated energy `[J]`, then the impulse of each motor `[N·m·s]` or `[N·s]`.
     pub totals: Vec<R>,
-    /// Speed of each rotor with a lag [rad/s]; mass that a stock propeller throws during the present tick, by its
-    /// length [kg/s].
+    /// Rotor states, in the order of the rotors that have one: speed of a rotor with a lag `[rad/s]`, mass flow of a
+    /// stock propeller during the present tick `[kg/s]`.
     pub rotors: Vec<R>,
-    /// Base steps since the start.
+    /// Number of base steps since the start.
     pub tick: u64,
 }
 
 impl<R: Real> State<R> {
-    /// At rest, all coordinates zero (quaternions: no rotation), commands zero.
+    /// State at rest, with all coordinates zero (quaternions: no rotation), commands zero, rotors at their initial
+    /// speeds.
     #[must_use]
     pub fn new(model: &Model<R>) -> Self {
         let mut q = vec![R::zero(); model.n_q()];
@@ -86,7 +88,7 @@ impl<R: Real> State<R> {
         }
     }
 
-    /// Bytes on the heap.
+    /// Bytes that it takes on the heap; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         let n = self.q.len()
@@ -109,9 +111,11 @@ fn empty_contacts<R: Real>(model: &Model<R>) -> Vec<R> {
     contacts
 }
 
-/// `out = q ⊕ step`: coordinates moved by `step` (`n_v`) in the tangent: added to plain coordinates; for a quaternion
-/// the rotation by the step's angular part in child axes; a free joint's position moves by its linear part turned into
-/// parent axes. `out` may not overlap `q`.
+/// Moves coordinates along a tangent vector: `out = q ⊕ step`, with `q` and `out` of `n_q` entries and `step` of `n_v`,
+/// in the units of v times seconds. `out` may not overlap `q`.
+///
+/// Plain coordinates: a sum. Quaternions: the rotation by the step's angular part, in child axes. The position of a
+/// free joint: moved by the step's linear part, turned from child to parent axes.
 #[inline(always)]
 pub fn displace<R: Real>(model: &Model<R>, q: &[R], step: &[R], out: &mut [R]) {
     if !model.has_quaternions() {

@@ -2,7 +2,7 @@
 //! resolve.
 //!
 //! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything
-//! beyond left free ([`crate::recursions::aba::joint_inertias`]), the rate is that of the faster root of D s² + c s + k
+//! beyond left free (`joint_inertias` in `recursions/aba.rs`), the rate is that of the faster root of D s² + c s + k
 //! = 0. Coupling between joints is neglected, and D changes with the pose.
 
 use crate::actuation::{MotorMode, SpringDamper};
@@ -13,30 +13,31 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::state::State;
 
-/// |h·λ| up to which RK4 is stable on the negative real axis. Source: key `hairer1996`, section IV.2.
+/// Stability limit of RK4 on the negative real axis: largest |h·λ| (dimensionless), for step h and root λ. Source: key
+/// `hairer1996`, section IV.2.
 pub const RK4_LIMIT: f64 = 2.785;
 
-/// Element whose rate is given.
+/// Element of a [`Stiffness`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StiffElement {
-    /// Spring and damper of a degree of freedom.
+    /// Spring and damper of the degree of freedom of this index in v.
     Dof(usize),
     /// Spring and damper between two points, by its index in [`Model::spring_dampers`].
     SpringDamper(usize),
 }
 
-/// The fastest element.
+/// Element with the fastest dynamics, from [`stiffest`]: the one that limits the step of explicit methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffness {
-    /// The element.
+    /// Element that it is.
     pub element: StiffElement,
-    /// Magnitude of the fastest root [1/s].
+    /// Magnitude of the fastest root of its mass–spring–damper equation `[1/s]`.
     pub rate: f64,
-    /// Stiffness on it [N·m/rad] or [N/m].
+    /// Stiffness `[N·m/rad]` or `[N/m]`.
     pub stiffness: f64,
-    /// Damping on it [N·m·s/rad] or [N·s/m].
+    /// Damping `[N·m·s/rad]` or `[N·s/m]`.
     pub damping: f64,
-    /// Inertia it acts on [kg·m²] or `[kg]`.
+    /// Inertia on which it acts, with all else free `[kg·m²]` or `[kg]`.
     pub inertia: f64,
 }
 
@@ -45,7 +46,8 @@ impl Stiffness {
         Self { element, rate: fastest_root(inertia, damping, stiffness), stiffness, damping, inertia }
     }
 
-    /// The element in words, with the name that the user gave it.
+    /// Description of the element for messages, with the name that the user gave it. `model` must be that of
+    /// [`stiffest`].
     #[must_use]
     pub fn element_name(&self, model: &Model<f64>) -> String {
         match self.element {
@@ -55,8 +57,8 @@ impl Stiffness {
     }
 }
 
-/// Fastest spring or damper at a state, with its rate `[1/s]`; none if there is none. Joints with ideal velocity motors
-/// are left out.
+/// Fastest spring or damper of `model` at a state, those of spring motors included; `None` if there is none. Joints
+/// held by ideal velocity motors are left out.
 #[must_use]
 pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     let inertias = joint_inertias(model, state);

@@ -11,12 +11,13 @@ use crate::spatial::{Pose, Vec3};
 /// Tolerance on opposite normals of two half spaces that have a distance between them.
 const OPPOSITE: f64 = 1e-12;
 
-/// The closest points of two surfaces.
+/// Closest points of two surfaces, from [`Geometry::closest`] or [`Geometry::closest_to`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// Distance `[m]`; 0 if they overlap.
+    /// Distance of the two points `[m]`; 0 if the surfaces overlap.
     pub distance: f64,
-    /// Points on the first and on the second, in the frame of the first `[m]`; one common point if they overlap.
+    /// Point on the first surface and point on the second, both in the frame of the first `[m]`; one common point if
+    /// the surfaces overlap.
     pub points: [Vec3<f64>; 2],
 }
 
@@ -31,8 +32,19 @@ impl Closest {
 }
 
 impl Geometry {
-    /// Returns the closest points of this surface and another one, whose frame stands at `x_ab` in this one's, if they
-    /// are within `max_distance` `[m]`.
+    /// Returns the closest points of this surface (the first) and `other`, whose pose in this surface's frame is `x_ab`
+    /// `[m]`; `None` if they are farther apart than `max_distance` `[m]`. For distance sensors and clearance checks.
+    ///
+    /// ```
+    /// use sincro_geometry::spatial::{Pose, Vec3};
+    /// use sincro_geometry::{Geometry, Shape, Surface};
+    ///
+    /// let ball = Geometry::new(Surface::Solid(Shape::Sphere { radius: 0.5 })).unwrap();
+    /// let x_ab = Pose::translation(Vec3([3.0, 0.0, 0.0]));
+    /// let closest = ball.closest(&ball, &x_ab, 10.0).unwrap();
+    /// assert!((closest.distance - 2.0).abs() < 1e-12); // [m]
+    /// assert!(ball.closest(&ball, &x_ab, 1.0).is_none());
+    /// ```
     #[must_use]
     pub fn closest(&self, other: &Self, x_ab: &Pose<f64>, max_distance: f64) -> Option<Closest> {
         let place = |core, radius, pose| Placed { core, radius, pose };
@@ -57,8 +69,8 @@ impl Geometry {
         found.filter(|closest| closest.distance <= max_distance)
     }
 
-    /// Returns the point of this surface that is closest to `p`, and `p` as the second point; both in this surface's
-    /// frame.
+    /// Returns the point of this surface closest to `p` (first) and `p` itself (second), both in this surface's frame
+    /// `[m]`. Inside a solid or half space the distance is 0; `None` for a mesh or height field without triangles.
     #[must_use]
     pub fn closest_to(&self, p: Vec3<f64>) -> Option<Closest> {
         let point = Placed { core: POINT, radius: 0.0, pose: Pose::translation(p) };

@@ -12,38 +12,42 @@ use crate::spatial::Vec3;
 /// Tolerance of points on the boundary of a volume, relative to its size.
 const ON: f64 = 1e-12;
 
-/// Volume of a field of view, along z of the sensor's frame.
+/// Shape of a proximity sensor's field of view, along z of the sensor's frame from a near to a far end; those are the
+/// `offset` and `range` of [`FieldOfView::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Volume {
-    /// A line.
+    /// Line along z.
     Ray,
-    /// Round, with these radii at its near and far end `[m]`; its ends are flat.
+    /// Round section, with a radius that changes linearly from the near to the far end; the ends are flat. At least one
+    /// radius is positive.
     Cylinder {
-        /// At its near end.
+        /// Radius at the near end `[m]`.
         radius: f64,
-        /// At its far end.
+        /// Radius at the far end `[m]`.
         far_radius: f64,
     },
-    /// A fan of rays in the plane of x and z, with this angle between the outermost `[rad]`, at most π.
+    /// Fan of rays in the plane of x and z, on both sides of z; its ends are at constant z (near) and constant distance
+    /// (far).
     Disc {
-        /// Angle.
+        /// Angle between the outermost rays `[rad]`, in (0, π].
         angle: f64,
     },
-    /// All directions within half this angle of z `[rad]`, at most π; its far end is a part of a sphere.
+    /// All directions within half the angle of z; its near end is flat, its far end part of a sphere.
     Cone {
-        /// Angle.
+        /// Full opening angle `[rad]`, in (0, π].
         angle: f64,
     },
-    /// Rectangular, with these widths along x and y at its near and far end `[m]`; its ends are flat.
+    /// Rectangular section, with widths that change linearly from the near to the far end; the ends are flat.
     Pyramid {
-        /// At its near end.
+        /// Widths along x and y at the near end `[m]`.
         size: [f64; 2],
-        /// At its far end.
+        /// Widths along x and y at the far end `[m]`.
         far_size: [f64; 2],
     },
 }
 
-/// Field of view: a volume with its near and far end.
+/// Field of view of a proximity sensor: a [`Volume`] with its near and far end, in the frame of the sensor (z is the
+/// axis of view). Made by [`FieldOfView::new`], used by [`FieldOfView::detect`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldOfView {
     pub(super) volume: Volume,
@@ -71,8 +75,10 @@ pub(super) struct Within<'a> {
 }
 
 impl FieldOfView {
-    /// Makes a volume from `offset` to `offset` + `range` before the sensor `[m]`; none unless all numbers are finite,
-    /// lengths not negative, the range positive, angles within (0, π].
+    /// Creates a field of view from z = `offset` to `offset` + `range` in front of the sensor `[m]`.
+    ///
+    /// `None` unless all numbers are finite, lengths not negative, the range positive, angles within (0, π], and the
+    /// section is not a point or line at both ends (but for [`Volume::Ray`]).
     #[must_use]
     pub fn new(volume: Volume, offset: f64, range: f64) -> Option<Self> {
         let end = offset + range;
@@ -119,25 +125,26 @@ impl FieldOfView {
         (fits && valid).then_some(Self { volume, offset, end, reach, bounds })
     }
 
-    /// Volume.
+    /// Shape of the field of view.
     #[must_use]
     pub fn volume(&self) -> Volume {
         self.volume
     }
 
-    /// Distance of its near end from the sensor `[m]`.
+    /// Distance of the near end from the sensor's origin, along z `[m]`.
     #[must_use]
     pub fn offset(&self) -> f64 {
         self.offset
     }
 
-    /// Length from its near to its far end `[m]`.
+    /// Length from the near to the far end, along z `[m]`.
     #[must_use]
     pub fn range(&self) -> f64 {
         self.end - self.offset
     }
 
-    /// Largest distance of detection from the origin `[m]`.
+    /// Distance of the farthest point of the field of view from the sensor's origin `[m]`: nothing beyond it is
+    /// detected.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.reach

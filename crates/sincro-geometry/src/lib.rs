@@ -55,33 +55,43 @@ pub use proximity::Detection;
 pub use shape::Shape;
 pub use surface::Surface;
 
-/// A ray: a point and a direction of length one, in whatever frame is said.
+/// Ray for [`Geometry::cast_ray`]: an origin and a unit direction, in the frame of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Origin `[m]`.
     pub origin: Vec3<f64>,
-    /// Direction, length one.
+    /// Direction of unit length (dimensionless); distances along the ray are in metres only then.
     pub direction: Vec3<f64>,
 }
 
 impl Ray {
-    /// Returns the point at a distance `[m]` from the origin.
+    /// Returns the point of the ray at `distance` from its origin `[m]`, in the frame of the ray `[m]`.
     #[must_use]
     pub fn at(&self, distance: f64) -> Vec3<f64> {
         self.origin + self.direction.scale(distance)
     }
 }
 
-/// Hit of a ray cast: the point where a ray enters a surface.
+/// Hit of a ray cast, from [`Geometry::cast_ray`]: the point where a ray enters a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Distance from the ray's origin `[m]`.
+    /// Distance of the point from the ray's origin `[m]`; the point itself is [`Ray::at`] of it.
     pub distance: f64,
-    /// Outward unit normal, in the frame of the ray.
+    /// Outward unit normal of the surface at the point, in the frame of the ray (dimensionless).
     pub normal: Vec3<f64>,
 }
 
-/// Surface prepared for ray casts, distances and detection.
+/// Surface prepared for ray casts, distances and detection by proximity sensors; made once by [`Geometry::new`].
+///
+/// ```
+/// use sincro_geometry::spatial::Vec3;
+/// use sincro_geometry::{Geometry, Ray, Shape, Surface};
+///
+/// let brick = Geometry::new(Surface::Solid(Shape::Cuboid { size: [2.0, 1.0, 1.0] })).unwrap();
+/// let ray = Ray { origin: Vec3([-5.0, 0.0, 0.0]), direction: Vec3([1.0, 0.0, 0.0]) };
+/// let hit = brick.cast_ray(&ray, 10.0).unwrap();
+/// assert_eq!((hit.distance, hit.normal), (4.0, Vec3([-1.0, 0.0, 0.0]))); // [m]
+/// ```
 #[derive(Clone)]
 pub struct Geometry {
     surface: Surface,
@@ -100,7 +110,8 @@ impl std::fmt::Debug for Geometry {
 }
 
 impl Geometry {
-    /// Prepares a surface; none if it has no extent that can be computed with, such as a flat hull.
+    /// Prepares a surface. `None` if it is degenerate: a hull of points in one plane, a mesh without triangles or with
+    /// inconsistent orientation.
     #[must_use]
     pub fn new(surface: Surface) -> Option<Self> {
         let library = ParryShape::of(&surface)?;
@@ -120,20 +131,20 @@ impl Geometry {
         Some(Self { surface, library, faces, bvh, reach })
     }
 
-    /// The surface.
+    /// Surface from which it was made, in its own frame.
     #[must_use]
     pub fn surface(&self) -> &Surface {
         &self.surface
     }
 
-    /// Radius of the bounding sphere about the frame's origin `[m]`; infinite for a half space.
+    /// Radius of the bounding sphere about the origin of the surface's frame `[m]`; infinite for a half space.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// Ray cast: the first point within `max_distance` `[m]` where a ray, given in the surface's frame, enters the
-    /// surface from outside. A ray that starts inside a solid does not hit it.
+    /// Returns the first point within `max_distance` `[m]` where `ray`, given in the surface's frame, enters the
+    /// surface from outside; `None` if there is none. A ray that starts inside a solid does not hit it.
     #[must_use]
     pub fn cast_ray(&self, ray: &Ray, max_distance: f64) -> Option<Hit> {
         let hit = match &self.surface {

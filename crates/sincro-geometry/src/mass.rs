@@ -15,30 +15,31 @@ use crate::spatial::{Mat3, Sym3, Vec3};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
-    /// `[kg]`
+    /// Mass `[kg]`.
     pub mass: f64,
-    /// Centre of mass in the body frame `[m]`.
+    /// Centre of mass (x, y, z) in the body's frame `[m]`.
     pub center_of_mass: [f64; 3],
-    /// About the centre of mass, body axes (xx, xy, xz, yy, yz, zz) [kg·m²].
+    /// Rotational inertia about the centre of mass, in the axes of the body's frame: xx, xy, xz, yy, yz, zz `[kg·m²]`.
+    /// Products of inertia are elements of the matrix, that is with the sign of −∫xy dm.
     pub inertia: [f64; 6],
 }
 
 impl MassProperties {
-    /// Principal moments of inertia about the centre of mass, ascending [kg·m²].
+    /// Principal moments of inertia about the centre of mass, in ascending order `[kg·m²]`.
     #[must_use]
     pub fn principal_moments(&self) -> [f64; 3] {
         eigenvalues(&Sym3(self.inertia))
     }
 
-    /// By how much the largest principal moment exceeds the sum of the others, relative to it; no rigid body has more
-    /// than 0.
+    /// Violation of the triangle inequality of the principal moments a ≤ b ≤ c: (c − a − b)/c (dimensionless). At most
+    /// 0 for every rigid body; 0 where c is not positive.
     #[must_use]
     pub fn triangle_excess(&self) -> f64 {
         let [a, b, c] = self.principal_moments();
         if c > 0.0 { (c - a - b) / c } else { 0.0 }
     }
 
-    /// The sum of several, each given in the same frame.
+    /// Mass properties of several bodies taken together, each given in the same frame. NaN if the total mass is zero.
     #[must_use]
     pub fn sum(parts: &[Self]) -> Self {
         let mass: f64 = parts.iter().map(|p| p.mass).sum();
@@ -59,7 +60,8 @@ impl MassProperties {
         Self { mass, center_of_mass, inertia }
     }
 
-    /// The same properties in a frame in which this one stands at rotation `rot` and position `pos`.
+    /// Same body described in another frame A: `rot` (from body to A) and `pos` `[m]` are rotation and origin of its
+    /// frame in A.
     #[must_use]
     pub fn placed(&self, rot: &Mat3<f64>, pos: Vec3<f64>) -> Self {
         Self {

@@ -8,12 +8,12 @@ use parry3d_f64::utils::Array2;
 use super::{Shape, Surface};
 use crate::spatial::{Mat3, Pose, Quat, Vec3};
 
-/// Shape of the library, and the pose of its frame in the surface's own.
+/// Surface as a shape of the collision library parry, which the narrow phase and ray casts against meshes use.
 #[derive(Clone)]
 pub struct ParryShape {
-    /// The shape.
+    /// Shape in the library's own frame, lengths in `[m]`.
     pub shape: SharedShape,
-    /// Pose of its frame in the surface's own.
+    /// Pose of the library's frame in that of the surface `[m]`.
     pub pose: Pose<f64>,
 }
 
@@ -21,7 +21,8 @@ pub struct ParryShape {
 const CYCLIC: Mat3<f64> = Mat3([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
 
 impl ParryShape {
-    /// Converts a surface; none if the library refuses it.
+    /// Converts a surface. `None` if the library refuses it: a hull of points in one plane, a mesh without triangles or
+    /// with inconsistent orientation.
     pub fn of(surface: &Surface) -> Option<Self> {
         let points = |list: &[[f64; 3]]| list.iter().map(|p| Vector::from_array(*p)).collect::<Vec<_>>();
         let plain = |shape: SharedShape| Some(Self { shape, pose: Pose::identity() });
@@ -59,7 +60,8 @@ impl ParryShape {
 }
 
 impl ParryShape {
-    /// Triangles of a mesh or height field, in the surface's frame; of others none.
+    /// Triangles of a mesh or height field, three corners each `[m]`, in the frame of the surface; empty for other
+    /// surfaces.
     pub fn triangles(&self) -> Vec<[Vec3<f64>; 3]> {
         let ours = |t: parry3d_f64::shape::Triangle| [t.a, t.b, t.c].map(|p| self.pose.point(vec3(p)));
         if let Some(mesh) = self.shape.as_trimesh() {
@@ -69,7 +71,7 @@ impl ParryShape {
     }
 }
 
-/// Converts a pose.
+/// Converts a pose `[m]` to the type of the collision library.
 pub fn parry_pose(x: &Pose<f64>) -> LibraryPose {
     let q = Quat::from_matrix(&x.rot);
     let mut pose = LibraryPose::IDENTITY;
@@ -78,7 +80,7 @@ pub fn parry_pose(x: &Pose<f64>) -> LibraryPose {
     pose
 }
 
-/// Converts a vector of the library.
+/// Converts a vector of the collision library; components and unit stay.
 pub fn vec3(v: Vector) -> Vec3<f64> {
     Vec3([v.x, v.y, v.z])
 }

@@ -19,43 +19,52 @@ const FLAT: f64 = 1e-12;
 /// Volume of a hull over the cube of its extent below which it is flat.
 const NO_VOLUME: f64 = 1e-9;
 
-/// Defect that keeps a mesh from enclosing a volume. Corners and triangles are counted from 0.
+/// Defect that keeps a triangle mesh from enclosing a volume, from [`defects`]. Corners and triangles are counted from
+/// 0 in the lists given to it; edges are two corners `[m]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MeshDefect {
-    /// A corner is not a number, or infinite.
+    /// A coordinate of a corner is NaN or infinite.
     NotFinite {
-        /// The corner.
+        /// Index of the corner.
         corner: usize,
     },
     /// Fewer than four triangles.
     TooFew,
-    /// A triangle without area.
+    /// A triangle without area: its corners lie on a line.
     Flat {
-        /// The triangle.
+        /// Index of the triangle.
         triangle: usize,
     },
-    /// An edge of a triangle that no other triangle runs through the other way.
+    /// An edge of a triangle that no other triangle traverses in the opposite direction: the surface has a hole.
     Open {
-        /// The triangle.
+        /// Index of the triangle.
         triangle: usize,
-        /// The edge.
+        /// Start and end of the edge `[m]`.
         edge: [[f64; 3]; 2],
     },
-    /// An edge that two triangles run through the same way.
+    /// An edge that two triangles traverse in the same direction: one of them is turned over or doubled.
     Twice {
-        /// The triangles.
+        /// Indices of the two triangles.
         triangles: [usize; 2],
-        /// The edge.
+        /// Start and end of the edge `[m]`.
         edge: [[f64; 3]; 2],
     },
-    /// All corners are clockwise seen from outside.
+    /// A closed surface whose triangles are clockwise seen from outside.
     InsideOut {
-        /// Negative `[m³]`.
+        /// Signed volume `[m³]`, zero or negative.
         volume: f64,
     },
 }
 
-/// Defects of a mesh, in the order of its triangles; empty if it encloses a volume.
+/// Checks that a mesh encloses a volume: its defects, empty if there is none.
+///
+/// `corners` are points `[m]`; each triangle holds three indices into them, counter-clockwise seen from outside.
+/// Corners that are not finite, or fewer than four triangles, are reported alone; then flat and doubled triangles in
+/// the order of the list, and open edges in the order of their corners.
+///
+/// # Panics
+///
+/// If a triangle has an index beyond the corners.
 #[must_use]
 pub fn defects(corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<MeshDefect> {
     let bad = (0..corners.len()).filter(|k| !corners[*k].iter().all(|x| x.is_finite()));
@@ -97,7 +106,15 @@ fn is_flat(corners: [[f64; 3]; 3]) -> bool {
     x.cross(y).norm() <= FLAT * longest
 }
 
-/// Returns mass, centre of mass and inertia of the volume inside a closed mesh, at a density [kg/m³].
+/// Mass `[kg]`, centre of mass `[m]` and inertia `[kg·m²]` of the volume inside a closed mesh of uniform `density`
+/// `[kg/m³]`, in the frame of its corners.
+///
+/// `corners` are points `[m]`; each triangle holds three indices into them, counter-clockwise seen from outside.
+/// Meaningful only for a mesh without [`defects`]; NaN for one without volume.
+///
+/// # Panics
+///
+/// If a triangle has an index beyond the corners.
 #[must_use]
 pub fn mass_properties(corners: &[[f64; 3]], triangles: &[[u32; 3]], density: f64) -> MassProperties {
     // seen from one of its corners, so that a mesh far from its origin loses no digits
@@ -123,10 +140,20 @@ pub fn mass_properties(corners: &[[f64; 3]], triangles: &[[u32; 3]], density: f6
     MassProperties { mass: density * volume, center_of_mass: (origin + center).0, inertia }
 }
 
-/// Corners `[m]` and triangles.
+/// Triangle mesh: corners `[m]`, and triangles of three indices into them, counter-clockwise seen from outside.
 pub type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
-/// Convex hull of points, counter-clockwise seen from outside; none if they span no volume.
+/// Convex hull of points `[m]` as a closed mesh in the same frame. `None` for fewer than four points, for coordinates
+/// that are not finite, and for points that span no volume.
+///
+/// ```
+/// use sincro_geometry::polyhedron::{convex_hull, mass_properties};
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let (corners, triangles) = convex_hull(&points).unwrap();
+/// let tetrahedron = mass_properties(&corners, &triangles, 6000.0); // [kg/m³]
+/// assert!((tetrahedron.mass - 1000.0).abs() < 1e-9); // 1/6 m³ of it [kg]
+/// ```
 #[must_use]
 pub fn convex_hull(points: &[[f64; 3]]) -> Option<Triangles> {
     if points.len() < 4 || !points.iter().flatten().all(|x| x.is_finite()) {

@@ -19,20 +19,33 @@ const TOUCHES: f64 = 1e-13;
 /// Iteration limit of secants and bisections.
 const MAX_ITERATIONS: usize = 120;
 
-/// Detection of a proximity sensor, in its own frame.
+/// Detection of a proximity sensor, from [`FieldOfView::detect`]; all vectors in the frame of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detection {
-    /// Distance from the sensor's origin `[m]`.
+    /// Distance of the detected point from the sensor's origin `[m]`.
     pub distance: f64,
-    /// Detected point `[m]`.
+    /// Detected point `[m]`: the one of the surface within the field of view that is closest to the origin.
     pub point: Vec3<f64>,
-    /// Outward unit normal there.
+    /// Outward unit normal of the surface there (dimensionless).
     pub normal: Vec3<f64>,
 }
 
 impl FieldOfView {
-    /// Detects the point of a surface in the field of view that is closest to the origin, within `max_distance` `[m]`;
-    /// the surface's frame stands at `x_sg` in the sensor's.
+    /// Detects the point of a surface inside the field of view that is closest to the sensor's origin; `None` if there
+    /// is none within `max_distance` `[m]` of it.
+    ///
+    /// `x_sg` is the pose of the surface's frame in that of the sensor `[m]`. A solid that contains the origin, or the
+    /// centre of the near end, is not detected.
+    ///
+    /// ```
+    /// use sincro_geometry::spatial::{Pose, Vec3};
+    /// use sincro_geometry::{FieldOfView, Geometry, Shape, Surface, Volume};
+    ///
+    /// let sensor = FieldOfView::new(Volume::Cone { angle: 0.5 }, 0.0, 3.0).unwrap();
+    /// let ball = Geometry::new(Surface::Solid(Shape::Sphere { radius: 0.5 })).unwrap();
+    /// let seen = sensor.detect(&ball, &Pose::translation(Vec3([0.0, 0.0, 2.0])), 10.0).unwrap();
+    /// assert!((seen.distance - 1.5).abs() < 1e-9); // [m]
+    /// ```
     #[must_use]
     pub fn detect(&self, geometry: &Geometry, x_sg: &Pose<f64>, max_distance: f64) -> Option<Detection> {
         let max_distance = max_distance.min(self.reach);

@@ -49,7 +49,7 @@ struct Edge {
     faces: [usize; 2],
 }
 
-/// A convex polytope in the frame of its link.
+/// Convex polytope in the frame of its link, prepared for [`FaceClipper::find`]: vertices, faces, edges.
 #[derive(Clone, Debug)]
 pub struct Polytope {
     vertices: Vec<Vec3<f64>>,
@@ -60,7 +60,8 @@ pub struct Polytope {
 }
 
 impl Polytope {
-    /// Polytope of a surface at `pose` in its link; none if the surface is no polytope or has too many edges.
+    /// Creates the polytope of a cuboid or hull whose frame stands at `pose` in its link `[m]`. `None` for other
+    /// surfaces, for hulls without volume and for those with more than 90 edges, which the general narrow phase takes.
     pub fn new(surface: &Surface, pose: &Pose<f64>) -> Option<Self> {
         let convex_hull = match surface {
             Surface::Solid(Shape::Cuboid { size }) => {
@@ -107,18 +108,20 @@ fn corner(k: usize, size: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|c| if k >> c & 1 == 0 { -0.5 * size[c] } else { 0.5 * size[c] })
 }
 
-/// Point of one polytope over a plane of the other, each in the frame of its own link.
+/// Contact point found by [`FaceClipper::find`]: a point of one polytope over a plane of the other, each in the frame
+/// of its own link. Its signed distance is that of the point from the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct PointOnPlane {
-    /// True if the point belongs to the first polytope and the plane to the second.
+    /// True if the point belongs to the first polytope and the plane to the second; false for the reverse.
     pub is_on_first: bool,
-    /// The point `[m]`.
+    /// Point, in the link frame of its polytope `[m]`.
     pub point: Vec3<f64>,
-    /// Point of the plane `[m]`.
+    /// Point on the plane, in the link frame of the other polytope `[m]`.
     pub origin: Vec3<f64>,
-    /// Normal of the plane, from its polytope to the point.
+    /// Unit normal of the plane, from its polytope towards the point, in the link frame of the plane's polytope.
     pub normal: Vec3<f64>,
-    /// Features of the polytopes that the point comes from, the same as long as the same ones touch; not zero.
+    /// Identifier of the faces, edges or vertices that the point comes from, nonzero: equal in successive steps as long
+    /// as the same ones touch, so that contact forces can be carried over.
     pub feature: u32,
 }
 
@@ -135,10 +138,11 @@ fn edge_feature(edges: [usize; 2]) -> u32 {
     3 + 4 * (one + 256 * two)
 }
 
-/// Kind of contact of two polytopes, which is kept while another one is better by less than 20 µm.
+/// Kind of contact of two polytopes: kept from step to step until another one is better by 20 µm, so that it does not
+/// alternate by rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ContactKind {
-    /// Nothing is kept.
+    /// No former contact: the best kind is taken.
     #[default]
     Unknown,
     /// The reference face is one of the second polytope.
@@ -150,7 +154,7 @@ pub enum ContactKind {
 }
 
 impl ContactKind {
-    /// Kind of the contact that gave a point of this feature; unknown for 0.
+    /// Kind of the contact that gave a point with this [`PointOnPlane::feature`]; unknown for 0.
     #[must_use]
     pub fn of(feature: u32) -> Self {
         match feature % 4 {
@@ -180,7 +184,8 @@ fn crossing(edge: u32, side: u32) -> u32 {
     64 + (edge % 128) * 64 + side % 64
 }
 
-/// Working memory: the second polytope in the frame of the first one's link, and outlines.
+/// Working memory of the contact search of polytopes: made once, used for all pairs, so that no search allocates after
+/// the first.
 #[derive(Clone, Debug, Default)]
 pub struct FaceClipper {
     vertices: Vec<Vec3<f64>>,
@@ -229,8 +234,11 @@ impl Placed<'_> {
 }
 
 impl FaceClipper {
-    /// Finds at most `max_points` contact points of two polytopes nearer than `margin` `[m]` and hands each to `emit`;
-    /// `x_ab` is the pose of b's link in a's, `former` the kind of their contact so far.
+    /// Finds the contact points of polytopes `a` and `b` and hands each to `emit`: at most `max_points`, none if the
+    /// polytopes are farther apart than `margin` `[m]`.
+    ///
+    /// `x_ab` is the pose of b's link in that of a `[m]`; `former` is the kind of their contact in the step before
+    /// ([`ContactKind::of`] one of its points), which is kept while it is as good.
     #[allow(clippy::too_many_arguments)]
     pub fn find(
         &mut self,

@@ -7,7 +7,8 @@ use core::f64::consts::PI;
 
 use super::MassProperties;
 
-/// A homogeneous solid.
+/// Homogeneous solid, centred on its centre of mass, with its axis of symmetry along z. Of bodies it gives the mass
+/// properties, of colliders and sensors the surface ([`Surface::Solid`](crate::Surface::Solid)).
 ///
 /// ```
 /// use sincro_geometry::Shape;
@@ -21,14 +22,14 @@ use super::MassProperties;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// Box with full edge lengths `[m]`.
+    /// Box with edges along the axes.
     Cuboid {
-        /// Lengths along x, y, z.
+        /// Full edge lengths along x, y, z `[m]`.
         size: [f64; 3],
     },
-    /// Ball of a radius `[m]`.
+    /// Ball.
     Sphere {
-        /// Radius.
+        /// Radius `[m]`.
         radius: f64,
     },
     /// Circular cylinder along z.
@@ -55,7 +56,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Volume `[m³]`.
+    /// Volume of the solid `[m³]`.
     #[must_use]
     pub fn volume(&self) -> f64 {
         match *self {
@@ -67,7 +68,8 @@ impl Shape {
         }
     }
 
-    /// The dimensions by name `[m]`: each must be positive and finite.
+    /// Dimensions `[m]` with the names of their fields, in the order of the fields (three times `size` for a cuboid, in
+    /// the order x, y, z): each must be positive and finite in a scene.
     #[must_use]
     pub fn dimensions(&self) -> Vec<(&'static str, f64)> {
         match *self {
@@ -79,7 +81,7 @@ impl Shape {
         }
     }
 
-    /// Mass properties at a density [kg/m³], in the shape's own frame.
+    /// Mass properties at a uniform `density` `[kg/m³]`, in the shape's own frame: the centre of mass is the origin.
     #[must_use]
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let mass = density * self.volume();

@@ -3,7 +3,7 @@
 use super::Shape;
 use crate::spatial::Vec3;
 
-/// Geometry of a surface.
+/// Surface of a collider, or of an object that sensors detect, in its own frame.
 ///
 /// ```
 /// use sincro_geometry::{Shape, Surface};
@@ -16,28 +16,29 @@ use crate::spatial::Vec3;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
-    /// A solid.
+    /// Boundary of a solid.
     Solid(Shape),
-    /// Everything below z = 0 of its frame; fixed in the world.
+    /// Half space z ≤ 0 of its frame, such as a floor; only fixed in the world.
     HalfSpace,
     /// Convex hull of points `[m]`.
     Hull(Vec<[f64; 3]>),
-    /// A closed triangle mesh: vertices `[m]` and counter-clockwise triangles; fixed in the world.
+    /// Closed triangle mesh: vertices `[m]`, and triangles of three vertex indices, counter-clockwise seen from
+    /// outside; only fixed in the world.
     Mesh(Vec<[f64; 3]>, Vec<[u32; 3]>),
-    /// Heights `[m]` over a grid centred on the frame, row by row along x, extents along x and y `[m]`; fixed in the
-    /// world.
+    /// Terrain over a regular rectangular grid centred on the frame's origin; only fixed in the world.
     HeightField {
-        /// Points along x.
+        /// Number of grid points along x, at least 2.
         columns: usize,
-        /// Heights, `columns` a row.
+        /// Heights z of the grid points `[m]`, row by row: point i along x and j along y is `heights[j * columns + i]`,
+        /// from the smallest x and y on.
         heights: Vec<f64>,
-        /// Extents.
+        /// Extents of the grid along x and y `[m]`.
         size: [f64; 2],
     },
 }
 
 impl Surface {
-    /// Radius of the bounding sphere about the frame's origin `[m]`; infinite for a half space.
+    /// Radius of the bounding sphere about the origin of the frame `[m]`; infinite for a half space.
     #[must_use]
     pub fn reach(&self) -> f64 {
         let length = |p: &[f64; 3]| Vec3(*p).norm();

@@ -9,7 +9,8 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use crate::{Real, elementary};
 
-/// A value and its `N` partial derivatives.
+/// Dual number: a value and its `N` partial derivatives, carried through every operation (forward-mode
+/// differentiation).
 ///
 /// Where a function has a kink (`abs`, `min`, a comparison), the derivative is that of the side the value is on, as
 /// the comparison decides it.
@@ -24,9 +25,9 @@ use crate::{Real, elementary};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
-    /// The value itself.
+    /// Value, in any unit.
     pub value: f64,
-    /// Derivative with respect to each of the `N` chosen inputs.
+    /// Partial derivatives by the `N` chosen inputs, in their order; the unit of the value over that of the input.
     pub partials: [f64; N],
 }
 

@@ -3,12 +3,14 @@
 use core::fmt;
 use core::ops::Deref;
 
-/// Parameters that were refused: all that is wrong with them, one sentence each.
+/// Error of parameters that were refused: all that is wrong with them, one sentence each, with the name of the
+/// parameter, its value and what was expected. Dereferences to the list of sentences; displays them separated by
+/// semicolons.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InvalidParameters(Vec<String>);
 
 impl InvalidParameters {
-    /// Error with its findings, one sentence each.
+    /// Creates the error of the given findings, one sentence each, lower case, without a full stop.
     #[must_use]
     pub fn new(findings: Vec<String>) -> Self {
         Self(findings)

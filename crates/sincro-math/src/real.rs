@@ -3,7 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// A real number: `f64`, a bundle of lanes, or a dual number.
+/// Real number that the dynamics is written over: `f64`, a bundle of lanes ([`Lanes`](crate::Lanes)), or a dual number
+/// ([`Dual`](crate::Dual)).
 ///
 /// A comparison never yields a `bool`, because lanes can differ: it selects ([`Real::if_less`]). Whoever must branch
 /// looks at one lane at a time ([`Real::lane`]).
@@ -40,86 +41,91 @@ pub trait Real:
     /// Number of lanes: 1 for `f64` and dual numbers.
     const LANES: usize;
 
-    /// Constant `x`, in its unit, in every lane and without derivatives.
+    /// Constant `x`, the same in every lane and without derivatives; the unit stays.
     fn splat(x: f64) -> Self;
 
-    /// Number made lane by lane (`f` is given the index of the lane), without derivatives; the units are the caller's.
+    /// Number composed lane by lane: `f(k)` gives the value of lane `k`, 0 to `LANES` − 1; without derivatives.
     fn from_lanes(f: impl FnMut(usize) -> f64) -> Self;
 
-    /// Value in lane `k < LANES`, in its unit, derivatives dropped.
+    /// Value in lane `k`, 0 to `LANES` − 1, without derivatives; the unit stays. Numbers of one lane ignore `k`;
+    /// bundles panic for a `k` beyond the last lane.
     fn lane(self, k: usize) -> f64;
 
-    /// Square root; NaN below zero.
+    /// Square root, in the root of the unit; NaN below zero. On dual numbers the derivative is infinite at zero.
     fn sqrt(self) -> Self;
 
-    /// Sine and cosine of an angle `[rad]`, absolute error below 1.8e-16, one polynomial for every kind of number.
+    /// Sine and cosine (dimensionless, in this order) of an angle `[rad]`; absolute error below 1.8e-16, NaN where the
+    /// angle is not finite.
     fn sin_cos(self) -> (Self, Self);
 
     /// Absolute value, in the same unit; its derivative at zero is that from above.
     fn abs(self) -> Self;
 
-    /// `then` where `self < bound`, else `otherwise`, lane by lane. A NaN compares as not less.
+    /// Selection lane by lane: `then` where `self < bound`, else `otherwise`; a NaN compares as not less. The
+    /// derivatives are those of the selected number.
     fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self;
 
-    /// The lane values mapped through a differentiable scalar function: `f(x)` returns the value and the derivative.
+    /// Value of a differentiable scalar function at this number, lane by lane: `f(x)` returns the value and the
+    /// derivative at `x`, as the functions of [`elementary`](crate::elementary) do.
     ///
-    /// For the functions that are not worth a vector form; lanes call it one after the other.
+    /// For functions that are not worth a vector form; lanes call it one after the other.
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self;
 
-    /// Two numbers mapped through a differentiable scalar function, lane by lane: `f(x, y)` returns the value and the
-    /// derivatives by `x` and by `y`.
+    /// Value of a differentiable scalar function of `self` and `other`, lane by lane: `f(x, y)` returns the value and
+    /// the derivatives by `x` and by `y`, in this order.
     fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self;
 
-    /// Runs a hot computation compiled for the best registers of this processor: lanes for their own instruction set,
-    /// scalars for the thirty-two registers of AVX-512. There is one compiled copy of a task for each kind of number,
-    /// whoever calls it.
+    /// Runs `task` compiled for the best registers of this processor, and returns its result: lanes with their own
+    /// instruction set, scalars with the thirty-two registers of AVX-512 where there are. One compiled copy of a task
+    /// exists for each kind of number.
     #[inline(always)]
     fn run_hot<T: Task>(task: T) -> T::Output {
         task.run()
     }
 
-    /// The number 0, of any unit, without derivatives.
+    /// Number 0 in every lane, of any unit, without derivatives.
     #[inline(always)]
     fn zero() -> Self {
         Self::splat(0.0)
     }
 
-    /// The number 1, dimensionless, without derivatives.
+    /// Number 1 in every lane, dimensionless, without derivatives.
     #[inline(always)]
     fn one() -> Self {
         Self::splat(1.0)
     }
 
-    /// The smaller of two. A NaN in `self` stays (a NaN in `other` is passed over): a limit hides no failure.
+    /// Smaller of two numbers of one unit, lane by lane. A NaN in `self` stays, a NaN in `other` is ignored.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         other.if_less(self, other, self)
     }
 
-    /// The larger of two. A NaN in `self` stays, as in [`Real::min`].
+    /// Larger of two numbers of one unit, lane by lane. A NaN in `self` stays, a NaN in `other` is ignored.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         self.if_less(other, other, self)
     }
 
-    /// `self` limited to `[-limit, limit]`; `limit >= 0`. A NaN in `self` stays.
+    /// Number limited to `[-limit, limit]`, lane by lane; `limit >= 0`, in the same unit. A NaN in `self` stays.
     #[inline(always)]
     fn clamp_abs(self, limit: Self) -> Self {
         self.min(limit).max(-limit)
     }
 
-    /// Returns true if every lane is finite.
+    /// Returns true if the value of every lane is finite; derivatives are not examined.
     #[inline(always)]
     fn is_finite(self) -> bool {
         (0..Self::LANES).all(|k| self.lane(k).is_finite())
     }
 }
 
-/// A computation handed to [`Real::run_hot`]. `run` must be `#[inline(always)]`, and so must be what it calls.
+/// Computation to be run by [`Real::run_hot`], such as a pass over the links of a model. Its `run` must be
+/// `#[inline(always)]`, and so must everything that it calls.
 pub trait Task {
-    /// Result type.
+    /// Result of the computation.
     type Output;
 
-    /// Runs the computation.
+    /// Runs the computation and returns its result.
     fn run(self) -> Self::Output;
 }

@@ -4,11 +4,10 @@
 const NOISE: f64 = 0.01;
 
 /// Highest frequency `[Hz]` of a sampled series up to time `until` `[s]`: half the inverse of the shortest time between
-/// two turning points. Reversals by less than a hundredth of the range are passed over; fewer than two turning points
-/// have no frequency.
+/// two turning points. For choosing a sample time or step size.
 ///
-/// A sine of frequency f turns 2 f times a second, however finely it is sampled; the distance of the samples says
-/// nothing about the content.
+/// `times` are the ascending sample times `[s]`; `value(k)` is the sample at `times[k]`, in any unit. Reversals by less
+/// than a hundredth of the range count as noise; with fewer than two turning points the result is 0.
 #[must_use]
 pub fn highest_frequency(times: &[f64], value: impl Fn(usize) -> f64, until: f64) -> f64 {
     let n = times.partition_point(|t| *t <= until);

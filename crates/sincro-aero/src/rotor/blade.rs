@@ -35,35 +35,39 @@ use super::{Load, Spin, limited, outside};
 use sincro_geometry::spatial::Vec3;
 use sincro_math::error::InvalidParameters;
 
-/// Drag of a blade's section: c₀ + c₂ α².
+/// Profile drag of a blade section over its angle of attack α: `c_d = c₀ + c₂ α²`. Part of a [`RotorSpec`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drag {
-    /// Without incidence, c₀.
+    /// Drag coefficient c₀ at zero angle of attack (dimensionless), 0 to 1000.
     pub cd0: f64,
-    /// By the square of the incidence, c₂ [1/rad²].
+    /// Growth of the drag coefficient with the square of the angle of attack, c₂ `[1/rad²]`, 0 to 1000.
     pub k_cd: f64,
 }
 
-/// Geometry and section coefficients of a rotor.
+/// Geometry and section coefficients of a rotor with blades of constant chord and pitch: the argument of
+/// [`Rotor::new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorSpec {
-    /// Radius `[m]`.
+    /// Radius of the disc `[m]`, 1e-6 to 1e6.
     pub radius: f64,
-    /// Chord of a blade `[m]`.
+    /// Chord of a blade `[m]`, 1e-6 to 1e6.
     pub chord: f64,
-    /// Number of blades.
+    /// Number of blades, at least 1.
     pub n_blades: u32,
-    /// Slope of a section's lift coefficient over incidence [1/rad].
+    /// Slope of the section's lift coefficient over the angle of attack `[1/rad]`, 1e-6 to 1000; 2π for a thin airfoil.
     pub lift_slope: f64,
-    /// Pitch of the blades `[rad]`.
+    /// Collective pitch of the blades `[rad]`, −π/2 to π/2; constant along the blade.
     pub collective_pitch: f64,
-    /// Drag of a section.
+    /// Profile drag of the section.
     pub drag: Drag,
     /// Sense of rotation at positive speed.
     pub spin: Spin,
 }
 
-/// Validity of the rotor's theory at a load: it holds, or the reason for which it does not.
+/// Range of validity of a rotor's theory: `Valid`, or the reason for which a load is finite but not to be trusted.
+///
+/// From [`MountedRotor::validity`](super::MountedRotor::validity) or the law's own `validity`; runs count the steps
+/// outside the range by these reasons and report them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Validity {
     /// The theory holds.
@@ -84,7 +88,7 @@ pub enum Validity {
 }
 
 impl Validity {
-    /// Every way not to hold, in a fixed order.
+    /// Every variant except `Valid`, in the order of the reports: the index of an entry is that of its counter.
     pub const REASONS: [Self; 6] = [
         Self::Standing,
         Self::SteepDescent,
@@ -94,7 +98,7 @@ impl Validity {
         Self::NotANumber,
     ];
 
-    /// Word for it in reports, such as `standing`.
+    /// Word or words for it in reports and files, such as `standing` or `steep descent`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -109,7 +113,8 @@ impl Validity {
     }
 }
 
-/// A rotor, ready to be evaluated.
+/// Blade-element momentum rotor: thrust, torque and inflow from rotor speed and velocity of the hub. For flight with
+/// climb, descent, forward speed and wind.
 ///
 /// ```
 /// use sincro_aero::rotor::{Drag, Rotor, RotorSpec, Spin};
@@ -156,11 +161,12 @@ struct Flow<R> {
 }
 
 impl Rotor {
-    /// A rotor after `spec`.
+    /// Creates the rotor of `spec` and computes what depends on the geometry alone (solidity, area, lift factor).
     ///
     /// # Errors
     ///
-    /// All that is wrong with the numbers, one sentence each.
+    /// [`InvalidParameters`] with one sentence for each field of `spec` that is out of the range stated there, not a
+    /// number, or, of `n_blades`, zero.
     pub fn new(spec: RotorSpec) -> Result<Self, InvalidParameters> {
         let problems = problems(&spec);
         if !problems.is_empty() {
@@ -178,26 +184,27 @@ impl Rotor {
         })
     }
 
-    /// Geometry and section coefficients the rotor was made from.
+    /// Geometry and section coefficients from which the rotor was made.
     #[must_use]
     pub fn spec(&self) -> &RotorSpec {
         &self.spec
     }
 
-    /// Area of the disc `[m²]`.
+    /// Area of the disc, π R² `[m²]`.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// Share of the disc that is blades, σ (dimensionless).
+    /// Solidity σ = n c/(π R), the ratio of blade area to disc area (dimensionless).
     #[must_use]
     pub fn solidity(&self) -> f64 {
         self.solidity
     }
 
-    /// Thrust, torque, inflow and power in air of `density` [kg/m³], at `speed` [rad/s] (negative: backwards), with the
-    /// hub moving at `velocity` [m/s] relative to the air, in the rotor's axes.
+    /// Thrust, reaction torque, inflow and power in air of `density` `[kg/m³]`, at `speed` `[rad/s]` (negative:
+    /// backwards), with the hub moving at `velocity` `[m/s]` relative to the air, in the rotor's axes (z along the
+    /// thrust).
     ///
     /// Finite for finite arguments (velocities beyond [`MAX_VELOCITY`](super::MAX_VELOCITY) count as that); NaN for
     /// others. On dual numbers the derivatives are exact.
@@ -208,10 +215,12 @@ impl Rotor {
         self.load(density, &flow, w)
     }
 
-    /// As [`evaluate`](Self::evaluate), with the hub at `height` `[m]` above level ground, which holds part of the
-    /// induced velocity back: w = v + κ v_i, κ = 1 − (R/4z)²/(1 + (h/v_i)²). Source: key `cheeseman1955`, equations for
-    /// hover and forward flight; v_i in the last term is that far from the ground. Heights below R/2, where the source
-    /// sees its potential flow fail, count as R/2.
+    /// Load in ground effect: as [`evaluate`](Self::evaluate), with the hub at `height` `[m]` above level ground.
+    ///
+    /// The ground holds part of the induced velocity v_i back: w = v + κ v_i, κ = 1 − (R/4z)²/(1 + (h/v_i)²), with the
+    /// height z, climb velocity v and in-plane velocity h. Source: key `cheeseman1955`, equations for hover and forward
+    /// flight; v_i in the last term is that far from the ground. Heights below R/2, where the source sees its potential
+    /// flow fail, count as R/2.
     #[inline(always)]
     pub fn evaluate_near_ground<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>, height: R) -> Load<R> {
         let mut flow = self.flow(speed, velocity);
@@ -245,8 +254,8 @@ impl Rotor {
         Load { thrust: mirror * thrust, torque: mirror * reaction, inflow: mirror * w, power: drag * tip, gyroscopic }
     }
 
-    /// Range of validity of `load`, which [`Rotor::evaluate`] gave for the same arguments; only the first lane is
-    /// examined.
+    /// Validity of `load`, which [`Rotor::evaluate`] returned for the same `speed` `[rad/s]` and `velocity` `[m/s]`
+    /// (hub relative to the air, rotor axes). Of SIMD lanes only the first is examined.
     #[must_use]
     pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>, load: &Load<R>) -> Validity {
         let flow = self.flow(speed.lane(0), Vec3(velocity.0.map(|x| x.lane(0))));

@@ -12,7 +12,8 @@ use super::{Load, Spin, Validity, outside};
 use sincro_geometry::spatial::Vec3;
 use sincro_math::error::InvalidParameters;
 
-/// Thrust and torque that grow with the square of the speed and depend on nothing else.
+/// Rotor with constant coefficients, T = b Ω·abs(Ω) and Q = k Ω·abs(Ω), whatever the flow: for control design near
+/// hover.
 ///
 /// ```
 /// use sincro_aero::rotor::{ConstantCoefficients, Spin};
@@ -23,16 +24,18 @@ use sincro_math::error::InvalidParameters;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstantCoefficients {
-    /// Thrust by the square of the speed, b [N·s²/rad²].
+    /// Thrust over the square of the speed, b `[N·s²/rad²]`.
     pub thrust: f64,
-    /// Torque by the square of the speed, k [N·m·s²/rad²].
+    /// Magnitude of the reaction torque over the square of the speed, k `[N·m·s²/rad²]`; its direction follows from
+    /// `spin`.
     pub torque: f64,
     /// Sense of rotation at positive speed.
     pub spin: Spin,
 }
 
 impl ConstantCoefficients {
-    /// Thrust b Ω·abs(Ω), reaction −s k Ω·abs(Ω) and power k abs(Ω)³ at `speed` Ω [rad/s]; no inflow.
+    /// Load at `speed` Ω `[rad/s]`: thrust b Ω·abs(Ω) `[N]`, reaction torque −s k Ω·abs(Ω) `[N·m]` (s the sign of the
+    /// spin), power k abs(Ω)³ `[W]`; inflow zero.
     #[inline(always)]
     pub fn evaluate<R: Real>(&self, speed: R) -> Load<R> {
         let signed_square = speed * speed.abs();
@@ -47,18 +50,19 @@ impl ConstantCoefficients {
     }
 }
 
-/// One line of a [`CoefficientTable`].
+/// Row of a [`CoefficientTable`]: coefficients of a propeller at one advance ratio, all dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableRow {
-    /// Advance ratio J.
+    /// Advance ratio J = v/(n D): axial velocity over turns per second times diameter (dimensionless).
     pub advance: f64,
-    /// c_T
+    /// Thrust coefficient c_T = T/(ρ n² D⁴) (dimensionless).
     pub thrust: f64,
-    /// c_Q
+    /// Torque coefficient c_Q = Q/(ρ n² D⁵) (dimensionless), positive while the shaft drives.
     pub torque: f64,
 }
 
-/// Measured coefficients: linear between the rows, constant outside.
+/// Propeller with coefficients measured over the advance ratio: linear between the rows, constant beyond the first and
+/// the last. For propellers from a data sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoefficientTable {
     diameter: f64,
@@ -71,11 +75,12 @@ pub struct CoefficientTable {
 const STANDING: f64 = 1e-100;
 
 impl CoefficientTable {
-    /// A propeller of `diameter` `[m]` with `rows` in the order of increasing advance ratio.
+    /// Creates a propeller of `diameter` `[m]` with `rows` in the order of increasing advance ratio; one row is enough.
     ///
     /// # Errors
     ///
-    /// All that is wrong with the numbers, one sentence each.
+    /// [`InvalidParameters`] with one sentence for each fault: a diameter outside 1e-6 to 1e6 m, no rows, a row with a
+    /// number that is not finite, advance ratios that do not increase.
     pub fn new(diameter: f64, spin: Spin, rows: Vec<TableRow>) -> Result<Self, InvalidParameters> {
         let mut problems: Vec<String> = outside("diameter", diameter, (1e-6, 1e6), "m").into_iter().collect();
         if rows.is_empty() {
@@ -101,8 +106,9 @@ impl CoefficientTable {
         self.spin
     }
 
-    /// Validity at a rotor `speed` [rad/s] and a `velocity` of the hub in the air [m/s], in rotor axes (z along the
-    /// thrust): [`Validity::OutsideTable`] where the advance ratio was not measured. Only the first lane is examined.
+    /// Validity at a rotor `speed` `[rad/s]` and a `velocity` of the hub relative to the air `[m/s]`, in rotor axes (z
+    /// along the thrust): [`Validity::OutsideTable`] where the advance ratio was not measured, [`Validity::Standing`]
+    /// at no speed. Of SIMD lanes only the first is examined.
     #[must_use]
     pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>) -> Validity {
         let by_turn = speed.lane(0) * (self.diameter / TAU);
@@ -114,8 +120,8 @@ impl CoefficientTable {
         if is_inside { Validity::Valid } else { Validity::OutsideTable }
     }
 
-    /// Thrust, torque and power in air of `density` [kg/m³] at `speed` [rad/s], the hub moving at `velocity` [m/s]
-    /// relative to the air in the rotor's axes, of which only z counts; no inflow.
+    /// Thrust, reaction torque and power in air of `density` `[kg/m³]` at `speed` `[rad/s]`, with the hub moving at
+    /// `velocity` `[m/s]` relative to the air, in rotor axes, of which only z counts; inflow zero.
     #[inline(always)]
     pub fn evaluate<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>) -> Load<R> {
         let d = self.diameter;

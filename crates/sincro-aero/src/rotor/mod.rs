@@ -27,7 +27,7 @@ pub use stock::StockPropeller;
 
 use sincro_math::Real;
 
-/// Sense of rotation at positive speed, seen from above (against the thrust axis).
+/// Sense of rotation of a rotor at positive speed, seen from above (against the thrust axis, which is z of the rotor).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Spin {
     /// Counter-clockwise: the angular velocity is along +z, the reaction along −z.
@@ -37,7 +37,7 @@ pub enum Spin {
 }
 
 impl Spin {
-    /// Sense of rotation, dimensionless: +1 counter-clockwise, −1 clockwise.
+    /// Sign of the sense of rotation (dimensionless): +1 counter-clockwise, −1 clockwise.
     #[inline(always)]
     #[must_use]
     pub fn sign(self) -> f64 {
@@ -48,24 +48,27 @@ impl Spin {
     }
 }
 
-/// Load of a rotor at one instant.
+/// Load of a rotor at one instant: what it exerts on the airframe, in rotor axes (z along the thrust, x and y in the
+/// disc), and the power of its shaft. [`MountedRotor::wrench`] turns it into a wrench on the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load<R> {
-    /// Force on the hub along the thrust axis `[N]`.
+    /// Force on the hub along +z `[N]`.
     pub thrust: R,
-    /// Reaction on the airframe about the thrust axis [N·m].
+    /// Reaction torque on the airframe about +z `[N·m]`; against the sense of rotation while the shaft drives the
+    /// rotor.
     pub torque: R,
-    /// Air through the disc relative to the hub, along −z `[m/s]`: climb and induced velocity together; 0 where the
-    /// model has none.
+    /// Inflow: velocity of the air through the disc relative to the hub, positive along −z `[m/s]`, climb and induced
+    /// velocity together; 0 where the law has none.
     pub inflow: R,
-    /// Gyroscopic moment on the airframe about the rotor's x and y axes [N·m]; 0 where the rotor has no inertia.
+    /// Gyroscopic moment on the airframe about the rotor's x and y axes, in this order `[N·m]`; 0 where the rotor has
+    /// no inertia.
     pub gyroscopic: [R; 2],
-    /// Power that the shaft delivers to the air `[W]`; negative in a windmill.
+    /// Power that the shaft delivers to the air `[W]`; negative in a windmill. 0 of [`StockPropeller`].
     pub power: R,
 }
 
-/// Largest velocity `[m/s]` and speed `[rad/s]` that are taken as they are: beyond it the squares and cubes of the
-/// equations would overflow. Far beyond any physics, where only finiteness is promised.
+/// Limit of hub velocities `[m/s]` and rotor speeds `[rad/s]` in [`Rotor::evaluate`]: larger ones count as this one,
+/// because their squares and cubes would overflow. No physics reaches it; it only keeps loads finite.
 pub const MAX_VELOCITY: f64 = 1e60;
 
 /// `x` limited to ±[`MAX_VELOCITY`]; what is not finite becomes NaN, because a limit hides no failure.

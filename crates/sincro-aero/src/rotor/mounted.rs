@@ -8,23 +8,23 @@ use crate::drag::velocity_in_air;
 use crate::wind::Air;
 use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
 
-/// Aerodynamic law of a rotor: thrust and torque from speed and motion.
+/// Aerodynamic law of a [`MountedRotor`]: thrust and reaction torque from rotor speed and motion of the hub.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RotorLaw {
-    /// Blade elements and momentum.
+    /// Blade elements with momentum theory.
     Blade(Rotor),
-    /// T = bΩ², Q = kΩ².
+    /// Constant coefficients: T = bΩ², Q = kΩ².
     Constant(ConstantCoefficients),
-    /// Coefficients over the advance ratio.
+    /// Measured coefficients over the advance ratio.
     Table(CoefficientTable),
-    /// V-REP's jet of particles; its speed is their velocity [m/s].
+    /// V-REP's jet of particles; its "speed" is the velocity of the particles `[m/s]`.
     Stock(StockPropeller),
-    /// The script as published, defects and NaN included.
+    /// A published script as it stands, defects and NaN included; for comparison.
     Printed(PrintedScript),
 }
 
 impl RotorLaw {
-    /// Sense of rotation at positive speed; none where the law has none.
+    /// Sense of rotation at positive speed; `None` for the laws without one (stock propeller, published script).
     #[must_use]
     pub fn spin(&self) -> Option<Spin> {
         match self {
@@ -36,40 +36,50 @@ impl RotorLaw {
     }
 }
 
-/// Source of a rotor's speed [rad/s].
+/// Source of a rotor's speed `[rad/s]`, or of the particles' velocity of a stock propeller `[m/s]`.
+///
+/// Indices of commands count the commands of the model (`State::commands`), those of states the model's rotor states
+/// (`State::rotors`): one for each rotor with a `Lag` or `Particles`, in the order of the rotors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpeedSource<R> {
-    /// It is this command.
+    /// The speed is the command of this index `[rad/s]`.
     Command(usize),
-    /// It follows a command with a first-order lag, Ω' = (command − Ω)/τ.
+    /// The speed follows a command with a first-order lag, Ω' = (command − Ω)/τ.
     Lag {
-        /// The command.
+        /// Index of the command `[rad/s]`.
         command: usize,
-        /// Index among the states of rotors.
+        /// Index of the rotor state that holds the speed Ω `[rad/s]`.
         state: usize,
-        /// τ `[s]`.
+        /// Time constant τ `[s]`, positive.
         time_constant: R,
-        /// Initial speed [rad/s].
+        /// Speed at the start `[rad/s]`.
         initial: R,
     },
-    /// Velocity of the particles of a stock propeller [m/s], which is this command.
+    /// Stock propeller: the command is the velocity of the particles `[m/s]`.
     Particles {
-        /// The command.
+        /// Index of the command `[m/s]`.
         command: usize,
-        /// Index among the states of rotors of the mass flow during the present tick [kg/s].
+        /// Index of the rotor state that holds the mass flow during the present base step `[kg/s]`.
         state: usize,
     },
-    /// It turns with a joint.
+    /// The rotor turns with a joint of the model.
     Joint {
-        /// The joint's degree of freedom.
+        /// Index of the joint's degree of freedom in the generalized velocities, 0 to n_v − 1.
         dof: usize,
-        /// Speed by the rate of the joint: +1 or −1.
+        /// Rotor speed over the rate of the joint: +1 or −1 (dimensionless).
         sign: f64,
     },
 }
 
 impl<R: Real> SpeedSource<R> {
-    /// Speed of the rotor `[rad/s]` for velocities `v` (n_v), commands and states of rotors.
+    /// Speed of the rotor `[rad/s]` (of a stock propeller: velocity of the particles `[m/s]`).
+    ///
+    /// `v` are the generalized velocities (n_v), `commands` all commands and `rotors` all rotor states of the model, in
+    /// its order.
+    ///
+    /// # Panics
+    ///
+    /// If a slice is too short for the index that the source holds in it.
     #[inline(always)]
     pub fn value(&self, v: &[R], commands: &[R], rotors: &[R]) -> R {
         match *self {
@@ -79,7 +89,7 @@ impl<R: Real> SpeedSource<R> {
         }
     }
 
-    /// The command it takes, if it takes one.
+    /// Index of its command in the commands of the model; `None` for a rotor on a joint.
     #[must_use]
     pub fn command(&self) -> Option<usize> {
         match *self {
@@ -88,13 +98,13 @@ impl<R: Real> SpeedSource<R> {
         }
     }
 
-    /// Returns true if the load is a direct feedthrough of the command.
+    /// Returns true if the load is a direct feedthrough of the command: a rotor without lag.
     #[must_use]
     pub fn follows_at_once(&self) -> bool {
         matches!(self, Self::Command(_) | Self::Particles { .. })
     }
 
-    /// Index among the states of rotors, if it has one.
+    /// Index of its rotor state in `State::rotors`; `None` if it has none (`Command`, `Joint`).
     #[must_use]
     pub fn state(&self) -> Option<usize> {
         match *self {
@@ -103,7 +113,8 @@ impl<R: Real> SpeedSource<R> {
         }
     }
 
-    /// Initial value of the rotor's own state, a speed `[rad/s]`, if it has one.
+    /// Initial value of its rotor state: of a lag the speed `[rad/s]`, of a stock propeller the mass flow `[kg/s]`,
+    /// zero. `None` if it has no state.
     #[must_use]
     pub fn initial(&self) -> Option<R> {
         match *self {
@@ -113,7 +124,7 @@ impl<R: Real> SpeedSource<R> {
         }
     }
 
-    /// Time constant `[s]` and initial speed `[rad/s]` of a lag.
+    /// Time constant `[s]` and initial speed `[rad/s]` of a lag, in this order; `None` for the other sources.
     #[must_use]
     pub fn lag(&self) -> Option<(R, R)> {
         match *self {
@@ -122,8 +133,9 @@ impl<R: Real> SpeedSource<R> {
         }
     }
 
-    /// Structure without numbers, which the worlds of a batch share: index of the command, index of the state, and
-    /// degree of freedom with the bits of its sign.
+    /// Structure without parameters, which the worlds of a batch must share: index of the command, index of the rotor
+    /// state, and degree of freedom of the joint with the bits of its sign (`f64::to_bits`); each `None` where the
+    /// source has none.
     #[must_use]
     pub fn structure(&self) -> (Option<usize>, Option<usize>, Option<(usize, u64)>) {
         let joint = match *self {
@@ -133,7 +145,8 @@ impl<R: Real> SpeedSource<R> {
         (self.command(), self.state(), joint)
     }
 
-    /// Counts the command from `by` on.
+    /// Adds `by` to the index of the command: the builder numbers the rotors' commands from 0, the model puts them
+    /// after those of motors and external forces. No effect on a rotor on a joint.
     pub fn shift_command(&mut self, by: usize) {
         match self {
             Self::Command(command) | Self::Particles { command, .. } | Self::Lag { command, .. } => *command += by,
@@ -142,47 +155,57 @@ impl<R: Real> SpeedSource<R> {
     }
 }
 
-/// The hub of a rotor at one instant.
+/// Motion of a rotor's hub at one instant: from [`MountedRotor::hub`], argument of [`MountedRotor::load`].
 #[derive(Clone, Copy, Debug)]
 pub struct Hub<'a, R> {
-    /// Velocity in the air [m/s], axes of the rotor: ω×r is part of it.
+    /// Velocity of the hub relative to the air `[m/s]`, in rotor axes; includes ω × r of the link's rotation.
     pub velocity: Vec3<R>,
-    /// Angular velocity of the airframe [rad/s], axes of the rotor.
+    /// Angular velocity of the link that carries the rotor `[rad/s]`, in rotor axes.
     pub angular_velocity: Vec3<R>,
-    /// Pose of the link in the world.
+    /// Pose of the link in the world `[m]`.
     pub x_wl: &'a Pose<R>,
 }
 
-/// A rotor fixed on a link.
+/// Rotor fixed on a link, with its law, the source of its speed and the air: a force element of the model
+/// (`Model::rotors` of `sincro-dynamics`).
 #[derive(Clone, Debug)]
 pub struct MountedRotor<R> {
-    /// The link.
+    /// Index of the link that carries it, counted from 0 in the model's links.
     pub link: usize,
-    /// Hub frame in the link; the thrust axis is z.
+    /// Pose of the rotor's axes in the link `[m]`: the origin is the hub, z the thrust axis.
     pub pose: Pose<R>,
-    /// Its law.
+    /// Aerodynamic law.
     pub law: RotorLaw,
     /// Source of its speed.
     pub speed: SpeedSource<R>,
     /// Density of the air [kg/m³].
     pub density: f64,
-    /// Moment of inertia of the turning part about its axis [kg·m²]: that of the gyroscopic moment alone, the airframe
-    /// holds the mass; 0 for none.
+    /// Moment of inertia of the turning part about its axis `[kg·m²]`, for the gyroscopic moment only (its mass belongs
+    /// to the link); 0 for none.
     pub inertia: f64,
-    /// True if the ground at z = 0 holds the induced velocity back; of blade elements only.
+    /// True if the ground at z = 0 of the world holds the induced velocity back; only of [`RotorLaw::Blade`].
     pub ground_effect: bool,
 }
 
 impl<R: Real> MountedRotor<R> {
-    /// Motion of the hub and the air at it, for the twist of its link in link axes `[rad/s]`, `[m/s]` and the link's
-    /// pose in the world `[m]`.
+    /// Motion of the hub relative to the air.
+    ///
+    /// `twist` is that of the link about its origin, in link axes (angular `[rad/s]`, linear `[m/s]`); `x_wl` is the
+    /// pose of the link in the world `[m]`; without `air` the air rests.
     #[inline(always)]
     pub fn hub<'a>(&self, twist: &Motion<R>, x_wl: &'a Pose<R>, air: Option<&Air<'_>>) -> Hub<'a, R> {
         let angular_velocity = self.pose.rot.tr_mul_vec(twist.ang);
         Hub { velocity: velocity_in_air(&self.pose, twist, x_wl, air), angular_velocity, x_wl }
     }
 
-    /// Thrust, torque, inflow and power at `speed` [rad/s]; `rotors` are the states of all rotors.
+    /// Thrust, reaction torque, inflow, gyroscopic moment and power at the rotor's `speed` (from
+    /// [`SpeedSource::value`]).
+    ///
+    /// `rotors` are all rotor states of the model, of which a stock propeller reads its mass flow `[kg/s]`.
+    ///
+    /// # Panics
+    ///
+    /// For a stock propeller, if `rotors` is shorter than the index of its state.
     #[inline(always)]
     pub fn load(&self, speed: R, rotors: &[R], hub: &Hub<'_, R>) -> Load<R> {
         let mut load = self.aerodynamic_load(speed, rotors, hub);
@@ -216,7 +239,7 @@ impl<R: Real> MountedRotor<R> {
         }
     }
 
-    /// Wrench of a load on the link, about the link's origin `[N·m]`, `[N]`, in link axes.
+    /// Wrench of `load` on the link: moment about the link's origin `[N·m]` and force `[N]`, in link axes.
     #[inline(always)]
     pub fn wrench(&self, load: &Load<R>) -> Force<R> {
         let axis = self.pose.rot.mul_vec(Vec3([R::zero(), R::zero(), R::one()]));
@@ -229,8 +252,10 @@ impl<R: Real> MountedRotor<R> {
         Force { ang, lin }
     }
 
-    /// Validity of the rotor's theory at a speed `[rad/s]` and a load; only the first lane is examined. Constant
-    /// coefficients and V-REP's particles are always valid.
+    /// Validity of the rotor's theory for a `load` that [`MountedRotor::load`] returned for the same `speed` and `hub`.
+    ///
+    /// Constant coefficients and V-REP's particles are always valid; the published script unless its load is not
+    /// finite. Of SIMD lanes only the first is examined.
     #[must_use]
     pub fn validity(&self, speed: R, hub: &Hub<'_, R>, load: &Load<R>) -> Validity {
         match &self.law {

@@ -21,38 +21,41 @@ use super::{Load, RotorSpec};
 use sincro_geometry::spatial::{Mat3, Vec3};
 use sincro_math::error::InvalidParameters;
 
-/// A rotor that is computed by the script.
+/// Rotor computed by the published script, defects included; made by [`PrintedScript::new`] from the numbers of a
+/// blade-element rotor. For comparison with [`super::Rotor`] only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrintedScript(RotorSpec);
 
-/// Results of the script.
+/// Results of [`evaluate`]: thrust, torque, and the dimensionless ratios that the script computes on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Printed<R> {
-    /// `[N]`
+    /// Thrust along the (mistaken) axis of the script `[N]`.
     pub thrust: R,
-    /// [N·m], always positive
+    /// Torque, without sense of rotation `[N·m]`.
     pub torque: R,
-    /// Inflow ratio x.
+    /// Inflow ratio x, inflow over tip velocity ΩR (dimensionless).
     pub inflow_ratio: R,
-    /// C_T
+    /// Thrust coefficient c_T = T/(ρ A (ΩR)²) (dimensionless).
     pub thrust_coefficient: R,
-    /// C_Q
+    /// Torque coefficient c_Q = Q/(ρ A (ΩR)² R) (dimensionless).
     pub torque_coefficient: R,
 }
 
 impl PrintedScript {
-    /// Creates the script's rotor with the numbers of `spec`, whose spin the script does not know.
+    /// Creates the script's rotor with the numbers of `spec`; the script ignores its `spin`.
     ///
     /// # Errors
     ///
-    /// All that is wrong with the numbers, as of [`super::Rotor::new`].
+    /// [`InvalidParameters`] with one sentence for each number of `spec` that [`super::Rotor::new`] refuses.
     pub fn new(spec: RotorSpec) -> Result<Self, InvalidParameters> {
         super::Rotor::new(spec).map(|rotor| Self(*rotor.spec()))
     }
 
-    /// Thrust `[N]` and torque `[N·m]` of the script, which it puts on the airframe as it stands: positive about the
-    /// thrust axis; at a density `[kg/m³]`, speed `[rad/s]`, velocity `[m/s]` and rotation of the hub. Power `[W]` is
-    /// the torque times the speed.
+    /// Load by the script in air of `density` `[kg/m³]`, at `speed` `[rad/s]`, with the hub moving at `velocity`
+    /// `[m/s]` relative to the air, in world axes, and the `rotation` from rotor to world axes.
+    ///
+    /// The torque `[N·m]` acts on the airframe about the thrust axis, positive whatever the spin, as the script has it;
+    /// power `[W]` is torque times speed. NaN where the script gives NaN.
     #[inline(always)]
     pub fn load<R: Real>(&self, density: f64, speed: R, velocity: Vec3<R>, rotation: &Mat3<R>) -> Load<R> {
         let out = evaluate(&self.0, density, speed, velocity, rotation);
@@ -61,7 +64,9 @@ impl PrintedScript {
     }
 }
 
-/// The script at `speed` [rad/s] for a hub moving at `velocity` [m/s] in the world, with `rotation` from body to world.
+/// Evaluates the script in air of `density` `[kg/m³]` at `speed` `[rad/s]`, for a hub moving at `velocity` `[m/s]`
+/// relative to the air, in world axes; `rotation` turns body axes to world axes. NaN where the script divides by zero
+/// (Ω = 0) or takes the root of a negative number.
 #[must_use]
 pub fn evaluate<R: Real>(
     rotor: &RotorSpec,

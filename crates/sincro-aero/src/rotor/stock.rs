@@ -57,7 +57,8 @@ impl ExactStep {
     }
 }
 
-/// The propeller; [`StockPropeller::default`] has V-REP's numbers.
+/// V-REP's stock propeller, a jet of imaginary particles; [`StockPropeller::default`] has V-REP's numbers. For scenes
+/// that must behave as they do there; its particle count varies by one from step to step.
 ///
 /// ```
 /// use sincro_aero::rotor::StockPropeller;
@@ -68,13 +69,14 @@ impl ExactStep {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StockPropeller {
-    /// Particles a second, N.
+    /// Particles thrown per second, N `[1/s]`.
     pub particles_per_second: u32,
-    /// Diameter of a particle d `[m]`.
+    /// Diameter of a particle, d `[m]`, 0 to 1e6.
     pub diameter: f64,
-    /// Density of a particle ρ [kg/m³].
+    /// Density of a particle, ρ `[kg/m³]`, 0 to 1e9.
     pub density: f64,
-    /// Torque about the axis by velocity of the particles, as a magnitude [N·s].
+    /// Torque about the axis over the velocity of the particles `[N·s]`, −1e9 to 1e9; the torque acts along −z for
+    /// positive ones.
     pub torque_by_velocity: f64,
 }
 
@@ -85,7 +87,8 @@ impl Default for StockPropeller {
 }
 
 impl StockPropeller {
-    /// Describes every number out of range, one sentence each; empty if there is none.
+    /// Checks the fields against their ranges: one sentence for each that is out of range or not a number; empty if
+    /// none is.
     #[must_use]
     pub fn problems(&self) -> Vec<String> {
         let mut out = Vec::new();
@@ -95,14 +98,15 @@ impl StockPropeller {
         out
     }
 
-    /// Mass of a particle ρ π d³/6 `[kg]`.
+    /// Mass of a particle, ρ π d³/6 `[kg]`.
     #[must_use]
     pub fn particle_mass(&self) -> f64 {
         let d = self.diameter;
         self.density * PI * (d * d * d) / 6.0
     }
 
-    /// Particles thrown in step `tick` (counted from 0) of steps of `step` `[s]`.
+    /// Number of whole particles thrown during base step `tick` (counted from 0) of length `step` `[s]`: ⌊N (tick + 1)
+    /// step⌋ − ⌊N tick·step⌋, computed in integers. Zero for a `step` that is not positive and finite.
     #[must_use]
     pub fn count(&self, tick: u64, step: f64) -> u64 {
         let exact = ExactStep::new(step);
@@ -110,19 +114,21 @@ impl StockPropeller {
         u64::try_from(until(tick.saturating_add(1)).saturating_sub(until(tick))).unwrap_or(u64::MAX)
     }
 
-    /// Mass thrown in that step, by its length [kg/s]: the force at a velocity of 1 m/s; zero for a step of no length.
+    /// Mass flow during base step `tick` (counted from 0) of length `step` `[s]`: mass of its particles over `step`
+    /// `[kg/s]`. Times the velocity of the particles it is the thrust of that step; zero for a step that is not
+    /// positive.
     #[must_use]
     pub fn flow(&self, tick: u64, step: f64) -> f64 {
         if step > 0.0 { self.count(tick, step) as f64 * self.particle_mass() / step } else { 0.0 }
     }
 
-    /// Mean force along the axis `[N]` at `velocity` [m/s].
+    /// Thrust averaged over many steps, N m u `[N]`, at the `velocity` u of the particles `[m/s]`.
     #[must_use]
     pub fn mean_force(&self, velocity: f64) -> f64 {
         f64::from(self.particles_per_second) * self.particle_mass() * velocity
     }
 
-    /// Torque about the axis [N·m] at `velocity` [m/s].
+    /// Torque on the airframe about the thrust axis (+z) `[N·m]` at the `velocity` of the particles `[m/s]`.
     #[must_use]
     pub fn torque<R: Real>(&self, velocity: R) -> R {
         R::splat(-self.torque_by_velocity) * velocity

@@ -16,7 +16,7 @@ use crate::diagram::Diagram;
 use crate::program::Program;
 use crate::unit::Unit;
 
-/// Surroundings of a diagram: the world's ports and the clock.
+/// Surroundings of a diagram for [`compile`]: base step, seed, and the ports of the world that its wires may reach.
 ///
 /// ```
 /// use sincro_blocks::compile::Terminal;
@@ -38,74 +38,76 @@ use crate::unit::Unit;
 pub struct Interface {
     /// Base step `[s]`.
     pub step: f64,
-    /// Seed of everything random.
+    /// Seed of the run, from which those of all random blocks are derived.
     pub seed: u64,
-    /// Measurements: outputs of the world.
+    /// Measurements, outputs of the world that the diagram can read. [`Measured::terminal`](crate::program::Measured)
+    /// counts them.
     pub measurements: Vec<Terminal>,
-    /// Commands: inputs of the world.
+    /// Commands, inputs of the world that the diagram can set. [`Commanded::terminal`](crate::program::Commanded)
+    /// counts them.
     pub commands: Vec<Terminal>,
 }
 
 impl Interface {
-    /// A clock alone, without a world; `step` is the base step `[s]`.
+    /// Interface without ports, for a diagram alone, with the base step `step` `[s]` and seed 0.
     #[must_use]
     pub fn new(step: f64) -> Self {
         Self { step, seed: 0, measurements: Vec::new(), commands: Vec::new() }
     }
 }
 
-/// A port of the world.
+/// Port of the world in an [`Interface`]: a measurement or a command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Terminal {
-    /// Its name, then other names for the same.
+    /// Names under which wires find it, the first one being its own, such as `/hinge.position`.
     pub names: Vec<String>,
     /// Number of components.
     pub width: usize,
-    /// Unit, if it has one.
+    /// Unit of all components; `None` if it has none.
     pub unit: Option<Unit>,
-    /// For a measurement: depends at once on the commands, as an acceleration does. For a command: taken at ticks only
-    /// and held, as the velocity of an ideal motor is.
+    /// True of a measurement that depends on the commands of the same instant, as an acceleration does; true of a
+    /// command that is taken at ticks only and held, as the velocity of an ideal motor is.
     pub is_special: bool,
 }
 
-/// Place of a problem.
+/// Place of a [`Diagnostic`] in nested diagrams.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// Names of the entries that lead to the diagram; empty for the outermost.
+    /// Names of the entries that lead to the diagram, outermost first; empty for the outermost diagram.
     pub diagram: Vec<String>,
     /// Element of that diagram.
     pub element: Element,
 }
 
-/// Element of a diagram.
+/// Element of a diagram that a [`Diagnostic`] is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// The entry of a name.
+    /// Entry with this name.
     Entry(String),
-    /// The sample time of an entry.
+    /// Sample time of the entry with this name.
     SampleTime(String),
-    /// The unit of an entry.
+    /// Unit of the entry with this name.
     Unit(String),
-    /// Source of the wire with this number.
+    /// Source of the wire of this index in `Diagram::wires`.
     From(usize),
-    /// Target of the wire with this number.
+    /// Target of the wire of this index in `Diagram::wires`.
     To(usize),
-    /// A port of the diagram.
+    /// Port of the diagram with this name.
     Port(String),
 }
 
-/// One error of a diagram, with its place and a help.
+/// Error of a diagram, with its place and a help; part of a [`CompileError`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Place in the diagram.
     pub place: Place,
-    /// The error.
+    /// Description of the error.
     pub message: String,
-    /// Help: a change that would correct it.
+    /// Suggested correction.
     pub help: String,
 }
 
-/// All errors of a diagram that one pass of the compiler found; never empty.
+/// Error of [`compile`]: all errors of a diagram that one pass of the compiler found; never empty.
 ///
 /// ```
 /// use sincro_blocks::library::maths::{Gain, Sum};
@@ -164,11 +166,12 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Compiles a diagram.
+/// Compiles a diagram: resolves names, infers widths and units, finds the order of evaluation and the rates. The result
+/// is run by a [`Runner`](crate::runner::Runner).
 ///
 /// # Errors
 ///
-/// Everything that is wrong with it, as far as a pass can tell: names, widths, algebraic loops, sample times, units.
+/// [`CompileError`] with everything that one pass found wrong: names, widths, algebraic loops, sample times, units.
 ///
 /// ```
 /// use sincro_blocks::library::continuous::Integrator;

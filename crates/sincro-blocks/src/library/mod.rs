@@ -20,12 +20,12 @@ use crate::instance::DynBlock;
 use crate::kind::{Described, Kind};
 use crate::reader::Reader;
 
-/// A kind of block and how one is made from parameters.
+/// Entry of the library: a kind of block and its constructor from parameters; from [`all`] or [`find`].
 #[derive(Clone, Copy, Debug)]
 pub struct Item {
-    /// Its description.
+    /// Description of the kind.
     pub kind: &'static Kind,
-    /// Makes one.
+    /// Creates a block from the parameters in a reader, which collects the errors in them.
     pub read: fn(&mut Reader<'_>) -> Box<dyn DynBlock>,
 }
 
@@ -34,7 +34,7 @@ pub(crate) const fn item<B: Block + Described>() -> Item {
     Item { kind: B::KIND, read: |reader| Box::new(B::read(reader)) }
 }
 
-/// All blocks, category by category.
+/// All kinds of block of the library, category by category.
 pub fn all() -> impl Iterator<Item = &'static Item> {
     let categories = [
         sources::BLOCKS,
@@ -52,7 +52,7 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
     categories.into_iter().flatten()
 }
 
-/// The block of a name.
+/// Kind of block with this name in files, such as `transfer-function`; `None` if there is none.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Item> {
     all().find(|item| item.kind.name == name)

@@ -5,42 +5,45 @@ use sincro_math::Real;
 use crate::signal::Signal;
 use crate::spatial::{Force, Pose, Vec3};
 
-/// A torque [N·m] or force `[N]` on one degree of freedom.
+/// Torque `[N·m]` or force `[N]` on one degree of freedom as a function of time; from `JointSpec::torque`.
 #[derive(Clone, Debug)]
 pub struct AppliedTorque {
-    /// Degree of freedom.
+    /// Index of the degree of freedom, 0 to n_v − 1.
     pub dof: usize,
-    /// One signal a lane.
+    /// Torque `[N·m]` or force `[N]` over time, one signal for each lane.
     pub signal: Vec<Signal>,
 }
 
 impl AppliedTorque {
-    /// Value at time `t` `[s]`.
+    /// Torque `[N·m]` or force `[N]` at time `t` `[s]`.
     #[inline(always)]
     pub fn torque<R: Real>(&self, t: f64) -> R {
         value(&self.signal, t)
     }
 }
 
-/// A force and a torque at a point of a link.
+/// External force and torque at a point of a link, over time and by command; from
+/// [`ForceSpec`](crate::model::ForceSpec).
 #[derive(Clone, Debug)]
 pub struct AppliedWrench<R> {
-    /// The link.
+    /// Index of the link in [`Model::links`](crate::model::Model::links).
     pub link: usize,
-    /// Frame of application in the link.
+    /// Pose of the frame of application in the link `[m]`; the force acts at its origin.
     pub pose: Pose<R>,
-    /// True if components are along the frame's axes; else along the world's.
+    /// True if components are along the axes of that frame, false if along those of the world.
     pub in_body: bool,
-    /// Force components `[N]`, one signal a lane each.
+    /// Force components x, y, z `[N]` over time, one signal for each lane.
     pub force: [Vec<Signal>; 3],
-    /// Torque components [N·m], one signal a lane each.
+    /// Torque components x, y, z `[N·m]` over time, one signal for each lane.
     pub torque: [Vec<Signal>; 3],
-    /// Index of the first of its six commands (force `[N]`, then torque [N·m]); none if it takes no commands.
+    /// Index in the model's commands of the first of its six (force x, y, z `[N]`, torque x, y, z `[N·m]`), added to
+    /// the signals; `None` if it takes no commands.
     pub input: Option<usize>,
 }
 
 impl<R: Real> AppliedWrench<R> {
-    /// The wrench at time `t` `[s]` about the link's origin, link axes; `r_wl` takes link to world axes.
+    /// Wrench at time `t` `[s]`: moment about the link's origin `[N·m]` and force `[N]`, in link axes. `r_wl` takes
+    /// link to world axes; `commands` are all commands of the model (n_commands).
     #[inline(always)]
     pub fn wrench(&self, t: f64, r_wl: &crate::spatial::Mat3<R>, commands: &[R]) -> Force<R> {
         let mut lin = Vec3([value(&self.force[0], t), value(&self.force[1], t), value(&self.force[2], t)]);
@@ -60,22 +63,23 @@ impl<R: Real> AppliedWrench<R> {
     }
 }
 
-/// External force and torque in world axes at a point of a link, constant until it is removed: applied by scripts and
-/// clients.
+/// External force and torque at a point of a link, constant until they are removed: applied by scripts and clients
+/// through [`World::apply_external_force`](crate::world::World::apply_external_force).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExternalForce<R> {
-    /// The link.
+    /// Index of the link in [`Model::links`](crate::model::Model::links).
     pub link: usize,
-    /// Point of application, link frame `[m]`.
+    /// Point of application in the link's frame `[m]`.
     pub point: Vec3<R>,
-    /// World axes `[N]`.
+    /// Force in world axes `[N]`.
     pub force: Vec3<R>,
-    /// World axes [N·m].
+    /// Torque in world axes `[N·m]`.
     pub torque: Vec3<R>,
 }
 
 impl<R: Real> ExternalForce<R> {
-    /// Wrench about the link's origin `[N·m]`, `[N]`, in link axes; `r_wl` takes link to world axes.
+    /// Wrench on the link: moment about its origin `[N·m]` and force `[N]`, in link axes; `r_wl` takes link to world
+    /// axes.
     #[inline(always)]
     pub fn wrench(&self, r_wl: &crate::spatial::Mat3<R>) -> Force<R> {
         let lin = r_wl.tr_mul_vec(self.force);

@@ -11,22 +11,23 @@
 
 use crate::ids::MotorId;
 
-/// Source of a set-valued joint torque.
+/// Origin of a [`Drive`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriveKind {
     /// Coulomb friction of the joint.
     Friction,
-    /// Velocity or position motor of this index.
+    /// Motor in velocity or position mode, with this id.
     Motor(MotorId),
     /// Lock without a limit: a degree of freedom of a force sensor.
     Lock,
 }
 
-/// One drive of a model; several may act on one degree of freedom.
+/// Set-valued torque on a degree of freedom: velocity motor or Coulomb friction. A model lists them
+/// ([`Model::drives`](crate::model::Model::drives)); several may act on one degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Drive {
-    /// The degree of freedom.
+    /// Index of the degree of freedom, 0 to n_v − 1.
     pub dof: usize,
-    /// Friction or a motor.
+    /// Friction, motor or lock.
     pub kind: DriveKind,
 }

@@ -16,7 +16,8 @@ use sincro_math::dual::Dual;
 use sincro_math::error::InvalidParameters;
 use sincro_math::expression::Expression;
 
-/// Names that the formula of a force law may use: deflection and rate.
+/// Names in the formula of a [`NonlinearLaw`], in the order that [`Expression::parse`] takes: `x`, the deflection `[m]`
+/// or `[rad]`, and `v`, its rate `[m/s]` or `[rad/s]`.
 pub const FORMULA_NAMES: [&str; 2] = ["x", "v"];
 
 /// Largest number of intermediate values of a formula: its stack stands in the function that evaluates it.
@@ -25,38 +26,47 @@ const MAX_STACK: usize = 16;
 /// Largest number of bisections of an interval of quadrature.
 const MAX_BISECTIONS: u32 = 12;
 
-/// Force law of a spring and damper.
+/// Force law of a spring and damper, F = preload − k x − c ẋ + N(x, ẋ) over deflection x and rate ẋ; a positive force
+/// acts towards larger x. Units below are those of a line; of a joint with an angle they are N·m, rad, rad/s.
+///
+/// ```
+/// use sincro_dynamics::actuation::ForceLaw;
+///
+/// let law = ForceLaw { stiffness: 200.0, damping: 5.0, preload: 0.0, nonlinear: None };
+/// assert_eq!(law.force(0.1, -2.0), -200.0 * 0.1 + 5.0 * 2.0); // [N]
+/// assert!((law.potential(0.1) - 0.5 * 200.0 * 0.1 * 0.1).abs() < 1e-15); // [J]
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceLaw<R> {
-    /// Stiffness k.
+    /// Stiffness k `[N/m]`.
     pub stiffness: R,
-    /// Damping coefficient c.
+    /// Damping coefficient c `[N·s/m]`.
     pub damping: R,
-    /// Force at zero deflection and rate.
+    /// Force at zero deflection and rate `[N]`.
     pub preload: R,
-    /// Nonlinear part N, added to the linear one.
+    /// Nonlinear part N, added to the linear one; `None` for a linear law.
     pub nonlinear: Option<Arc<NonlinearLaw>>,
 }
 
-/// Nonlinear part of a force law.
+/// Nonlinear part N(x, ẋ) of a force law, of a joint spring or of a [`ForceLaw`] between two points.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NonlinearLaw {
-    /// Force over the deflection.
+    /// Force `[N]` or torque `[N·m]` as a table over the deflection; no damping.
     Table(ForceTable),
     /// Force as a formula of deflection and rate ([`FORMULA_NAMES`]).
     Formula(Expression),
 }
 
 impl NonlinearLaw {
-    /// Law from a formula.
+    /// Creates the law of a formula that was parsed with [`FORMULA_NAMES`] and gives the force `[N]` or torque `[N·m]`.
     ///
     /// # Errors
     ///
-    /// A formula that is nested too deeply.
+    /// [`InvalidParameters`] if the formula needs more than 16 intermediate values at once.
     ///
     /// # Panics
     ///
-    /// If the formula was read with other names than [`FORMULA_NAMES`].
+    /// If the formula was parsed with other names than [`FORMULA_NAMES`].
     pub fn formula(formula: Expression) -> Result<Self, InvalidParameters> {
         if formula.stack_depth() > MAX_STACK {
             let message = format!(
@@ -69,7 +79,7 @@ impl NonlinearLaw {
         Ok(Self::Formula(formula))
     }
 
-    /// N(x, ẋ).
+    /// Force N(x, ẋ) `[N]` or torque `[N·m]` at deflection `x` `[m]` or `[rad]` and rate `v` `[m/s]` or `[rad/s]`.
     #[inline]
     pub fn force<R: Real>(&self, x: R, v: R) -> R {
         match self {
@@ -78,7 +88,8 @@ impl NonlinearLaw {
         }
     }
 
-    /// −∫₀ˣ N(s, 0) ds `[J]`.
+    /// Potential energy −∫₀ˣ N(s, 0) ds `[J]` at deflection `x` `[m]` or `[rad]`, zero at none; of a formula by
+    /// quadrature.
     pub fn potential<R: Real>(&self, x: R) -> R {
         let of = |x: f64| match self {
             Self::Table(table) => table.integral(0.0) - table.integral(x),
@@ -102,7 +113,8 @@ impl NonlinearLaw {
     }
 }
 
-/// Force over the deflection, linear between given points and continued beyond the first and the last.
+/// Force over the deflection as a table, linear between its points and continued with the first and last slope beyond
+/// them. Used in [`NonlinearLaw::Table`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceTable {
     deflections: Vec<f64>,
@@ -112,11 +124,11 @@ pub struct ForceTable {
 }
 
 impl ForceTable {
-    /// Table of points (deflection `[m]` or `[rad]`, force `[N]` or torque [N·m]).
+    /// Creates a table from points `[deflection, force]`, in units of `[m]` and `[N]` or `[rad]` and `[N·m]`.
     ///
     /// # Errors
     ///
-    /// Fewer than two points, numbers that are not finite, deflections that do not increase.
+    /// [`InvalidParameters`] for fewer than two points, numbers that are not finite, deflections that do not increase.
     pub fn new(points: &[[f64; 2]]) -> Result<Self, InvalidParameters> {
         let mut problems = Vec::new();
         if points.len() < 2 {
@@ -166,7 +178,7 @@ impl ForceTable {
 }
 
 impl<R: Real> ForceLaw<R> {
-    /// F(x, ẋ).
+    /// Force F(x, ẋ) `[N]` or torque `[N·m]` at deflection `x` `[m]` or `[rad]` and rate `v` `[m/s]` or `[rad/s]`.
     #[inline(always)]
     pub fn force(&self, x: R, v: R) -> R {
         let linear = self.preload - self.stiffness * x - self.damping * v;
@@ -176,7 +188,7 @@ impl<R: Real> ForceLaw<R> {
         }
     }
 
-    /// U(x) `[J]`, zero at x = 0.
+    /// Potential energy U(x) `[J]` at deflection `x` `[m]` or `[rad]`, zero at x = 0.
     pub fn potential(&self, x: R) -> R {
         let linear = (R::splat(0.5) * self.stiffness * x - self.preload) * x;
         match &self.nonlinear {
@@ -185,8 +197,9 @@ impl<R: Real> ForceLaw<R> {
         }
     }
 
-    /// −∂F/∂x and −∂F/∂ẋ, negative ones taken as zero: what a linearly implicit step evaluates at the new state. They
-    /// carry no derivatives themselves.
+    /// Stiffness −∂F/∂x `[N/m]` and damping −∂F/∂ẋ `[N·s/m]` (or their angular units) at `x` and `v`, negative ones
+    /// taken as zero: the terms that a linearly implicit step evaluates at the new state. They carry no derivatives
+    /// themselves.
     #[inline(always)]
     pub fn implicit_terms(&self, x: R, v: R) -> (R, R) {
         let (mut k, mut c) = (self.stiffness, self.damping);

@@ -3,8 +3,8 @@
 //! | element | torque on its joint | potential energy | dissipated power |
 //! |---|---|---|---|
 //! | [`spring`] | −k (q − rest) | ½ k (q − rest)² | |
-//! | [`damper`] | −c q̇ | | c q̇² |
-//! | [`friction`] | locked: any torque within the limit; sliding: ∓ limit(q̇) | | limit(q̇)·\|q̇\| |
+//! | `damper` | −c q̇ | | c q̇² |
+//! | `friction` | locked: any torque within the limit; sliding: ∓ limit(q̇) | | limit(q̇)·\|q̇\| |
 //! | [`motor`] | by mode | | −τ q̇ |
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
@@ -13,10 +13,10 @@
 //! in the air are in [`crate::aero`].
 
 pub mod applied;
-pub mod damper;
+pub(crate) mod damper;
 pub mod drive;
 pub mod force_law;
-pub mod friction;
+pub(crate) mod friction;
 pub mod motor;
 pub mod spring;
 pub mod spring_damper;

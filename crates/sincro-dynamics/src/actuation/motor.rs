@@ -12,7 +12,7 @@
 
 use sincro_math::Real;
 
-/// Control mode of a motor, which gives its command a meaning.
+/// Control mode of a [`Motor`]: the meaning and unit of its command.
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -28,19 +28,19 @@ use sincro_math::Real;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MotorMode {
-    /// Nothing.
+    /// No torque; the command is ignored.
     Free,
-    /// Command: torque [N·m] or force `[N]`.
+    /// The command is the torque `[N·m]` or force `[N]`.
     Torque,
-    /// Command: velocity [rad/s] or [m/s].
+    /// The command is the velocity `[rad/s]` or `[m/s]`, held exactly within the torque limit.
     Velocity,
-    /// Command: position `[rad]` or `[m]`.
+    /// The command is the position `[rad]` or `[m]`, approached at a velocity of `kp` times the error.
     Position,
-    /// Command: rest position `[rad]` or `[m]`.
+    /// The command is the rest position `[rad]` or `[m]` of a spring and damper.
     Spring,
 }
 
-/// A motor on one degree of freedom.
+/// Motor on one degree of freedom, with its mode, limits and gains; attached to a joint by `JointSpec::motor`.
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -61,31 +61,32 @@ pub enum MotorMode {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor<R> {
-    /// The degree of freedom; set when the model is built.
+    /// Index of the degree of freedom, 0 to n_v − 1; set when the model is built.
     pub dof: usize,
-    /// Mode.
+    /// Control mode.
     pub mode: MotorMode,
     /// Largest torque [N·m] or force `[N]`; infinite for an ideal motor.
     pub max_torque: R,
-    /// Position mode: velocity a unit of error [1/s].
+    /// Position mode: velocity per unit of position error `[1/s]`.
     pub kp: R,
     /// Position mode: largest velocity [rad/s] or [m/s]; infinite for none.
     pub max_velocity: R,
-    /// Spring mode [N·m/rad] or [N/m].
+    /// Spring mode: stiffness `[N·m/rad]` or `[N/m]`.
     pub stiffness: R,
-    /// Spring mode [N·m·s/rad] or [N·s/m].
+    /// Spring mode: damping `[N·m·s/rad]` or `[N·s/m]`.
     pub damping: R,
 }
 
 impl Motor<f64> {
-    /// A motor without limits; gains zero.
+    /// Motor without limits, all gains zero, on degree of freedom 0 until the model is built.
     #[must_use]
     pub fn new(mode: MotorMode) -> Self {
         let inf = f64::INFINITY;
         Self { dof: 0, mode, max_torque: inf, kp: 0.0, max_velocity: inf, stiffness: 0.0, damping: 0.0 }
     }
 
-    /// Every number of the motor with its name, in SI units.
+    /// Parameters with their field names, for checks: `max_torque` `[N·m]` or `[N]`, `kp` `[1/s]`, `max_velocity`
+    /// `[rad/s]` or `[m/s]`, `stiffness` `[N·m/rad]` or `[N/m]`, `damping` `[N·m·s/rad]` or `[N·s/m]`.
     #[must_use]
     pub fn numbers(&self) -> [(&'static str, f64); 5] {
         [
@@ -99,13 +100,14 @@ impl Motor<f64> {
 }
 
 impl<R: Real> Motor<R> {
-    /// Returns true if the motor is a velocity constraint.
+    /// Returns true if the motor is a velocity constraint (a [`Drive`](super::Drive)): in velocity and position mode.
     #[must_use]
     pub fn is_drive(&self) -> bool {
         matches!(self.mode, MotorMode::Velocity | MotorMode::Position)
     }
 
-    /// Target velocity of a drive [rad/s] or [m/s] for a latched command, at coordinate `q` at the tick.
+    /// Target velocity of a drive `[rad/s]` or `[m/s]` at the coordinate `q` `[rad]` or `[m]`: in position mode
+    /// kp·(`command` − q), limited; else the command. `command` is in the unit of the mode.
     #[inline(always)]
     pub fn target_velocity(&self, q: R, command: R) -> R {
         match self.mode {

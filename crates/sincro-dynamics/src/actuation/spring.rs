@@ -15,19 +15,19 @@ use crate::joint::{Dof, Link, StageKind};
 use crate::spatial::{Quat, Vec3};
 
 /// Nonlinear spring and damper of a degree of freedom with a coordinate of its own, beside its linear ones; its
-/// deflection is that of the linear spring, from the same rest position.
+/// deflection is that of the linear spring, from the same rest position. From `JointSpec::spring_law`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NonlinearSpring {
-    /// The degree of freedom.
+    /// Index of the degree of freedom, 0 to n_v − 1.
     pub dof: usize,
-    /// Torque [N·m] or force `[N]` over deflection and rate.
+    /// Torque `[N·m]` over deflection `[rad]` and rate `[rad/s]`, or force `[N]` over `[m]` and `[m/s]`.
     pub law: Arc<NonlinearLaw>,
 }
 
 impl NonlinearSpring {
     /// Elastic and dissipating torque [N·m] or force `[N]` at the coordinate `q` and rate `v`.
     #[inline(always)]
-    pub fn torques<R: Real>(&self, dof: &Dof<R>, q: R, v: R) -> (R, R) {
+    pub(crate) fn torques<R: Real>(&self, dof: &Dof<R>, q: R, v: R) -> (R, R) {
         let x = q - dof.rest;
         let elastic = self.law.force(x, R::zero());
         (elastic, self.law.force(x, v) - elastic)
@@ -46,13 +46,13 @@ impl NonlinearSpring {
 
 /// Torque [N·m] or force `[N]` at coordinate `q`.
 #[inline(always)]
-pub fn torque<R: Real>(dof: &Dof<R>, q: R) -> R {
+pub(crate) fn torque<R: Real>(dof: &Dof<R>, q: R) -> R {
     dof.stiffness * (dof.rest - q)
 }
 
 /// Stored energy ½ k (q − rest)² `[J]`.
 #[inline(always)]
-pub fn energy<R: Real>(dof: &Dof<R>, q: R) -> R {
+pub(crate) fn energy<R: Real>(dof: &Dof<R>, q: R) -> R {
     let deflection = q - dof.rest;
     R::splat(0.5) * dof.stiffness * deflection * deflection
 }

@@ -18,51 +18,52 @@ use sincro_math::Real;
 use super::force_law::{ForceLaw, integrate};
 use crate::spatial::{Force, Motion, Pose, Vec3};
 
-/// Point fixed in a link, or in the world.
+/// Point fixed in a link, or in the world: one end of a [`SpringDamper`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkPoint<R> {
-    /// The link, none for the world.
+    /// Index of the link in [`Model::links`](crate::model::Model::links); `None` for the world.
     pub link: Option<usize>,
-    /// Position in the link's frame, or the world `[m]`.
+    /// Position in the link's frame, or in the world `[m]`.
     pub position: Vec3<R>,
 }
 
-/// Actuator of a [`SpringDamper`].
+/// Actuator of a [`SpringDamper`]: adds its command, limited, to the force along the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineActuator<R> {
-    /// Index of the command, a force `[N]`.
+    /// Index in the model's commands of its command, a force `[N]`; positive pushes the points apart.
     pub command: usize,
-    /// Largest force `[N]`; infinite for none.
+    /// Largest magnitude of the force `[N]`; infinite for none.
     pub max_force: R,
 }
 
-/// Translational spring–damper–actuator.
+/// Translational spring, damper and actuator along the line between two points; from
+/// [`SpringDamperSpec`](crate::model::SpringDamperSpec).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringDamper<R> {
-    /// Its two ends.
+    /// Two end points of the line.
     pub ends: [LinkPoint<R>; 2],
     /// Length at which the deflection is zero `[m]`.
     pub free_length: R,
-    /// Force `[N]` over deflection `[m]` and rate [m/s].
+    /// Force `[N]` over deflection (length less free length) `[m]` and rate `[m/s]`; positive pushes the points apart.
     pub law: ForceLaw<R>,
     /// True for a rope: it pulls, when longer than its free length, and never pushes.
     pub tension_only: bool,
-    /// Actuator, if there is one.
+    /// Actuator along the line; `None` without.
     pub actuator: Option<LineActuator<R>>,
 }
 
-/// The line of a [`SpringDamper`] at one instant, world axes.
+/// Line of a [`SpringDamper`] at one instant, in world axes; from [`SpringDamper::line`].
 #[derive(Clone, Copy, Debug)]
 pub struct Line<R> {
-    /// The two points `[m]`.
+    /// Positions of the two end points `[m]`.
     pub points: [Vec3<R>; 2],
-    /// Their velocities [m/s].
+    /// Velocities of the two end points `[m/s]`.
     pub velocities: [Vec3<R>; 2],
-    /// Unit vector from the first to the second; zero where they coincide.
+    /// Unit vector from the first point to the second; zero where they coincide.
     pub direction: Vec3<R>,
-    /// Length `[m]`.
+    /// Distance of the points `[m]`.
     pub length: R,
-    /// Rate of the length [m/s].
+    /// Rate of the distance `[m/s]`.
     pub rate: R,
 }
 
@@ -71,14 +72,14 @@ pub struct Line<R> {
 pub struct LineForces<R> {
     /// Elastic force `[N]`: minus the derivative of the potential energy.
     pub elastic: R,
-    /// Force that dissipates `[N]`.
+    /// Dissipating force `[N]`: the part that depends on the rate.
     pub damping: R,
     /// Force of the actuator `[N]`.
     pub actuator: R,
 }
 
 impl<R: Real> LineForces<R> {
-    /// Sum `[N]`.
+    /// Sum of the three forces along the line `[N]`.
     #[inline(always)]
     pub fn total(&self) -> R {
         self.elastic + self.damping + self.actuator
@@ -86,7 +87,8 @@ impl<R: Real> LineForces<R> {
 }
 
 impl<R: Real> SpringDamper<R> {
-    /// The line, for the twist of a link in link axes and its pose in the world.
+    /// Computes the line at one instant. `at` gives, for the index of a link, its twist about its origin in link axes
+    /// (`[rad/s]`, `[m/s]`) and its pose in the world `[m]`.
     #[inline(always)]
     pub fn line(&self, at: impl Fn(usize) -> (Motion<R>, Pose<R>)) -> Line<R> {
         let ends = self.ends.map(|end| match end.link {
@@ -105,7 +107,8 @@ impl<R: Real> SpringDamper<R> {
         Line { points: [p1, p2], velocities: [v1, v2], direction, length, rate: direction.dot(v2 - v1) }
     }
 
-    /// Forces at a length `[m]` and a rate `[m/s]`.
+    /// Forces along the line `[N]` at its `length` `[m]` and `rate` of the length `[m/s]`; `commands` are all commands
+    /// of the model (n_commands), of which an actuator reads its own.
     #[inline(always)]
     pub fn forces(&self, length: R, rate: R, commands: &[R]) -> LineForces<R> {
         let (x, zero) = (length - self.free_length, R::zero());
@@ -118,7 +121,7 @@ impl<R: Real> SpringDamper<R> {
         LineForces { elastic: pulls(elastic), damping: pulls(both) - pulls(elastic), actuator }
     }
 
-    /// Potential energy `[J]` at a length `[m]`, zero at the free length.
+    /// Potential energy `[J]` at a `length` of the line `[m]`, zero at the free length.
     pub fn potential(&self, length: R) -> R {
         let x = length - self.free_length;
         if !self.tension_only {
@@ -139,7 +142,8 @@ impl<R: Real> SpringDamper<R> {
         value + slope * (x - R::from_lanes(|l| x.lane(l)))
     }
 
-    /// Stiffness [N/m] and damping [N·s/m] that a linearly implicit step takes at the new state.
+    /// Stiffness `[N/m]` and damping `[N·s/m]` that a linearly implicit step evaluates at the new state, at a `length`
+    /// of the line `[m]` and its `rate` `[m/s]`; zero for a slack rope.
     #[inline(always)]
     pub fn implicit_terms(&self, length: R, rate: R) -> (R, R) {
         let (x, zero) = (length - self.free_length, R::zero());
@@ -151,8 +155,8 @@ impl<R: Real> SpringDamper<R> {
         (is_taut(k), is_taut(c))
     }
 
-    /// Wrench on the link of end `k`, about the link's origin `[N·m]`, `[N]` in link axes, of a force along the line
-    /// `[N]`; `x_wl` is the pose of the link in the world.
+    /// Wrench of a `force` along the line `[N]` on the link of end `k` (0 or 1): moment about the link's origin `[N·m]`
+    /// and force `[N]`, in link axes. `x_wl` is the pose of that link in the world `[m]`.
     #[inline(always)]
     pub fn wrench(&self, k: usize, line: &Line<R>, force: R, x_wl: &Pose<R>) -> Force<R> {
         let along = line.direction.scale(if k == 0 { -force } else { force });

@@ -49,14 +49,14 @@ struct Compiler<'a> {
 }
 
 impl ModelBuilder {
-    /// Checks everything and compiles. The second part of the result are the warnings.
+    /// Checks the objects and compiles the model; returns it with the warnings.
     ///
     /// # Errors
     ///
-    /// All problems at once, errors and warnings, if there is an error among them: not finite numbers, a mass that is
-    /// not positive, an inertia with a negative principal moment, a null axis, negative stiffness, damping, friction,
-    /// armature or limits, list lengths that do not fit the joint, a joint that carries no mass, a rotor that does not
-    /// turn with the joint it takes its speed from.
+    /// [`BuildError`] with all diagnostics at once, warnings included, if one of them is an error: numbers that are not
+    /// finite, a mass that is not positive, an inertia with a negative principal moment, a null axis, negative
+    /// stiffness, damping, friction, armature or limits, lists that do not fit the joint, a joint that carries no mass,
+    /// a rotor that does not turn with the joint it takes its speed from.
     pub fn build(&self) -> Result<(Model<f64>, Vec<Diagnostic>), BuildError> {
         compile(self)
     }

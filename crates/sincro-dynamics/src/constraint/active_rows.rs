@@ -10,29 +10,30 @@ use super::Constraints;
 use super::cone::ContactMode;
 use crate::model::Model;
 
-/// Source of an active row.
+/// Origin of an [`ActiveRow`]; indices are those of the lists in [`ConstraintSet`](crate::model::ConstraintSet).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActiveSource {
-    /// Loop joint of this index.
+    /// Loop joint, index in `loop_joints`.
     LoopJoint(usize),
-    /// Gear of this index.
+    /// Gear, index in `gears`.
     Gear(usize),
-    /// Joint limit of this index.
+    /// Joint limit that is reached, index in `limits`.
     Limit(usize),
-    /// Normal direction of a contact of this pair.
+    /// Normal direction of a contact point, index of its pair in `pairs`.
     Contact(usize),
-    /// Sticking friction of a contact of this pair.
+    /// Direction of sticking friction at a contact point, index of its pair in `pairs`.
     StickingFriction(usize),
 }
 
-/// Equation that holds at the state last evaluated.
+/// Constraint equation that holds at the state last evaluated, for linearisation; from
+/// [`Mechanism::active_constraints`](crate::mechanism::Mechanism::active_constraints).
 #[derive(Clone, Copy, Debug)]
 pub struct ActiveRow<R> {
-    /// Source.
+    /// Constraint that it comes from.
     pub source: ActiveSource,
-    /// Position residual of a holonomic constraint `[m]` or `[rad]`; none of a nonholonomic one.
+    /// Position residual of a holonomic constraint `[m]` or `[rad]`; `None` for a nonholonomic one (sticking friction).
     pub residual: Option<R>,
-    /// Velocity residual J v [m/s] or [rad/s].
+    /// Velocity residual J v `[m/s]` or `[rad/s]`.
     pub rate: R,
 }
 

@@ -128,22 +128,22 @@ pub(crate) enum ModeRule {
     HeldAndChecked,
 }
 
-/// Contact point with its force.
+/// Contact point with its force, from [`Observation::contacts`](crate::world::Observation::contacts).
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPoint {
-    /// Index of the pair.
+    /// Index of the pair in [`ConstraintSet::pairs`].
     pub pair: usize,
-    /// Indices of the two surfaces; the force is on the first one.
+    /// Indices of the two colliders in [`ConstraintSet::colliders`]; the force is on the first.
     pub surfaces: [usize; 2],
-    /// Position `[m]`, world axes.
+    /// Position in world axes `[m]`.
     pub point: Vec3<f64>,
-    /// Unit normal from the second surface to the first, world axes.
+    /// Unit normal from the second surface to the first, in world axes.
     pub normal: Vec3<f64>,
-    /// Force on the first surface's body `[N]`, world axes.
+    /// Force on the body of the first surface, in world axes `[N]`; minus this on the second.
     pub force: Vec3<f64>,
-    /// Torque of rolling and spinning friction on it [N·m].
+    /// Torque of rolling and spinning friction on the same body, in world axes `[N·m]`.
     pub torque: Vec3<f64>,
-    /// Signed distance `[m]`.
+    /// Signed distance of the surfaces `[m]`; negative if they penetrate.
     pub distance: f64,
 }
 

@@ -44,24 +44,25 @@ pub(super) const MAX_TURNS: usize = 20;
 /// Iterations of ADMM before its active set is tried the first time; doubled after each trial.
 const FIRST_ITERATIONS: usize = 25;
 
-/// Solver statistics since the world was made.
+/// Statistics of the constraint solver since the world was made; from
+/// [`World::solver_report`](crate::world::World::solver_report).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolverReport {
-    /// Problems solved.
+    /// Number of complementarity problems solved.
     pub solved: u64,
-    /// Problems solved by ADMM.
+    /// Number of those that ADMM solved, because the active-set method did not converge.
     pub split: u64,
-    /// Problems of accepted steps whose complementarity residual exceeds 1e-9.
+    /// Number of problems in accepted steps with a complementarity residual above 1e-9.
     pub not_converged: u64,
-    /// Largest complementarity residual among those, relative to the largest force or rate (dimensionless).
+    /// Largest complementarity residual of those, relative to the largest force or rate (dimensionless).
     pub worst_residual: f64,
-    /// Islands solved by sweeps at the time-stepping level.
+    /// Number of contact islands solved by sweeps at the velocity level.
     pub islands: u64,
-    /// Sweeps over all contacts of an island.
+    /// Number of sweeps over all contacts of an island, summed over the islands.
     pub sweeps: u64,
-    /// Islands whose residual exceeds 1e-6 at the iteration limit.
+    /// Number of islands with a residual above 1e-6 at the iteration limit.
     pub unconverged_islands: u64,
-    /// Largest residual of an island, natural map of the Coulomb law relative to its largest force (dimensionless).
+    /// Largest residual of an island: natural map of the Coulomb law over its largest force (dimensionless).
     pub worst_island: f64,
 }
 

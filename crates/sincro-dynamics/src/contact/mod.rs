@@ -30,7 +30,8 @@ use crate::ids::BodyId;
 use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
-/// Contact properties of one surface.
+/// Contact properties of one surface, given to [`ModelBuilder::collider`](crate::model::ModelBuilder::collider); those
+/// of a pair follow from [`Material::with`].
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -44,19 +45,19 @@ use crate::spatial::{Pose, Vec3};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Coulomb's coefficient.
+    /// Coefficient of Coulomb friction μ (dimensionless).
     pub friction: f64,
-    /// Newton's coefficient: speed of leaving over speed of arriving, 0 to 1.
+    /// Coefficient of restitution (Newton): speed of separation over speed of approach, 0 to 1.
     pub restitution: f64,
-    /// Lever arm of rolling resistance `[m]`: its torque is at most this times the normal force.
+    /// Coefficient of rolling friction `[m]`: the torque is at most this times the normal force.
     pub rolling_friction: f64,
-    /// Lever arm of the torque about the normal `[m]`.
+    /// Coefficient of spinning friction `[m]`: the torque about the normal is at most this times the normal force.
     pub spinning_friction: f64,
-    /// Force a metre of penetration [N/m]; infinite: rigid.
+    /// Stiffness, normal force over penetration `[N/m]`; infinite for a rigid surface.
     pub stiffness: f64,
     /// Dissipation of a compliant contact [s/m]: force k·δ·(1 + dissipation·δ̇).
     pub dissipation: f64,
-    /// Shapes of the same group other than zero do not touch each other.
+    /// Collision group: colliders of the same group, other than 0, do not collide with each other.
     pub group: u32,
 }
 
@@ -89,7 +90,8 @@ impl Material {
         Self { friction, restitution, rolling_friction, spinning_friction, stiffness, dissipation, ..self }
     }
 
-    /// Contact law of a pair of surfaces.
+    /// Contact law of a pair of surfaces: geometric mean of the friction coefficients, sum of the compliances 1/k, the
+    /// larger of the two for all else; the group of the result is 0.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self {
@@ -104,21 +106,21 @@ impl Material {
     }
 }
 
-/// Contact law between the surfaces of two bodies, where it differs from the combination of their materials; what is
-/// left out is combined.
+/// Contact law of the surfaces of two bodies, in place of the combination of their materials, for
+/// [`ModelBuilder::contact_pair`](crate::model::ModelBuilder::contact_pair). Fields that are `None` are combined.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairLaw {
-    /// True if the two do not touch each other.
+    /// True if the two do not collide with each other.
     pub is_excluded: bool,
-    /// Coulomb's coefficient.
+    /// Coefficient of Coulomb friction μ (dimensionless).
     pub friction: Option<f64>,
-    /// Newton's coefficient, 0 to 1.
+    /// Coefficient of restitution, 0 to 1.
     pub restitution: Option<f64>,
-    /// Lever arm of rolling resistance `[m]`.
+    /// Coefficient of rolling friction `[m]`.
     pub rolling_friction: Option<f64>,
-    /// Lever arm of the torque about the normal `[m]`.
+    /// Coefficient of spinning friction `[m]`.
     pub spinning_friction: Option<f64>,
-    /// Force a metre of penetration [N/m]; infinite: rigid.
+    /// Stiffness, normal force over penetration `[N/m]`; infinite for a rigid contact.
     pub stiffness: Option<f64>,
     /// Dissipation of a compliant contact [s/m].
     pub dissipation: Option<f64>,
@@ -139,37 +141,39 @@ impl PairLaw {
     }
 }
 
-/// Collider: a surface fixed in a link or the world.
+/// Collider: a surface fixed in a link or the world, listed in
+/// [`ConstraintSet::colliders`](crate::model::ConstraintSet).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collider {
-    /// Name of the body.
+    /// Name of the body or frame that carries it.
     pub name: String,
-    /// Id of the body or frame; none for the world itself.
+    /// Id of that body or frame; `None` for the world.
     pub body: Option<BodyId>,
     /// The link, `WORLD` for none.
     pub(crate) link: u32,
-    /// In the link, or the world.
+    /// Pose of the surface's frame in the link, or in the world `[m]`.
     pub pose: Pose<f64>,
-    /// Geometry.
+    /// Geometry, in the surface's own frame.
     pub surface: Surface,
-    /// Material.
+    /// Contact properties.
     pub material: Material,
 }
 
-/// Pair of colliders that may come into contact.
+/// Pair of colliders that can collide, listed in [`ConstraintSet::pairs`](crate::model::ConstraintSet); each of its
+/// slots can hold one contact point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// Index of the surface whose points touch.
+    /// Index of the collider whose points touch.
     pub a: usize,
-    /// Index of the surface that is touched.
+    /// Index of the collider that is touched.
     pub b: usize,
     /// Contact law of the pair.
     pub material: Material,
     /// True if the two pass through each other.
     pub is_ignored: bool,
-    /// First slot.
+    /// Index of its first slot among those of contacts; in all slots those of limits come before.
     pub first: usize,
-    /// Number of slots.
+    /// Number of slots: the most contact points that the pair can have.
     pub slots: usize,
     kind: PairKind,
 }

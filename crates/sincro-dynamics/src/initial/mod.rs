@@ -13,55 +13,56 @@ use crate::state::State;
 
 pub use velocities::{ConstraintRate, MotorConflict, consistent_velocities, constraint_rates, motor_conflict};
 
-/// Constraint residual of a loop joint or gear.
+/// Position residual of a loop joint or gear, from [`constraint_residuals`]: how far it is from being closed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstraintResidual {
-    /// Its name.
+    /// Name of the loop joint or gear.
     pub name: String,
-    /// Distance between the ends, or deviation from the prescribed distance `[m]`; of a gear, in the units of its
-    /// second joint.
+    /// Distance between the ends, or deviation from the prescribed distance `[m]`; of a gear |q₂ − ratio·q₁ − offset|
+    /// in the unit of its second joint. Not negative.
     pub distance: f64,
-    /// Angle between axes that should agree `[rad]`.
+    /// Angle between axes that should agree `[rad]`; 0 if there are none.
     pub angle: f64,
 }
 
-/// Penetration of two surfaces.
+/// Penetration of two rigid surfaces, from [`penetrations`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Penetration {
-    /// One body.
+    /// Name of one body.
     pub a: String,
-    /// The other.
+    /// Name of the other body.
     pub b: String,
-    /// Penetration depth `[m]`.
+    /// Penetration depth `[m]`, positive.
     pub depth: f64,
 }
 
-/// Joint position outside of a joint limit.
+/// Joint position outside of a joint limit, from [`limit_violations`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitViolation {
     /// Name of the joint.
     pub joint: String,
     /// Position `[rad]` or `[m]`.
     pub position: f64,
-    /// The limit `[rad]` or `[m]`.
+    /// Limit that is exceeded `[rad]` or `[m]`.
     pub limit: f64,
 }
 
-/// Mobility of a mechanism: degrees of freedom of the tree and the constraint equations on them.
+/// Mobility of a mechanism at a state, from [`mobility`]: degrees of freedom of the tree and constraint equations on
+/// them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mobility {
-    /// Degrees of freedom of the tree.
+    /// Number of degrees of freedom of the tree, those of force sensors left out.
     pub tree_dofs: usize,
     /// Number of loop joints and gears.
     pub loops: usize,
-    /// Number of their equations.
+    /// Number of their scalar equations.
     pub equations: usize,
-    /// Equations that depend on others.
+    /// Number of those equations that depend on the others.
     pub redundant: usize,
 }
 
 impl Mobility {
-    /// Returns the remaining degrees of freedom.
+    /// Number of remaining degrees of freedom: those of the tree less the independent equations.
     #[must_use]
     pub fn dofs(&self) -> usize {
         (self.tree_dofs + self.redundant).saturating_sub(self.equations)
@@ -75,7 +76,7 @@ fn placed(model: &Model<f64>, x: &State<f64>) -> (Mechanism<f64>, Vec<f64>) {
     (mechanism, y)
 }
 
-/// Constraint residuals of every loop joint and gear in a state `[m]`, `[rad]`.
+/// Position residuals in the state `x`: one for each loop joint, in the order of the model, then one for each gear.
 #[must_use]
 pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<ConstraintResidual> {
     let set = model.constraints();
@@ -92,8 +93,8 @@ pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<Constrain
     loop_joints.chain(gears).collect()
 }
 
-/// Coordinates (n_q) `[rad]`, `[m]` near those of a state that satisfy all loop joints and gears; none if there are
-/// none nearby.
+/// Assembles a mechanism with loops: coordinates (n_q) near those of `x` that satisfy all loop joints and gears to
+/// 1e-9. `None` if the iteration finds none.
 #[must_use]
 pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     let (mut mechanism, mut y) = placed(model, x);
@@ -108,7 +109,7 @@ pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     (all && closed.q.iter().all(|q| q.is_finite())).then_some(closed.q)
 }
 
-/// Pairs of bodies that penetrate in a state, each with its greatest depth `[m]`; compliant pairs left out.
+/// Pairs of rigid surfaces that penetrate in the state `x`, each with its greatest depth; compliant pairs are left out.
 #[must_use]
 pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     let set = model.constraints();
@@ -128,7 +129,7 @@ pub fn penetrations(model: &Model<f64>, x: &State<f64>) -> Vec<Penetration> {
     found
 }
 
-/// Joints outside of their limits by more than rounding, with the excess `[rad]`, `[m]`.
+/// Joint limits that the state `x` exceeds by more than 1e-9, in the order of the model's limits.
 #[must_use]
 pub fn limit_violations(model: &Model<f64>, x: &State<f64>) -> Vec<LimitViolation> {
     let beyond = model.constraints().limits.iter().filter_map(|limit| {
@@ -142,7 +143,7 @@ pub fn limit_violations(model: &Model<f64>, x: &State<f64>) -> Vec<LimitViolatio
     beyond.collect()
 }
 
-/// Mobility in a state, loop joints and gears counted.
+/// Mobility at the state `x`, under loop joints and gears; contacts and limits are not counted.
 #[must_use]
 pub fn mobility(model: &Model<f64>, x: &State<f64>) -> Mobility {
     let set = model.constraints();

@@ -26,10 +26,10 @@ const BETA: f64 = 0.04;
 const DETOUR: f64 = 0.83;
 const MAX_DETOURS: u32 = 20;
 
-/// The method, its step-size control and its working memory.
+/// Dormand–Prince method of order 5 with error control (embedded order 4), and its working memory: for smooth systems.
 #[derive(Clone, Debug)]
 pub struct DormandPrince {
-    /// Tolerance and next step.
+    /// Tolerance and next step size.
     pub control: Control,
     k: [Vec<f64>; 7],
     stage: Vec<f64>,
@@ -37,19 +37,19 @@ pub struct DormandPrince {
 }
 
 impl DormandPrince {
-    /// Creates the method for systems of `dim` unknowns.
+    /// Creates the method for systems with `dim` unknowns ([`System::dim`]).
     #[must_use]
     pub fn new(dim: usize, control: Control) -> Self {
         let zero = vec![0.0; dim];
         Self { control, k: std::array::from_fn(|_| zero.clone()), stage: zero.clone(), error: zero }
     }
 
-    /// Makes one accepted step from `t` `[s]`, no longer than `h_max` `[s]`; returns its length `[s]`. `y` is in a
-    /// fresh chart before and after.
+    /// Makes one accepted step from `t` `[s]`, no longer than `h_max` `[s]`, and returns its length `[s]`. `y`
+    /// ([`System::dim`] entries) is the state in a fresh chart before and after.
     ///
     /// # Errors
     ///
-    /// When no step is small enough.
+    /// [`Failure::StepTooSmall`] if no step meets the tolerance, [`Failure::NotFinite`] if slopes are not finite.
     pub fn step<S: System<f64>>(&mut self, system: &mut S, t: f64, h_max: f64, y: &mut [f64]) -> Result<f64, Failure> {
         let (mut h_max, mut detours) = (h_max, 0);
         loop {

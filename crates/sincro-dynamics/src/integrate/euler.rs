@@ -8,14 +8,14 @@ use sincro_math::Real;
 
 use super::{FixedStep, Implicit, System};
 
-/// Semi-implicit Euler method of order 1 with a fixed step, and its working memory.
+/// Semi-implicit Euler method of order 1 with a fixed step, and its working memory; joint dampers are taken implicitly.
 #[derive(Clone, Debug)]
 pub struct SemiImplicitEuler<R> {
     slope: Vec<R>,
 }
 
 impl<R: Real> SemiImplicitEuler<R> {
-    /// Creates the method for systems of `dim` unknowns.
+    /// Creates the method for systems with `dim` unknowns ([`System::dim`]).
     #[must_use]
     pub fn new(dim: usize) -> Self {
         Self { slope: vec![R::zero(); dim] }

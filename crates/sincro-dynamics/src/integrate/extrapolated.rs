@@ -18,12 +18,13 @@ use super::{Control, Failure, FixedStep, Implicit, System, power, too_small};
 /// Maximum number of rows of the tableau.
 const MAX_ROWS: usize = 8;
 
-/// Linearly implicit Euler method with extrapolation, fixed or variable step, and its working memory.
+/// Extrapolated linearly implicit Euler method, with fixed or variable step, and its working memory: for stiff systems.
 #[derive(Clone, Debug)]
 pub struct Extrapolated<R> {
-    /// Tolerance and next step, for the variable-step use.
+    /// Tolerance and next step size, for variable steps.
     pub control: Control,
-    /// Rows that the next step is expected to need.
+    /// Number of rows of the tableau, 1 to 8: of fixed steps the order, of variable steps the number expected for the
+    /// next.
     pub rows: usize,
     /// The last row of the tableau: entry k has order k + 1.
     tableau: Vec<Vec<R>>,
@@ -32,7 +33,8 @@ pub struct Extrapolated<R> {
 }
 
 impl<R: Real> Extrapolated<R> {
-    /// Creates the method for systems of `dim` unknowns, with `rows` rows (the order) in fixed-step use.
+    /// Creates the method for systems with `dim` unknowns ([`System::dim`]) and `rows` rows, 1 to 8; fixed steps do not
+    /// use `control`.
     #[must_use]
     pub fn new(dim: usize, rows: usize, control: Control) -> Self {
         let zero = vec![R::zero(); dim];
@@ -84,12 +86,12 @@ impl<R: Real> FixedStep<R> for Extrapolated<R> {
 }
 
 impl Extrapolated<f64> {
-    /// Makes one accepted step from `t` `[s]`, no longer than `h_max` `[s]`; returns its length `[s]`. `y` is in a
-    /// fresh chart before and after.
+    /// Makes one accepted step from `t` `[s]`, no longer than `h_max` `[s]`, and returns its length `[s]`. `y`
+    /// ([`System::dim`] entries) is the state in a fresh chart before and after.
     ///
     /// # Errors
     ///
-    /// When no step is small enough.
+    /// [`Failure::StepTooSmall`] if no step meets the tolerance, [`Failure::NotFinite`] if slopes are not finite.
     pub fn adaptive_step<S: System<f64>>(
         &mut self,
         system: &mut S,

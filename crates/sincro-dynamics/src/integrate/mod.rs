@@ -24,65 +24,68 @@ pub use rk4::Rk4;
 
 use sincro_math::Real;
 
-/// System of ordinary differential equations dy/dt = f(t, y) in local coordinates.
+/// System of ordinary differential equations dy/dt = f(t, y) for an integrator, in local coordinates (a chart that is
+/// laid anew after every step); implemented by [`Mechanism`](crate::mechanism::Mechanism).
 pub trait System<R: Real> {
-    /// Length of the vector y.
+    /// Number of unknowns: length of y.
     fn dim(&self) -> usize;
 
-    /// Returns true if an entry of y takes part in error control; the others are quadratures that nothing depends on.
+    /// Returns true if entry `k` of y (0 to dim − 1) takes part in error control; the others are quadratures that
+    /// nothing depends on.
     fn is_controlled(&self, k: usize) -> bool;
 
     /// Computes `slope = f(t, y)` at time `t` `[s]`; both vectors have [`System::dim`] entries, `slope` those of `y`
     /// per second.
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]);
 
-    /// One linearly implicit Euler step of length `h` from `y`: `slope` such that the new y is `y + h·slope`. Its
-    /// dependence on h is smooth, which extrapolation lives on; the terms named by `implicit` are taken at the new
-    /// state.
+    /// Computes one linearly implicit Euler step of length `h` `[s]` from (`t`, `y`): `slope` such that the new y is
+    /// `y + h·slope`, all of [`System::dim`] entries. It depends smoothly on h, as extrapolation needs; the terms named
+    /// by `implicit` are taken at the new state.
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]);
 
-    /// Begins a trial step from the present chart.
+    /// Begins a trial step from the present chart; by default nothing.
     fn begin_step(&mut self) {}
 
-    /// Stages since [`System::begin_step`] at a singular point, where slopes are rounding.
+    /// Stages since [`System::begin_step`] that were at a singular point, where slopes have no digits; by default none.
     fn singular_stages(&self) -> SingularStages {
         SingularStages::None
     }
 
-    /// Removes from an error estimate, in the units of `y`, the part that does not matter: across the manifold of the
-    /// system at `y`, which projection takes away after the step.
+    /// Removes from an error estimate, in the units of `y`, the part across the manifold of the system at `y`, which
+    /// the projection after the step removes anyway; by default nothing. Both have [`System::dim`] entries.
     fn project_error(&mut self, _y: &[R], _error: &mut [R]) {}
 
-    /// Centres the chart at `y`, in place: afterwards `y` describes the same state in the new chart; units stay.
+    /// Centres the chart at `y` ([`System::dim`] entries), in place: afterwards `y` describes the same state in the new
+    /// chart.
     fn rechart(&mut self, y: &mut [R]);
 
-    /// Typical magnitude of controlled entry `k`, in its unit, for relative errors: that of the state, not of the
-    /// chart.
+    /// Typical magnitude of controlled entry `k`, in its unit, for relative errors: that of the state that `y`
+    /// describes.
     fn magnitude(&self, y: &[R], k: usize) -> f64;
 }
 
-/// Stages of a trial step at a singular point of the system.
+/// Stages of a trial step that were at a singular point of the system, from [`System::singular_stages`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SingularStages {
     /// None.
     None,
-    /// The first: whatever its length, the step begins there.
+    /// The first stage: another step size does not avoid it, the step begins there.
     First,
-    /// A later one: the step can have another length.
+    /// A later stage: a step of another size avoids it.
     Later,
 }
 
-/// Terms that a linearly implicit step evaluates at the new state.
+/// Terms that a linearly implicit step evaluates at the new state, argument of [`System::implicit_slope`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Implicit {
-    /// Joint dampers; springs at the old state keep an undamped swing undamped.
+    /// Dampers only; springs at the old state leave an undamped oscillation undamped.
     Dampers,
-    /// Joint springs and dampers: stable whatever they are.
+    /// Springs and dampers: stable for any stiffness and damping.
     SpringsAndDampers,
 }
 
 impl Implicit {
-    /// Steps `[s]` over which dampers and springs are taken implicitly in a step of length `h` `[s]`.
+    /// Times `[s]` over which dampers and springs, in this order, are implicit in a step of length `h` `[s]`: h or 0.
     #[must_use]
     pub fn steps(self, h: f64) -> (f64, f64) {
         match self {
@@ -92,25 +95,25 @@ impl Implicit {
     }
 }
 
-/// A fixed-step method: y is in a fresh chart before and after.
+/// Integration method with a fixed step, generic over the system.
 pub trait FixedStep<R: Real> {
-    /// Advances `y`, of the dimension of the system, from time `t` `[s]` by `h` `[s]`.
+    /// Advances `y` ([`System::dim`] entries, in a fresh chart before and after) from time `t` `[s]` by `h` `[s]`.
     fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]);
 }
 
-/// Cause of a failed step.
+/// Cause for which an integrator could not make a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Failure {
-    /// The state stopped being finite.
+    /// State or slopes are not finite.
     NotFinite {
-        /// Time of the failure `[s]`.
+        /// Start of the failed step `[s]`.
         t: f64,
     },
     /// Error control asked for a step too small to advance time.
     StepTooSmall {
-        /// Time of the failure `[s]`.
+        /// Start of the failed step `[s]`.
         t: f64,
-        /// The step it asked for `[s]`.
+        /// Step size that error control asked for `[s]`.
         h: f64,
     },
 }
@@ -126,19 +129,20 @@ impl core::fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Error control: the tolerance and the proposed next step.
+/// Step-size control of a method with error control: tolerance and next step. Part of a snapshot of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
-    /// Local error allowed in a step, relative to max(|y|, 1).
+    /// Local error allowed in a step, relative to max(|y|, 1) (dimensionless).
     pub accuracy: f64,
-    /// Next step `[s]`; part of the state of a run.
+    /// Size of the next step `[s]`.
     pub h: f64,
-    /// Error estimate of the last accepted step as a share of the tolerance.
+    /// Error estimate of the last accepted step over the tolerance (dimensionless, 0 to 1).
     pub last_error: f64,
 }
 
 impl Control {
-    /// Creates the control of the error to the relative `accuracy` (dimensionless), with a first step of `h` `[s]`.
+    /// Creates a step-size control with the local error `accuracy` allowed in a step, relative to max(|y|, 1)
+    /// (dimensionless), and a first step of `h` `[s]`.
     #[must_use]
     pub fn new(accuracy: f64, h: f64) -> Self {
         Self { accuracy, h, last_error: 1.0 }

@@ -4,7 +4,7 @@ use sincro_math::Real;
 
 use super::{FixedStep, System, combine};
 
-/// Classical Runge–Kutta method of order 4 with a fixed step, and its working memory.
+/// Classical Runge–Kutta method of order 4 with a fixed step, and its working memory: for smooth systems.
 #[derive(Clone, Debug)]
 pub struct Rk4<R> {
     k: [Vec<R>; 4],
@@ -12,7 +12,7 @@ pub struct Rk4<R> {
 }
 
 impl<R: Real> Rk4<R> {
-    /// Creates the method for systems of `dim` unknowns.
+    /// Creates the method for systems with `dim` unknowns ([`System::dim`]).
     #[must_use]
     pub fn new(dim: usize) -> Self {
         let zero = vec![R::zero(); dim];

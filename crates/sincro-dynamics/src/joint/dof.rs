@@ -2,18 +2,19 @@
 
 use super::{Friction, WORLD};
 
-/// Passive properties of one degree of freedom.
+/// Passive properties of one degree of freedom: armature, spring, damper, friction; listed in
+/// [`Model::dofs`](crate::model::Model::dofs).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dof<R> {
-    /// Reflected inertia [kg·m²] or `[kg]`.
+    /// Armature (reflected inertia of the drive) `[kg·m²]` or `[kg]`.
     pub armature: R,
     /// Spring stiffness [N·m/rad] or [N/m].
     pub stiffness: R,
     /// Rest position of the spring `[rad]` or `[m]`.
     pub rest: R,
-    /// Viscous coefficient [N·m·s/rad] or [N·s/m].
+    /// Viscous damping coefficient `[N·m·s/rad]` or `[N·s/m]`.
     pub damping: R,
-    /// Friction torque [N·m] or force `[N]`.
+    /// Coulomb friction and stiction, limits in `[N·m]` or `[N]`.
     pub friction: Friction<R>,
     /// Constant applied torque [N·m] or force `[N]`.
     pub torque: R,
@@ -22,7 +23,7 @@ pub struct Dof<R> {
 }
 
 impl<R> Dof<R> {
-    /// Index in q of the coordinate that this degree of freedom moves; none for those of ball and free joints.
+    /// Index in q of the coordinate that this degree of freedom moves; `None` for those of ball and free joints.
     #[must_use]
     pub fn coordinate(&self) -> Option<usize> {
         (self.q_idx != WORLD).then_some(self.q_idx as usize)

@@ -9,7 +9,8 @@
 
 use sincro_math::{Real, elementary};
 
-/// Friction of one degree of freedom; viscous friction is a damper of its own.
+/// Dry friction of one degree of freedom: Coulomb friction, stiction and Stribeck curve. Viscous friction is a damper
+/// of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction<R> {
     /// Coulomb friction F_c, the limit in fast motion [N·m] or `[N]`.
@@ -21,19 +22,19 @@ pub struct Friction<R> {
 }
 
 impl<R: Real> Friction<R> {
-    /// No friction.
+    /// Friction with both limits zero.
     #[must_use]
     pub fn none() -> Self {
         Self::coulomb(R::zero())
     }
 
-    /// Coulomb friction: the same limit at rest and in motion [N·m] or `[N]`.
+    /// Coulomb friction with the same `limit` at rest and in motion `[N·m]` or `[N]`.
     #[must_use]
     pub fn coulomb(limit: R) -> Self {
         Self { sliding: limit, at_rest: limit, stribeck_velocity: R::one() }
     }
 
-    /// Magnitude of the friction in motion at rate `v` [N·m] or `[N]`.
+    /// Magnitude of the friction `[N·m]` or `[N]` in motion at the rate `v` `[rad/s]` or `[m/s]`.
     #[inline(always)]
     pub fn limit_at(&self, v: R) -> R {
         let excess = self.at_rest - self.sliding;

@@ -24,7 +24,8 @@ pub(crate) enum Shift {
     Any,
 }
 
-/// Moving link and the stage that joins it to its parent.
+/// Moving link of the kinematic tree with the joint stage that connects it to its parent; listed in
+/// [`Model::links`](crate::model::Model::links). Bodies without a joint between them are one link.
 #[derive(Clone, Copy, Debug)]
 pub struct Link<R> {
     pub(crate) parent: u32,
@@ -60,19 +61,19 @@ impl<R: Real> Link<R> {
         if self.turned { self.base_rotation.mul_vec(x) } else { x }
     }
 
-    /// Index of the parent link, none for the world.
+    /// Index of the parent in [`Model::links`](crate::model::Model::links); `None` for the world.
     #[inline(always)]
     pub fn parent(&self) -> Option<usize> {
         (self.parent != WORLD).then_some(self.parent as usize)
     }
 
-    /// First degree of freedom in v of the stage that joins it to its parent.
+    /// Index in v of the first degree of freedom of the stage that connects it to its parent.
     #[must_use]
     pub fn first_dof(&self) -> usize {
         self.v_idx as usize
     }
 
-    /// Returns true if the link moves freely against its parent.
+    /// Returns true if the stage that connects it to its parent has six degrees of freedom.
     pub fn is_free(&self) -> bool {
         self.kind == StageKind::Free
     }

@@ -32,7 +32,8 @@ pub(crate) use screw::Screw;
 
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 
-/// The kinds of joint a user builds with.
+/// Kind of a joint with its axes, in the joint's frame; an axis may have any length but zero. Argument of
+/// [`JointSpec::new`](crate::model::JointSpec::new).
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -52,30 +53,30 @@ use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
-    /// Welded.
+    /// Rigid connection without coordinates.
     Fixed,
-    /// Rotation about `axis` (joint frame; any length but zero). Coordinate: angle `[rad]`, unbounded.
+    /// Rotation about `axis`. Coordinate: angle `[rad]`, unbounded.
     Revolute {
-        /// Axis of rotation.
+        /// Axis of rotation, joint frame.
         axis: [f64; 3],
     },
     /// Translation along `axis`. Coordinate: displacement `[m]`.
     Prismatic {
-        /// Direction of motion.
+        /// Direction of translation, joint frame.
         axis: [f64; 3],
     },
     /// Rotation about `axis` with a translation of `pitch` along it. Coordinate: angle `[rad]`.
     Screw {
-        /// Axis of the screw.
+        /// Axis of the screw, joint frame.
         axis: [f64; 3],
-        /// Advance [m/rad].
+        /// Translation over rotation `[m/rad]`.
         pitch: f64,
     },
     /// Rotation about `axis`, then about `axis2`, which the first one carries. Coordinates: the two angles `[rad]`.
     Universal {
-        /// First axis, fixed in the parent.
+        /// First axis, fixed in the parent, joint frame.
         axis: [f64; 3],
-        /// Second axis, given at zero angles.
+        /// Second axis, in the joint frame at zero angles.
         axis2: [f64; 3],
     },
     /// Any rotation. Coordinates: unit quaternion (w, x, y, z) of the child in the parent; rates: angular velocity of

@@ -6,8 +6,8 @@ use super::Mechanism;
 use crate::constraint::ActiveRow;
 
 impl<R: Real> Mechanism<R> {
-    /// Takes over from a mechanism of the same model which rows of loops are used, which contacts and limits are
-    /// closed, and which of them slide.
+    /// Copies the constraint modes of a mechanism of the same model: the independent rows of loops, the closed contacts
+    /// and limits, the sliding friction groups. For evaluating the same branch on dual numbers.
     pub fn take_constraint_modes(&mut self, other: &Mechanism<f64>) {
         if let (Some(own), Some(other)) = (&mut self.constraints, &other.constraints) {
             own.take_modes(other);
@@ -15,12 +15,14 @@ impl<R: Real> Mechanism<R> {
         self.projection_scale = other.projection_scale;
     }
 
-    /// Equations that hold at the state last evaluated, for the velocities `v` that it was evaluated with.
+    /// Constraint equations that hold at the state last evaluated: loop joints, gears, limits, contacts. `v` (n_v) are
+    /// the velocities of that evaluation.
     pub fn active_constraints(&self, v: &[R]) -> Vec<ActiveRow<R>> {
         self.constraints.as_deref().map_or(Vec::new(), |constraints| constraints.active_rows(&self.model, v))
     }
 
-    /// Prescribes the acceleration of a locked degree of freedom until [`Mechanism::mark_locked`] [rad/s²] or [m/s²].
+    /// Prescribes the acceleration `[rad/s²]` or `[m/s²]` of degree of freedom `dof` (0 to n_v − 1), which must be
+    /// locked; lasts until the next [`Mechanism::mark_locked`].
     pub fn prescribe_acceleration(&mut self, dof: usize, acceleration: R) {
         self.prescribed_acceleration[dof] = acceleration;
     }

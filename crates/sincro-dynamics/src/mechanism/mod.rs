@@ -42,17 +42,20 @@ pub use singular::PassedSingularities;
 use singular::SingularPassage;
 use torques::{TorqueInput, joint_torques};
 
-/// Tolerance to which positions and rates are kept on constraints `[m]`, `[rad]`, [m/s], [rad/s]: no position or
-/// velocity of a mechanism with contacts, limits or loops is more exact than that.
+/// Tolerance of the projection on constraints: positions `[m]`, `[rad]` and rates `[m/s]`, `[rad/s]` of a mechanism
+/// with contacts, limits or loops are no more accurate than that.
 pub const PROJECTION_TOLERANCE: f64 = 1e-12;
 
-/// A model with its commands and everything needed to evaluate its rates without allocation.
+/// Model with its commands, drives and working memory as a [`System`] dy/dt = f(t, y), evaluated without allocation.
+/// Part of a [`World`](crate::world::World); on its own for linearisation and co-simulation.
+///
+/// y: displacement in the chart (n_v), velocities (n_v), totals if tracked (2 + motors), rotor states.
 #[derive(Clone, Debug)]
 pub struct Mechanism<R> {
     pub(crate) model: Model<R>,
-    /// Latched commands: of motors, then of external forces, then of rotors.
+    /// Commands, each in the unit of its actuator, in the order of [`Model::n_commands`].
     pub commands: Vec<R>,
-    /// State of each drive: 0 locked, ±1 saturated.
+    /// State of each drive, in the order of [`Model::drives`]: 0 locked, +1 or −1 saturated upwards or downwards.
     pub drives: Vec<R>,
     layout: Layout,
     /// q₀ of the chart.
@@ -89,7 +92,8 @@ pub struct Mechanism<R> {
 }
 
 impl<R: Real> Mechanism<R> {
-    /// Makes the mechanism of `model`; totals are integrated if `tracks_totals`.
+    /// Creates the mechanism of `model` with all commands zero and all drives locked; `tracks_totals` adds work,
+    /// dissipation and motor impulses to y.
     #[must_use]
     pub fn new(model: Model<R>, tracks_totals: bool) -> Self {
         let zero = vec![R::zero(); model.n_v()];
@@ -122,13 +126,13 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// The model.
+    /// Model that it evaluates.
     #[must_use]
     pub fn model(&self) -> &Model<R> {
         &self.model
     }
 
-    /// Bytes on the heap, the model left out.
+    /// Bytes that it takes on the heap, the model left out; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         let numbers = [
@@ -151,7 +155,7 @@ impl<R: Real> Mechanism<R> {
             + self.scratch.heap_bytes()
     }
 
-    /// Lays the chart at the state and writes y for it.
+    /// Takes over the state `x` and writes its y ([`System::dim`] entries), in a chart centred at `x`.
     pub fn load(&mut self, x: &State<R>, y: &mut [R]) {
         let layout = self.layout;
         self.forget_conditioning();
@@ -169,7 +173,8 @@ impl<R: Real> Mechanism<R> {
         y[layout.rotor_states()].copy_from_slice(&x.rotors);
     }
 
-    /// Writes the state that a freshly charted y describes.
+    /// Writes to `x` the state that `y` ([`System::dim`] entries) describes, in a chart centred there; commands and
+    /// tick of `x` stay.
     pub fn store(&self, y: &[R], x: &mut State<R>) {
         let layout = self.layout;
         x.q.copy_from_slice(&self.base);
@@ -215,7 +220,7 @@ impl<R: Real> Mechanism<R> {
         self.motor_torque = torque;
     }
 
-    /// Torque of each motor [N·m] or `[N]` in the last evaluation.
+    /// Torque of each motor in the last evaluation `[N·m]` or `[N]`, in the order of [`Model::motors`].
     #[must_use]
     pub fn motor_torque(&self) -> &[R] {
         &self.motor_torque
@@ -226,14 +231,14 @@ impl<R: Real> Mechanism<R> {
         kinematics::motions(&self.model, &x.q, &x.v, v_dot, &mut self.scratch);
     }
 
-    /// Working memory of the last evaluation.
+    /// Working memory as the last evaluation left it: kinematics of its state.
     #[must_use]
     pub fn scratch(&mut self) -> &mut Scratch<R> {
         &mut self.scratch
     }
 
-    /// Marks the degrees of freedom whose drives are locked, with zero acceleration; no drive is a constraint of the
-    /// contact problem.
+    /// Locks the degrees of freedom whose drives are locked, with zero prescribed acceleration, for the evaluations to
+    /// come. To be called after changes of `drives`; without drives no effect.
     #[inline(always)]
     pub fn mark_locked(&mut self) {
         let (half, one, zero) = (R::splat(0.5), R::one(), R::zero());
@@ -253,7 +258,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Returns true if a degree of freedom is locked, as last marked.
     #[must_use]
-    pub fn is_locked(&self, dof: usize) -> bool {
+    pub(crate) fn is_locked(&self, dof: usize) -> bool {
         self.locked_mask[dof].lane(0) > 0.5
     }
 

@@ -53,12 +53,13 @@ const MAX_ITERATIONS: usize = 4;
 /// Residual at which they are there `[m]` or `[rad]`, of a mechanism of 1 m or more.
 const ON_MANIFOLD: f64 = 1e-14;
 
-/// Singular positions of loops that a run has passed.
+/// Passages of singular positions of the loops in a run, from
+/// [`World::passed_singularities`](crate::world::World::passed_singularities).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassedSingularities {
     /// Number of passages.
     pub count: usize,
-    /// Time of the first `[s]`.
+    /// Time of the first passage `[s]`; 0 if there was none.
     pub first: f64,
 }
 

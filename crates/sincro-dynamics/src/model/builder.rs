@@ -12,11 +12,12 @@ use crate::joint::{Friction, JointKind};
 use crate::signal::Signal;
 use crate::spatial::Pose;
 
-/// Default rest speed [m/s]: slower approach has no restitution; a bounce from here is 5e-8 m high under gravity.
-/// Without it a ball would bounce infinitely often in finite time (Zeno behaviour).
+/// Default rest speed `[m/s]` of [`ModelBuilder::set_rest_speed`]: slower approach has no restitution; a bounce from
+/// here is 5e-8 m high under gravity. Without it a ball would bounce infinitely often in finite time (Zeno behaviour).
 pub const REST_SPEED: f64 = 1e-3;
 
-/// One object of the tree under construction; [`NodeId::WORLD`] is its root.
+/// Id of an object of the tree under construction, returned by the methods of [`ModelBuilder`] and valid for that
+/// builder; [`NodeId::WORLD`] is the root.
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -33,12 +34,13 @@ pub const REST_SPEED: f64 = 1e-3;
 pub struct NodeId(pub(crate) u32);
 
 impl NodeId {
-    /// The world: fixed, carries everything.
+    /// The world: fixed root of the tree, with z up where gravity is along −z.
     pub const WORLD: Self = Self(0);
 }
 
-/// A joint to be added. Lists have one entry a degree of freedom, or are empty for "none". Those of a ball joint are
-/// about the axes of its child frame; those of a free joint these three, then along the same axes.
+/// Joint to be added by [`ModelBuilder::joint`]. Lists have one entry for each degree of freedom, or are empty for
+/// "none". Those of a ball joint are about the axes of its child frame; those of a free joint these three, then along
+/// the same axes.
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -63,7 +65,7 @@ impl NodeId {
 pub struct JointSpec {
     /// Kind and axes.
     pub kind: JointKind,
-    /// Reflected inertia [kg·m²] or `[kg]`.
+    /// Armature (reflected inertia of the drive) `[kg·m²]` or `[kg]`.
     pub armature: Vec<f64>,
     /// Spring stiffness [N·m/rad] or [N/m] and rest position `[rad]` or `[m]`. Of ball and free joints: stiffness and
     /// components of the rotation vector of the rest orientation, then, of free ones, along the axes of the joint frame
@@ -72,25 +74,25 @@ pub struct JointSpec {
     /// Nonlinear laws of the springs and dampers, of the deflection from the rest position, added to the linear ones;
     /// not of ball and free joints.
     pub spring_law: Vec<Option<Arc<NonlinearLaw>>>,
-    /// Viscous coefficient [N·m·s/rad] or [N·s/m].
+    /// Viscous damping coefficients `[N·m·s/rad]` or `[N·s/m]`.
     pub damping: Vec<f64>,
-    /// Friction [N·m] or `[N]`.
+    /// Coulomb friction and stiction `[N·m]` or `[N]`.
     pub friction: Vec<Friction<f64>>,
     /// Applied torque [N·m] or force `[N]` over time, evaluated inside the step.
     pub torque: Vec<Signal>,
     /// True for a fixed joint through which the wrench is measured: it is then a link of its own, whose six degrees of
     /// freedom are locked.
     pub sensor: bool,
-    /// Lower and upper limit of each coordinate, infinite for none `[rad]` or `[m]`.
+    /// Lower and upper limit of each coordinate `[rad]` or `[m]`, infinite for none; not of ball and free joints.
     pub limits: Vec<(f64, f64)>,
-    /// Restitution of the limits: speed after over speed before, 0 to 1.
+    /// Restitution at the limits: speed after over speed before the impact, 0 to 1.
     pub limit_restitution: f64,
     /// Motor, for a joint with one degree of freedom; its command is an input of the world.
     pub motor: Option<Motor<f64>>,
 }
 
 impl JointSpec {
-    /// A joint of that kind without anything on it.
+    /// Joint of that kind with empty lists: no spring, damper, friction, limits or motor.
     #[must_use]
     pub fn new(kind: JointKind) -> Self {
         Self {
@@ -109,7 +111,7 @@ impl JointSpec {
     }
 }
 
-/// A body to be added.
+/// Body to be added by [`ModelBuilder::body`].
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -127,24 +129,24 @@ impl JointSpec {
 /// ```
 #[derive(Clone, Debug)]
 pub struct BodySpec {
-    /// Mass, centre of mass, inertia, in the body's frame.
+    /// Mass `[kg]`, centre of mass `[m]` and inertia about it `[kg·m²]`, in the body's frame.
     pub mass: MassProperties,
 }
 
-/// An external wrench on a body or frame, at its origin.
+/// External force and torque on a body or frame, at its origin; to be added by [`ModelBuilder::force`].
 #[derive(Clone, Debug)]
 pub struct ForceSpec {
-    /// Force components `[N]` over time.
+    /// Force components x, y, z `[N]` over time.
     pub force: [Signal; 3],
-    /// Torque components [N·m] over time.
+    /// Torque components x, y, z `[N·m]` over time.
     pub torque: [Signal; 3],
     /// True if the components turn with the body; else they are along the world's axes.
     pub in_body: bool,
-    /// True if six commands (force, then torque) are added to it.
+    /// True if it takes six commands (force x, y, z `[N]`, torque x, y, z `[N·m]`), which are added to the signals.
     pub is_input: bool,
 }
 
-/// A rotor on a body or frame; the thrust axis is z of its own frame.
+/// Rotor to be added by [`ModelBuilder::rotor`]; the thrust axis is z of its own frame, the hub its origin.
 #[derive(Clone, Debug)]
 pub struct RotorSpec {
     /// Aerodynamic law.
@@ -155,33 +157,34 @@ pub struct RotorSpec {
     pub drive: RotorDrive,
     /// Moment of inertia of the turning part about its axis, for its gyroscopic moment [kg·m²]; 0 for none.
     pub inertia: f64,
-    /// Reduction of the induced velocity by the ground at z = 0; of blade elements only.
+    /// True if the ground at z = 0 reduces the induced velocity; only of blade elements.
     pub ground_effect: bool,
 }
 
-/// Source of a rotor's speed.
+/// Source of the speed of a rotor to be added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RotorDrive {
-    /// A command is its speed [rad/s].
+    /// Its command is the speed `[rad/s]`; of the stock propeller the velocity of the particles `[m/s]`.
     Command,
     /// The speed follows a command with a first-order lag: Ω' = (command − Ω)/τ.
     Lag {
-        /// τ `[s]`, positive.
+        /// Time constant τ `[s]`, positive.
         time_constant: f64,
         /// Initial speed [rad/s].
         initial: f64,
     },
-    /// It turns with a revolute joint that carries it, about that joint's axis: the rate of the joint is its speed, and
-    /// the reaction of the air goes through the joint.
+    /// Revolute joint that carries it, about the thrust axis: the rate of the joint is its speed, and the reaction of
+    /// the air goes through the joint.
     Joint(NodeId),
 }
 
-/// A drag element on a body or frame, at its own origin, along its own axes.
+/// Drag element on a body or frame, to be added by [`ModelBuilder::drag`]: quadratic and linear drag along its own
+/// axes, at its origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DragSpec {
-    /// Drag coefficient by area along each axis `[m²]`.
+    /// Equivalent flat-plate area along x, y, z (drag coefficient times area) `[m²]`, not negative.
     pub area: [f64; 3],
-    /// Linear coefficient along each axis [N·s/m].
+    /// Linear drag coefficient along x, y, z `[N·s/m]`, not negative.
     pub linear: [f64; 3],
     /// Density of the air [kg/m³].
     pub density: f64,
@@ -197,36 +200,39 @@ pub(crate) enum NodeKind {
     Drag(Box<DragSpec>),
 }
 
-/// Loop joint to be added.
+/// Loop joint to be added by [`ModelBuilder::loop_joint`].
 #[derive(Clone, Debug)]
 pub struct LoopJointSpec {
     /// Kind of the loop joint.
     pub kind: LoopJointKind,
     /// The two bodies or frames joined; either may be the world.
     pub ends: [NodeId; 2],
-    /// Frames in them that the joint keeps together.
+    /// Frames of the joint in the two ends, in their order `[m]`: the kind tells which axes and origins are kept
+    /// together.
     pub poses: [Pose<f64>; 2],
 }
 
-/// Spring, damper and actuator between two points to be added.
+/// Spring, damper and actuator between two points, to be added by [`ModelBuilder::spring_damper`].
 #[derive(Clone, Debug)]
 pub struct SpringDamperSpec {
     /// The two bodies or frames that carry the points; either may be the world.
     pub ends: [NodeId; 2],
-    /// The points in their frames `[m]`.
+    /// Positions of the two points in the frames of the two ends, in their order `[m]`.
     pub points: [[f64; 3]; 2],
-    /// Length at which the deflection is zero `[m]`; none: the distance of the points with all coordinates zero.
+    /// Length at which the deflection is zero `[m]`; `None`: the distance of the points with all coordinates zero.
     pub free_length: Option<f64>,
-    /// Force `[N]` over deflection `[m]` and rate [m/s]; positive forces push the points apart.
+    /// Force `[N]` over deflection (length less free length) `[m]` and rate `[m/s]`; positive forces push the points
+    /// apart.
     pub law: ForceLaw<f64>,
     /// True for a rope, which never pushes.
     pub tension_only: bool,
-    /// Largest force of its actuator `[N]`, whose command is an input of the world; none: it has no actuator.
+    /// Largest force of its actuator `[N]`, whose command is an input of the world; `None` for no actuator.
     pub actuator: Option<f64>,
 }
 
 impl SpringDamperSpec {
-    /// Problems of the numbers: key of the number, message about the element `name`, help.
+    /// Checks the numbers: for each fault the name of the field, a message about the element `name`, and a help; empty
+    /// if there is none.
     #[must_use]
     pub fn problems(&self, name: &str) -> Vec<(&'static str, String, &'static str)> {
         let mut found = Vec::new();
@@ -261,14 +267,15 @@ impl SpringDamperSpec {
     }
 }
 
-/// Gear (mimic) constraint of two joints with one degree of freedom each: q₂ = ratio·q₁ + offset.
+/// Gear (mimic) constraint of two joints with one degree of freedom each, q₂ = ratio·q₁ + offset; to be added by
+/// [`ModelBuilder::gear`].
 #[derive(Clone, Debug)]
 pub struct GearSpec {
-    /// The joints.
+    /// The two joints, 1 and 2.
     pub joints: [NodeId; 2],
-    /// Ratio of their rates.
+    /// Ratio of their rates, q̇₂ over q̇₁, in the units of the two joints.
     pub ratio: f64,
-    /// `[rad]` or `[m]`.
+    /// Coordinate q₂ where q₁ = 0 `[rad]` or `[m]`.
     pub offset: f64,
 }
 
@@ -279,7 +286,8 @@ pub(crate) struct Node {
     pub(crate) kind: NodeKind,
 }
 
-/// Collects the objects of a model, parents before children.
+/// Builder of a [`Model`](super::Model): takes joints, bodies, frames and elements, parents before children, and checks
+/// and compiles them in [`build`](ModelBuilder::build).
 ///
 /// ```
 /// use sincro_dynamics::joint::JointKind;
@@ -307,7 +315,7 @@ pub struct ModelBuilder {
 }
 
 impl ModelBuilder {
-    /// An empty world with a gravitational acceleration [m/s²].
+    /// Empty builder with a gravitational acceleration `[m/s²]`, x, y, z in world axes.
     #[must_use]
     pub fn new(gravity: [f64; 3]) -> Self {
         let world = Node { name: "/".into(), parent: NodeId::WORLD, pose: Pose::identity(), kind: NodeKind::World };
@@ -331,36 +339,38 @@ impl ModelBuilder {
     }
 
     /// Adds a joint whose frame stands at `pose` in its parent's `[m]`; whatever has it as its parent moves with it.
+    /// `name` should be unique among the joints; the id returned is the parent for what hangs on the joint.
     pub fn joint(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: JointSpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Joint(Box::new(spec)))
     }
 
-    /// Adds a body whose frame stands at `pose` in its parent's `[m]`.
+    /// Adds a body whose frame stands at `pose` in its parent's `[m]`; returns the id, for colliders and children.
     pub fn body(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: BodySpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Body(spec))
     }
 
-    /// Adds a frame, a named point without mass, at `pose` in its parent's `[m]`.
+    /// Adds a frame, a named point without mass, at `pose` in its parent's `[m]`; returns its id.
     pub fn frame(&mut self, name: &str, parent: NodeId, pose: Pose<f64>) -> NodeId {
         self.add(name, parent, pose, NodeKind::Frame)
     }
 
-    /// Sets the wind, which rotors and drag elements feel.
+    /// Sets the wind, which rotors and drag elements feel; without it the air rests.
     pub fn wind(&mut self, wind: Wind) {
         self.wind = Some(Arc::new(wind));
     }
 
-    /// Adds a rotor whose hub frame stands at `pose` in its parent's `[m]`.
+    /// Adds a rotor whose hub frame stands at `pose` in its parent's `[m]`; thrust is along its z. Returns its id.
     pub fn rotor(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: RotorSpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Rotor(Box::new(spec)))
     }
 
-    /// Adds a drag element whose axes and centre of pressure stand at `pose` in its parent's frame `[m]`.
+    /// Adds a drag element whose axes and centre of pressure stand at `pose` in its parent's frame `[m]`; returns its
+    /// id.
     pub fn drag(&mut self, name: &str, parent: NodeId, pose: Pose<f64>, spec: DragSpec) -> NodeId {
         self.add(name, parent, pose, NodeKind::Drag(Box::new(spec)))
     }
 
-    /// Adds an external wrench that acts at the origin of `parent`.
+    /// Adds an external force and torque that act at the origin of `parent`; returns its id.
     ///
     /// ```
     /// use sincro_dynamics::model::ForceSpec;
@@ -386,7 +396,7 @@ impl ModelBuilder {
         self.add(name, parent, Pose::identity(), NodeKind::Force(Box::new(spec)))
     }
 
-    /// Adds a surface that can touch others, at `pose` `[m]` in the frame of a body or frame.
+    /// Adds a collider: a surface that can touch others, at `pose` `[m]` in the frame of the body or frame `on`.
     ///
     /// ```
     /// use sincro_dynamics::prelude::*;
@@ -410,12 +420,13 @@ impl ModelBuilder {
         self.colliders.push((on, pose, surface, material));
     }
 
-    /// Gives the surfaces of two bodies a contact law of their own; the last one given to two bodies counts.
+    /// Sets a contact law for the colliders of two bodies, in place of the combination of their materials; the last law
+    /// set for two bodies counts.
     pub fn contact_pair(&mut self, bodies: [NodeId; 2], law: PairLaw) {
         self.contact_pairs.push((bodies, law));
     }
 
-    /// Adds a loop joint between two frames; its constraint closes a loop of the tree.
+    /// Adds a loop joint named `name` between two frames; its constraint closes a loop of the tree.
     ///
     /// ```
     /// use sincro_dynamics::model::{LoopJointKind, LoopJointSpec};
@@ -443,7 +454,7 @@ impl ModelBuilder {
         self.loop_joints.push((name.into(), spec));
     }
 
-    /// Adds a gear (mimic) constraint between two joints.
+    /// Adds a gear (mimic) constraint named `name` between two joints with one degree of freedom each.
     ///
     /// ```
     /// use sincro_dynamics::model::GearSpec;
@@ -472,12 +483,12 @@ impl ModelBuilder {
         self.gears.push((name.into(), spec));
     }
 
-    /// Adds a spring, damper and actuator between two points.
+    /// Adds a spring, damper and actuator between two points; see [`SpringDamper`](crate::actuation::SpringDamper).
     pub fn spring_damper(&mut self, name: &str, spec: SpringDamperSpec) {
         self.spring_dampers.push((name.into(), spec));
     }
 
-    /// Sets the rest speed [m/s]: slower approach has no restitution.
+    /// Sets the rest speed `[m/s]`, by default [`REST_SPEED`]: contacts that approach more slowly have no restitution.
     pub fn set_rest_speed(&mut self, speed: f64) {
         self.rest_speed = speed;
     }

@@ -3,24 +3,25 @@
 use crate::contact::{Collider, Pair};
 use crate::spatial::Pose;
 
-/// Numbers of a slot in [`crate::state::State::contacts`], after its index: six multipliers and the contact mode.
+/// Length of a slot's record in [`crate::state::State::contacts`] after the slot's index: six multipliers (normal, two
+/// of friction, two of rolling, one of spinning) and the contact mode.
 pub const SLOT_LEN: usize = 7;
 
 /// Number of slots for which memory is reserved beforehand.
 pub(crate) const RESERVED_SLOTS: usize = 64;
 
-/// A frame fixed in a link.
+/// Frame fixed in a link or the world: one end of a [`LoopJoint`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anchor {
     /// Name of the body or frame.
     pub name: String,
     /// The link, `WORLD` for none.
     pub(crate) link: u32,
-    /// In the link, or the world.
+    /// Pose in the link, or in the world `[m]`.
     pub pose: Pose<f64>,
 }
 
-/// Kind of a loop joint.
+/// Kind of a loop joint: which origins and axes of the frames at its two ends it keeps together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LoopJointKind {
     /// Coincident origins (a ball joint).
@@ -42,7 +43,7 @@ pub enum LoopJointKind {
 }
 
 impl LoopJointKind {
-    /// Number of constraint rows.
+    /// Number of scalar constraint equations, 1 to 6.
     #[must_use]
     pub fn rows(self) -> usize {
         match self {
@@ -55,63 +56,64 @@ impl LoopJointKind {
     }
 }
 
-/// Loop joint: a constraint that closes a kinematic loop.
+/// Loop joint of a model: a constraint between two frames that closes a kinematic loop of the tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopJoint {
     /// Name given by the user.
     pub name: String,
     /// Kind.
     pub kind: LoopJointKind,
-    /// One end.
+    /// Frame at the first end.
     pub a: Anchor,
-    /// The other end.
+    /// Frame at the second end.
     pub b: Anchor,
 }
 
-/// Gear (mimic) constraint between two coordinates: q₂ = ratio·q₁ + offset.
+/// Gear (mimic) constraint of a model between two coordinates, q₂ = ratio·q₁ + offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GearConstraint {
     /// Name given by the user.
     pub name: String,
-    /// Degrees of freedom 1 and 2.
+    /// Indices in v of degrees of freedom 1 and 2.
     pub dofs: [usize; 2],
-    /// Coordinates in q of the two.
+    /// Indices in q of their coordinates.
     pub coordinates: [usize; 2],
     /// Ratio of the rates, v₂ over v₁.
     pub ratio: f64,
-    /// `[rad]` or `[m]`.
+    /// Coordinate q₂ where q₁ = 0 `[rad]` or `[m]`.
     pub offset: f64,
 }
 
-/// A lower or an upper limit of the coordinate of a joint.
+/// Lower or upper limit of the coordinate of a joint; both limits of a joint are two entries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// Degree of freedom.
+    /// Index in v of the degree of freedom.
     pub dof: usize,
-    /// Its coordinate in q.
+    /// Index in q of its coordinate.
     pub coordinate: usize,
-    /// +1 for a lower, −1 for an upper limit.
+    /// Direction in which it pushes: +1 for a lower limit, −1 for an upper one.
     pub sign: f64,
-    /// `[rad]` or `[m]`.
+    /// Value of the limit `[rad]` or `[m]`.
     pub bound: f64,
-    /// Restitution: speed after over speed before.
+    /// Restitution: speed after over speed before the impact, 0 to 1.
     pub restitution: f64,
 }
 
-/// All constraints of a model; numbers are the same in every lane.
+/// Constraints of a model: loop joints, gears, joint limits, and the contacts that are possible. A *slot* is a place
+/// for one unilateral constraint: a limit, or one contact point of a pair. Numbers are the same in every lane.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConstraintSet {
-    /// Loop joints.
+    /// Loop joints, in the order in which they were added.
     pub loop_joints: Vec<LoopJoint>,
-    /// Gear constraints.
+    /// Gear constraints, in the order in which they were added.
     pub gears: Vec<GearConstraint>,
-    /// Joint limits: the first slots.
+    /// Joint limits; entry k is slot k.
     pub limits: Vec<Limit>,
-    /// Colliders.
+    /// Colliders, in the order in which they were added.
     pub colliders: Vec<Collider>,
-    /// Pairs of colliders; their slots come after the limits'.
+    /// Pairs of colliders that can collide; their slots come after those of the limits.
     pub pairs: Vec<Pair>,
-    /// Rest speed [m/s]: slower approach has no restitution.
+    /// Rest speed `[m/s]`: contacts that approach more slowly have no restitution.
     pub rest_speed: f64,
 }
 
@@ -122,13 +124,13 @@ impl ConstraintSet {
         self.loop_joints.is_empty() && self.gears.is_empty() && self.limits.is_empty() && self.pairs.is_empty()
     }
 
-    /// Number of slots of contacts.
+    /// Number of slots of contacts: the most contact points at once.
     #[must_use]
     pub fn n_contacts(&self) -> usize {
         self.pairs.last().map_or(0, |p| p.first + p.slots)
     }
 
-    /// Number of slots: limits, then contacts.
+    /// Number of slots: those of limits, then those of contacts.
     #[must_use]
     pub fn n_slots(&self) -> usize {
         self.limits.len() + self.n_contacts()
@@ -142,7 +144,7 @@ impl ConstraintSet {
     /// Returns true if a list may be [`crate::state::State::contacts`] of this model: empty, or the fallback and
     /// records of slots in increasing order.
     #[must_use]
-    pub fn accepts(&self, contacts: &[f64]) -> bool {
+    pub(crate) fn accepts(&self, contacts: &[f64]) -> bool {
         let Some((fallback, records)) = contacts.split_first() else { return true };
         let slots = records.chunks(1 + SLOT_LEN).map(|record| record[0]);
         let is_slot = |slot: f64| slot >= 0.0 && slot < self.n_slots() as f64 && slot.fract() == 0.0;
@@ -154,7 +156,7 @@ impl ConstraintSet {
 
     /// Number of bilateral rows: of loop joints and gears.
     #[must_use]
-    pub fn n_bilateral(&self) -> usize {
+    pub(crate) fn n_bilateral(&self) -> usize {
         self.loop_joints.iter().map(|c| c.kind.rows()).sum::<usize>() + self.gears.len()
     }
 }

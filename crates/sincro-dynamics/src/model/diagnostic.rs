@@ -5,7 +5,7 @@ use core::ops::Deref;
 
 use super::NodeId;
 
-/// Severity of a diagnostic.
+/// Severity of a [`Diagnostic`]: whether the model can be built in spite of it.
 ///
 /// ```
 /// use sincro_dynamics::model::{ModelBuilder, Severity};
@@ -24,18 +24,19 @@ pub enum Severity {
     Warning,
 }
 
-/// Diagnostic about one object.
+/// Diagnostic about one object of a model under construction: an error in a [`BuildError`], or a warning returned by
+/// [`ModelBuilder::build`](super::ModelBuilder::build).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
-    /// The object, none where the model as a whole is meant.
+    /// Id of the object in the builder; `None` where the model as a whole is meant.
     pub node: Option<NodeId>,
-    /// Name of the property, as the builder's fields are called (`mass`, `axis`, …).
+    /// Name of the field in the builder's specification, such as `mass` or `axis`.
     pub field: &'static str,
-    /// Defect, with the value.
+    /// Description of the defect, with the name of the object and the value.
     pub message: String,
-    /// Correction that would help.
+    /// Suggested correction.
     pub help: String,
 }
 

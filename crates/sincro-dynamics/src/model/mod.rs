@@ -49,8 +49,8 @@ use crate::aero::wind::Wind;
 use crate::joint::WORLD;
 use crate::spatial::Vec3;
 
-/// Compiled model. Numbers are of type `R`: those of one world, or of several worlds packed into lanes
-/// ([`Model::pack`]).
+/// Compiled model: the kinematic tree and its elements, immutable but for parameters. Made by [`ModelBuilder::build`].
+/// Numbers are of type `R`: those of one world, or of several worlds packed into lanes ([`Model::pack`]).
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -101,39 +101,39 @@ impl<R: Real> Model<R> {
         self.params.clone_from(params);
     }
 
-    /// Number of coordinates (a quaternion has four).
+    /// Number of coordinates, the length of q; a quaternion has four.
     #[must_use]
     pub fn n_q(&self) -> usize {
         self.n_q
     }
 
-    /// Number of degrees of freedom.
+    /// Number of degrees of freedom, the length of v.
     #[must_use]
     pub fn n_v(&self) -> usize {
         self.dofs.len()
     }
 
-    /// Moving links, parents before children; their numbers in SI units.
+    /// Moving links, parents before children; other indices of links count them.
     #[must_use]
     pub fn links(&self) -> &[Link<R>] {
         &self.links
     }
 
-    /// Passive properties in SI units, one entry a degree of freedom (n_v).
+    /// Passive properties of each degree of freedom (n_v), in the order of v.
     #[must_use]
     pub fn dofs(&self) -> &[Dof<R>] {
         &self.dofs
     }
 
-    /// Motors in the order of their commands, their numbers in SI units.
+    /// Motors, in the order of their ids and commands.
     #[must_use]
     pub fn motors(&self) -> &[Motor<R>] {
         &self.params.motors
     }
 
-    /// Number of commands: one a motor, then six (force `[N]`, torque [N·m]) for each external force that takes them,
-    /// then one for each rotor that does not turn with a joint: its speed [rad/s], then one for each spring and damper
-    /// with an actuator: its force `[N]`.
+    /// Number of commands: one for each motor, in the unit of its mode; then six (force `[N]`, torque `[N·m]`) for each
+    /// external force that takes them; then one for each rotor that does not turn with a joint, its speed `[rad/s]`;
+    /// then one for each spring and damper with an actuator, its force `[N]`.
     #[must_use]
     pub fn n_commands(&self) -> usize {
         let of_lines = self.spring_dampers.iter().filter(|s| s.actuator.is_some()).count();
@@ -147,7 +147,8 @@ impl<R: Real> Model<R> {
         self.params.motors.len() + 6 * n_inputs + of_rotors
     }
 
-    /// Number of states of rotors: [`crate::state::State::rotors`].
+    /// Number of rotor states, the length of [`crate::state::State::rotors`]: one for each rotor with a lag and each
+    /// stock propeller.
     #[must_use]
     pub fn n_rotor_states(&self) -> usize {
         self.rotors.iter().filter(|r| r.speed.state().is_some()).count()
@@ -191,13 +192,13 @@ impl<R: Real> Model<R> {
         &self.spring_dampers
     }
 
-    /// The wind, if the air moves.
+    /// Wind that rotors and drag elements feel; `None` if the air rests.
     #[must_use]
     pub fn wind(&self) -> Option<&Wind> {
         self.wind.as_deref()
     }
 
-    /// Torques that are functions of time.
+    /// Torques `[N·m]` and forces `[N]` on degrees of freedom that depend on time.
     #[must_use]
     pub fn applied(&self) -> &[AppliedTorque] {
         &self.applied
@@ -208,7 +209,7 @@ impl<R: Real> Model<R> {
         !self.rotors.is_empty() || !self.drags.is_empty()
     }
 
-    /// External forces on links `[N]`, `[N·m]`, in the order in which they were added.
+    /// External forces and torques on links, in the order in which they were added.
     #[must_use]
     pub fn wrenches(&self) -> &[AppliedWrench<R>] {
         &self.wrenches
@@ -219,55 +220,57 @@ impl<R: Real> Model<R> {
         !self.wrenches.is_empty() || self.feels_air() || !self.spring_dampers.is_empty()
     }
 
-    /// Velocity motors and joints with Coulomb friction.
+    /// Drives: joints with Coulomb friction, then motors in velocity and position mode, then locked force sensors.
+    /// Indices of drives count them.
     #[must_use]
     pub fn drives(&self) -> &[Drive] {
         &self.params.drives
     }
 
-    /// Loop joints, gears, joint limits and contacts.
+    /// Constraints: loop joints, gears, joint limits, and the contacts that are possible.
     #[must_use]
     pub fn constraints(&self) -> &ConstraintSet {
         &self.params.constraints
     }
 
-    /// Number of drives: ideal motors and joint frictions.
+    /// Number of drives, the length of [`crate::state::State::drives`].
     #[must_use]
     pub fn n_drives(&self) -> usize {
         self.params.drives.len()
     }
 
-    /// Returns true if degree of freedom `dof` moves one coordinate of its own (not part of a ball or free joint).
+    /// Returns true if degree of freedom `dof` (0 to n_v − 1) moves one coordinate of its own; false for those of ball
+    /// and free joints.
     #[inline(always)]
     #[must_use]
     pub fn has_scalar_coordinate(&self, dof: usize) -> bool {
         self.dofs[dof].q_idx != WORLD
     }
 
-    /// Returns true if there are ball or free joints. Without them coordinates and velocities match one to one.
+    /// Returns true if there are ball or free joints; without them n_q = n_v, and v is the derivative of q.
     #[inline(always)]
     #[must_use]
     pub fn has_quaternions(&self) -> bool {
         self.n_q != self.dofs.len()
     }
 
-    /// Mass of everything that moves `[kg]`.
+    /// Total mass of the moving links `[kg]`.
     #[must_use]
     pub fn total_mass(&self) -> R {
         self.params.inertias.iter().fold(R::zero(), |sum, inertia| sum + inertia.mass)
     }
 
-    /// Gravitational acceleration [m/s²], world axes.
+    /// Gravitational acceleration in world axes `[m/s²]`.
     #[must_use]
     pub fn gravity(&self) -> Vec3<R> {
         self.params.gravity
     }
 
-    /// Names sensors, each of which is a frame of the same name.
+    /// Sets the names and values of sensors, each of which is a frame of the same name; replaces former ones.
     ///
     /// # Panics
     ///
-    /// If one of them is no frame.
+    /// If one of them has no frame of its name.
     pub fn set_sensors(&mut self, sensors: Vec<SensorInfo>) {
         for sensor in &sensors {
             assert!(self.names.frame(&sensor.name).is_some(), "the sensor `{}` is no frame", sensor.name);
@@ -276,7 +279,7 @@ impl<R: Real> Model<R> {
         Arc::make_mut(&mut structure.names).sensors = sensors;
     }
 
-    /// The user's objects: joints, bodies, frames.
+    /// Names of the user's objects, with what each is in the model: joints, bodies, frames, rotors, sensors.
     #[must_use]
     pub fn names(&self) -> &Names {
         &self.names
@@ -284,8 +287,8 @@ impl<R: Real> Model<R> {
 }
 
 impl<R: Real> Model<R> {
-    /// Torque [N·m] or force `[N]` of the spring on a degree of freedom at coordinates `q` (n_q), child axes for ball
-    /// and free joints.
+    /// Torque `[N·m]` or force `[N]` of the springs on degree of freedom `dof` (0 to n_v − 1) at coordinates `q` (n_q);
+    /// in child axes for ball and free joints.
     #[must_use]
     pub fn spring_torque(&self, dof: usize, q: &[R]) -> R {
         if let Some(coordinate) = self.dofs[dof].coordinate() {
@@ -304,8 +307,8 @@ impl<R: Real> Model<R> {
         R::zero()
     }
 
-    /// Torque [N·m] or force `[N]` of the damper on a degree of freedom at coordinates `q` (n_q) and velocities `v`
-    /// (n_v), with the part of a nonlinear spring that depends on the rate.
+    /// Torque `[N·m]` or force `[N]` of the dampers on degree of freedom `dof` (0 to n_v − 1) at coordinates `q` (n_q)
+    /// and velocities `v` (n_v), with the rate-dependent part of nonlinear springs.
     #[must_use]
     pub fn damping_torque(&self, dof: usize, q: &[R], v: &[R]) -> R {
         let linear = damper::torque(&self.dofs[dof], v[dof]);
@@ -313,13 +316,14 @@ impl<R: Real> Model<R> {
         laws.fold(linear, |sum, s| sum + s.torques(&self.dofs[dof], q[self.dofs[dof].q_idx as usize], v[dof]).1)
     }
 
-    /// Nonlinear springs and dampers of joints.
+    /// Nonlinear springs and dampers of joints, in the order of their degrees of freedom.
     #[must_use]
     pub fn nonlinear_springs(&self) -> &[NonlinearSpring] {
         &self.nonlinear_springs
     }
 
-    /// Applied torque [N·m] or force `[N]` on a degree of freedom at time `t` `[s]`.
+    /// Applied torque `[N·m]` or force `[N]` on degree of freedom `dof` (0 to n_v − 1) at time `t` `[s]`; 0 if none is
+    /// applied.
     #[must_use]
     pub fn applied_torque(&self, dof: usize, t: f64) -> R {
         let signals = self.applied.iter().filter(|a| a.dof == dof).map(|a| a.torque::<R>(t));
@@ -328,7 +332,7 @@ impl<R: Real> Model<R> {
 }
 
 impl Model<f64> {
-    /// Sets the free length `[m]` of the spring and damper `k` between two points.
+    /// Sets the free length `[m]` of the spring and damper of index `k` in [`Model::spring_dampers`].
     ///
     /// # Panics
     ///
@@ -337,8 +341,8 @@ impl Model<f64> {
         Arc::make_mut(&mut self.structure).spring_dampers[k].free_length = length;
     }
 
-    /// Next time event: the first instant after `t` `[s]` at which an input signal or its slope jumps; infinite if
-    /// there is none.
+    /// Next time event: the first instant after `t` `[s]` at which a force signal or its slope jumps, or a gust begins
+    /// or ends; infinite if there is none.
     #[must_use]
     pub fn next_time_event(&self, t: f64) -> f64 {
         if self.applied.is_empty() && self.wrenches.is_empty() && self.wind.is_none() {

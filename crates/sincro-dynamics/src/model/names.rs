@@ -5,65 +5,65 @@ use crate::ids::{BodyId, JointId, MotorId, RotorId};
 use crate::joint::JointKind;
 use crate::spatial::Pose;
 
-/// A frame fixed in a link (`None`: in the world) at a pose.
+/// Frame fixed in a link or in the world, argument of the functions of [`kinematics`](crate::kinematics).
 #[derive(Clone, Copy, Debug)]
 pub struct Attached<R> {
-    /// The link, none for the world.
+    /// Index of the link in [`Model::links`](super::Model::links); `None` for the world.
     pub link: Option<usize>,
-    /// Pose of the frame in the link or the world.
+    /// Pose of the frame in the link, or in the world `[m]`.
     pub pose: Pose<R>,
 }
 
-/// A joint as the user built it.
+/// Joint as the user built it, with its place in q and v; entry of [`Names::joints`].
 #[derive(Clone, Debug)]
 pub struct JointInfo {
     /// Name given by the user (a path in a scene).
     pub name: String,
-    /// Node in the builder.
+    /// Id in the builder.
     pub node: NodeId,
-    /// Kind.
+    /// Kind and axes.
     pub kind: JointKind,
-    /// First coordinate in q.
+    /// Index in q of its first coordinate.
     pub q_idx: usize,
-    /// Number of coordinates.
+    /// Number of its coordinates, which are consecutive in q.
     pub n_q: usize,
-    /// First degree of freedom in v.
+    /// Index in v of its first degree of freedom.
     pub v_idx: usize,
-    /// Number of degrees of freedom.
+    /// Number of its degrees of freedom, which are consecutive in v.
     pub n_v: usize,
-    /// Its motor, if it has one.
+    /// Id of its motor; `None` without one.
     pub motor: Option<MotorId>,
-    /// Its frame on the side of its parent, where the joint starts from.
+    /// Joint frame on the side of the parent.
     pub base: Attached<f64>,
-    /// Its frame on the side of what hangs on it: the same at zero coordinates.
+    /// Joint frame on the side of the child; coincides with `base` at zero coordinates.
     pub moving: Attached<f64>,
 }
 
-/// A body or frame as the user built it.
+/// Body or frame as the user built it; entry of [`Names::frames`].
 #[derive(Clone, Debug)]
 pub struct FrameInfo {
     /// Name given by the user (a path in a scene).
     pub name: String,
-    /// Node in the builder.
+    /// Id in the builder.
     pub node: NodeId,
-    /// The link that carries it, none if it is fixed in the world.
+    /// Index of the link that carries it in [`Model::links`](super::Model::links); `None` if it is fixed in the world.
     pub link: Option<usize>,
-    /// Its pose in that link, or in the world.
+    /// Pose in that link, or in the world `[m]`.
     pub pose: Pose<f64>,
     /// True if it is a body: [`Model::mass_properties`](super::Model::mass_properties) has its mass.
     pub is_body: bool,
 }
 
-/// A sensor on a frame: what its values are called.
+/// Sensor on a frame, for recordings and interfaces: the names and units of its values. The model does not measure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SensorInfo {
-    /// Name given by the user (a path in a scene).
+    /// Name given by the user (a path in a scene), that of its frame.
     pub name: String,
-    /// Names of its values and their units, in their order.
+    /// Name and unit of each value, in the order in which the sensor gives them.
     pub values: Vec<(String, String)>,
 }
 
-/// All names of a model.
+/// Names of the objects of a model as the user built it, and their ids; from [`Model::names`](super::Model::names).
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -84,62 +84,62 @@ pub struct SensorInfo {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Names {
-    /// Joints in the order they were added, fixed ones left out.
+    /// Joints in the order they were added, fixed ones left out; the order of [`JointId`].
     pub joints: Vec<JointInfo>,
-    /// Bodies and frames in the order they were added.
+    /// Bodies and frames in the order they were added; the order of [`BodyId`].
     pub frames: Vec<FrameInfo>,
-    /// External forces that take commands, in the order of those.
+    /// Names of the external forces that take commands, in the order of their commands.
     pub inputs: Vec<String>,
-    /// Rotors, in the order of [`super::Model::rotors`].
+    /// Names of the rotors, in the order of [`super::Model::rotors`].
     pub rotors: Vec<String>,
-    /// Drag elements, in the order of [`super::Model::drags`].
+    /// Names of the drag elements, in the order of [`super::Model::drags`].
     pub drags: Vec<String>,
-    /// Springs and dampers between two points, in the order of the model's.
+    /// Names of the springs and dampers between two points, in the order of [`super::Model::spring_dampers`].
     pub spring_dampers: Vec<String>,
-    /// Sensors, which are frames too; the model does not measure, it only knows what they are called.
+    /// Sensors, each with a frame of the same name.
     pub sensors: Vec<SensorInfo>,
-    /// For each degree of freedom, the joint it belongs to.
+    /// Id of the joint of each degree of freedom (n_v).
     pub dof_joint: Vec<JointId>,
 }
 
 impl Names {
-    /// The joint of that name.
+    /// Joint of that name; `None` if there is none, or if it is fixed.
     #[must_use]
     pub fn joint(&self, name: &str) -> Option<&JointInfo> {
         self.joints.iter().find(|j| j.name == name)
     }
 
-    /// The body or frame of that name.
+    /// Body or frame of that name; `None` if there is none.
     #[must_use]
     pub fn frame(&self, name: &str) -> Option<&FrameInfo> {
         self.frames.iter().find(|f| f.name == name)
     }
 
-    /// Id of the joint of that name; none if there is none, or if it is fixed.
+    /// Id of the joint of that name; `None` if there is none, or if it is fixed.
     #[must_use]
     pub fn joint_id(&self, name: &str) -> Option<JointId> {
         self.joints.iter().position(|j| j.name == name).map(JointId::new)
     }
 
-    /// Id of the body or frame of that name.
+    /// Id of the body or frame of that name; `None` if there is none.
     #[must_use]
     pub fn body_id(&self, name: &str) -> Option<BodyId> {
         self.frames.iter().position(|f| f.name == name).map(BodyId::new)
     }
 
-    /// Id of the motor of the joint of that name.
+    /// Id of the motor of the joint of that name; `None` if there is no such joint, or if it has no motor.
     #[must_use]
     pub fn motor_id(&self, joint: &str) -> Option<MotorId> {
         self.joint(joint)?.motor
     }
 
-    /// Id of the rotor of that name.
+    /// Id of the rotor of that name; `None` if there is none.
     #[must_use]
     pub fn rotor_id(&self, name: &str) -> Option<RotorId> {
         self.rotors.iter().position(|r| r == name).map(RotorId::new)
     }
 
-    /// Joint of that id.
+    /// Joint of that id, with its place in q and v.
     ///
     /// # Panics
     ///
@@ -159,7 +159,7 @@ impl Names {
         &self.frames[id.index()]
     }
 
-    /// Name of the joint that degree of freedom `dof` belongs to.
+    /// Name of the joint to which degree of freedom `dof` belongs. Panics if there is no such degree of freedom.
     #[must_use]
     pub fn dof_name(&self, dof: usize) -> &str {
         &self.joints[self.dof_joint[dof].index()].name

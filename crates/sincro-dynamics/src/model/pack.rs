@@ -13,7 +13,7 @@ use crate::aero::rotor::{MountedRotor, SpeedSource};
 use crate::joint::Friction;
 use crate::spatial::{Mat3, Pose, RigidInertia, Sym3, Vec3};
 
-/// Error of [`Model::pack`]: the models differ in the structure of the named part.
+/// Error of [`Model::pack`]: the models differ in the structure of the part that it names, such as `links and joints`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackError(pub &'static str);
 
@@ -26,11 +26,16 @@ impl std::fmt::Display for PackError {
 impl std::error::Error for PackError {}
 
 impl<R: Real> Model<R> {
-    /// Packs one model a lane (`models.len() == R::LANES`); a single one is repeated in every lane.
+    /// Packs models of one structure into the lanes of `R`, `models[k]` into lane k; the last one fills the remaining
+    /// lanes.
     ///
     /// # Errors
     ///
-    /// If the models differ in more than their numbers.
+    /// [`PackError`] if the models differ in more than their numbers; it names the part.
+    ///
+    /// # Panics
+    ///
+    /// If `models` is empty.
     pub fn pack(models: &[&Model<f64>]) -> Result<Self, PackError> {
         let first = models[0];
         for other in &models[1..] {

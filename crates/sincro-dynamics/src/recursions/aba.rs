@@ -25,35 +25,38 @@ use crate::scratch::{DofScratch, LinkScratch, Scratch};
 use crate::spatial::{ArticulatedInertia, Force, Motion, RigidInertia};
 use crate::state::State;
 
-/// Inputs of forward dynamics. Lengths are `n_q` for `q`, `n_v` for everything else but `external`.
+/// Inputs of [`forward_dynamics`]. Lengths are `n_q` for `q`, the number of links for `external`, `n_v` for all else;
+/// vectors of `n_v` entries have the order of the degrees of freedom.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a, R> {
-    /// Coordinates.
+    /// Coordinates `[rad]`, `[m]`, quaternions (w, x, y, z).
     pub q: &'a [R],
-    /// Velocities.
+    /// Velocities `[rad/s]`, `[m/s]`.
     pub v: &'a [R],
-    /// Joint torques [N·m] or forces `[N]`, everything but gravity.
+    /// Joint torques `[N·m]` or forces `[N]`: the sum of all but gravity and `external`.
     pub torque: &'a [R],
-    /// Added to the diagonal of the mass matrix [kg·m²] or `[kg]`.
+    /// Terms added to the diagonal of the mass matrix, such as armature `[kg·m²]` or `[kg]`.
     pub diagonal: &'a [R],
-    /// Prescribed degrees of freedom, if any.
+    /// Degrees of freedom with prescribed acceleration; `None` if all are free.
     pub prescribed: Option<Prescribed<'a, R>>,
-    /// External wrench on each link, link axes, about the link's origin.
+    /// External wrench on each link: moment about its origin `[N·m]` and force `[N]`, in link axes; `None` for zero.
     pub external: Option<&'a [Force<R>]>,
-    /// True if gravity acts (an impulse feels none).
+    /// True if gravity acts; false for impulses.
     pub gravity: bool,
 }
 
-/// Degrees of freedom whose acceleration is prescribed.
+/// Degrees of freedom whose acceleration is prescribed, such as locked drives; part of [`Input`]. Both slices have
+/// `n_v` entries.
 #[derive(Clone, Copy, Debug)]
 pub struct Prescribed<'a, R> {
-    /// 1 for prescribed, 0 for free.
+    /// 1 for a prescribed degree of freedom, 0 for a free one.
     pub mask: &'a [R],
-    /// Prescribed acceleration [rad/s²] or [m/s²]; read where the mask is 1.
+    /// Prescribed acceleration `[rad/s²]` or `[m/s²]`; read where the mask is 1.
     pub acceleration: &'a [R],
 }
 
-/// Joint accelerations `v_dot` [rad/s²] or [m/s²] (`n_v`): `(M + diagonal)·v̇ = torque + gravity + external − bias`.
+/// Forward dynamics (articulated-body algorithm): writes the joint accelerations `v_dot` (`n_v`) `[rad/s²]` or `[m/s²]`
+/// of `(M + diagonal)·v̇ = torque + gravity + external − bias`.
 ///
 /// Afterwards [`Scratch::reaction`] has the torque that each prescribed degree of freedom needed.
 ///
@@ -343,7 +346,7 @@ fn advance<S: Stage, R: Real>(
 /// force sensors [kg·m²] or `[kg]`, armature included. Springs and dampers against it give the rates that limit an
 /// explicit integrator.
 #[must_use]
-pub fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
+pub(crate) fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
     let mut scratch = Scratch::new(model);
     factor_at_rest(model, state, &mut scratch);
     scratch.dofs.iter().map(|d| d.d).collect()

@@ -11,7 +11,9 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, RigidInertia};
 
-/// Mass matrix at `q`, row by row into `mass` (`n_v × n_v`, [kg·m²] between rotations), armature on its diagonal.
+/// Mass matrix M(q) at coordinates `q` (`n_q`) by the composite-rigid-body algorithm, armature included: `mass`
+/// (`n_v × n_v`) is written row by row, in `[kg·m²]` between rotations, `[kg·m]` between a rotation and a translation,
+/// `[kg]` between translations.
 ///
 /// ```
 /// use sincro_dynamics::crba::mass_matrix;

@@ -58,13 +58,15 @@ impl<R: Real> StageVisitor for PoseInParent<'_, R> {
     }
 }
 
-/// Poses of all link frames in the world at `q`, into [`Scratch::link_poses`].
+/// Computes the poses of all link frames in the world `[m]` at coordinates `q` (n_q), into [`Scratch::link_poses`]; for
+/// [`frame_pose`] without velocities.
 pub fn poses<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>) {
     place(model, q, scratch);
     chain_poses(model, scratch);
 }
 
-/// Poses, twists and accelerations of all links at (`q`, `v`, `v_dot`); accelerations without gravity.
+/// Computes poses, twists and accelerations of all links at coordinates `q` (n_q), velocities `v` and accelerations
+/// `v_dot` (n_v), into `scratch`; gravity is not part of the accelerations.
 pub fn motions<R: Real>(model: &Model<R>, q: &[R], v: &[R], v_dot: &[R], scratch: &mut Scratch<R>) {
     for i in 0..model.links.len() {
         let link = &model.links[i];
@@ -98,21 +100,21 @@ impl<R: Real> StageVisitor for Outward<'_, R> {
     }
 }
 
-/// Pose of a frame in the world, after [`poses`] or [`motions`].
+/// Pose of a frame in the world `[m]`; `scratch` must hold [`poses`] or [`motions`].
 pub fn frame_pose<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Pose<R> {
     frame.link.map_or(frame.pose, |link| scratch.poses[link].compose(&frame.pose))
 }
 
-/// Velocity of a frame after [`motions`]: angular velocity [rad/s] and velocity of the frame's origin [m/s], world
-/// axes.
+/// Velocity of a frame: angular `[rad/s]` and that of its origin `[m/s]`, in world axes; zero in the world. `scratch`
+/// must hold [`motions`].
 pub fn frame_velocity<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
     let Some(link) = frame.link else { return Motion::zero() };
     let (v, rot) = (scratch.links[link].v, &scratch.poses[link].rot);
     Motion { ang: rot.mul_vec(v.ang), lin: rot.mul_vec(v.lin + v.ang.cross(frame.pose.pos)) }
 }
 
-/// Acceleration of a frame after [`motions`]: angular [rad/s²] and that of the point at its origin [m/s²], world axes,
-/// gravity not included (a body at rest has none).
+/// Acceleration of a frame: angular `[rad/s²]` and that of its origin `[m/s²]` (the second derivative of the position),
+/// in world axes, gravity not included: zero at rest. `scratch` must hold [`motions`].
 pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
     let Some(link) = frame.link else { return Motion::zero() };
     let (v, a, rot) = (scratch.links[link].v, scratch.links[link].a, &scratch.poses[link].rot);
@@ -122,8 +124,8 @@ pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) ->
     Motion { ang: rot.mul_vec(a.ang), lin: rot.mul_vec(lin) }
 }
 
-/// Jacobian of a frame at `q`: 6 × `n_v`, row by row (angular velocity, then velocity of the frame's origin, world
-/// axes), so that `J·v` is [`frame_velocity`].
+/// Jacobian of a frame at coordinates `q` (n_q), so that `J·v` is [`frame_velocity`]: `out` (6 × `n_v`) is written row
+/// by row, three rows of angular velocity, then three of the velocity of the frame's origin, in world axes.
 ///
 /// ```
 /// use sincro_dynamics::kinematics::jacobian;
@@ -180,7 +182,8 @@ impl<R: Real> StageVisitor for UnitColumn<'_, R> {
     }
 }
 
-/// Roll, pitch, yaw `[rad]` of a rotation R = Rz(yaw)·Ry(pitch)·Rx(roll).
+/// Roll, pitch and yaw, in this order `[rad]`, of the rotation `rot` = Rz(yaw)·Ry(pitch)·Rx(roll); pitch in [−π/2,
+/// π/2]. At ±π/2 roll and yaw are not unique.
 #[must_use]
 pub fn roll_pitch_yaw<R: Real>(rot: &Mat3<R>) -> Vec3<R> {
     let m = &rot.0;

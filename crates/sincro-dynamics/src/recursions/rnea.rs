@@ -11,8 +11,8 @@ use crate::recursions::aba::joint_motion;
 use crate::scratch::{LinkScratch, Scratch};
 use crate::spatial::{Force, Motion, RigidInertia, Vec3};
 
-/// Joint torques `torque` [N·m] or forces `[N]` (`n_v`) of motion (`q`, `v`, `v_dot`): `M·v̇ + bias − gravity −
-/// external`.
+/// Inverse dynamics (recursive Newton–Euler algorithm): writes the joint torques `torque` (n_v) `[N·m]` or forces `[N]`
+/// that give the accelerations `v_dot` (n_v) at `q` (n_q) and `v` (n_v): `M·v̇ + bias − gravity − external`.
 ///
 /// Springs, dampers and armature are not part of it. `external`: wrench on each link, link axes, about the link's
 /// origin.

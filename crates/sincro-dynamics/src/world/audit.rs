@@ -28,7 +28,7 @@ use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::state::State;
 
-/// Law of a mechanism.
+/// Physical law that a simulated mechanism must satisfy; its residual is audited by [`Observation::law_residuals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Law {
     /// State and accelerations are finite.
@@ -54,7 +54,7 @@ pub enum Law {
 }
 
 impl Law {
-    /// All laws.
+    /// All laws, in the order of their declaration.
     pub const ALL: [Self; 10] = [
         Self::Finiteness,
         Self::LoopPosition,
@@ -69,27 +69,28 @@ impl Law {
     ];
 }
 
-/// Element that a law belongs to.
+/// Element of the mechanism that a residual belongs to; indices are those of the model's lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LawElement {
-    /// Loop joint of this index.
+    /// Loop joint, index in [`ConstraintSet::loop_joints`](crate::model::ConstraintSet).
     LoopJoint(usize),
-    /// Gear of this index.
+    /// Gear, index in [`ConstraintSet::gears`](crate::model::ConstraintSet).
     Gear(usize),
-    /// Joint limit of this index.
+    /// Joint limit, index in [`ConstraintSet::limits`](crate::model::ConstraintSet).
     Limit(usize),
-    /// Pair of surfaces of this index.
+    /// Pair of colliders, index in [`ConstraintSet::pairs`](crate::model::ConstraintSet).
     Pair(usize),
-    /// Drive of this index.
+    /// Drive, index in [`Model::drives`].
     Drive(usize),
-    /// Degree of freedom.
+    /// Degree of freedom, index in v.
     Dof(usize),
-    /// Sums over the whole mechanism, such as its totals.
+    /// Whole mechanism.
     Mechanism,
 }
 
 impl LawElement {
-    /// Name of the element in the words of the user.
+    /// Name of the element in `model` as the user gave it, of a limit, drive or degree of freedom that of the joint;
+    /// `/` for the whole mechanism. Panics if the model has no such element.
     #[must_use]
     pub fn name(self, model: &Model<f64>) -> String {
         let (set, names) = (model.constraints(), model.names());
@@ -108,23 +109,23 @@ impl LawElement {
     }
 }
 
-/// Kind of quantity of a residual, which gives its unit.
+/// Physical quantity of a residual, which gives its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResidualKind {
-    /// `[m]`
+    /// Length `[m]`.
     Length,
-    /// `[rad]`
+    /// Angle `[rad]`.
     Angle,
-    /// [m/s]
+    /// Speed `[m/s]`.
     Speed,
-    /// [rad/s]
+    /// Angular speed `[rad/s]`.
     AngularSpeed,
-    /// Relative to a largest force, or a count.
+    /// Ratio to a largest force, or a count.
     Dimensionless,
 }
 
 impl ResidualKind {
-    /// The unit in writing; empty for a dimensionless residual.
+    /// Symbol of the unit, such as `m/s`; empty for a dimensionless residual.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -137,21 +138,22 @@ impl ResidualKind {
     }
 }
 
-/// Worst residual of one law at one instant.
+/// Worst residual of one law at one instant, with the element it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawResidual {
-    /// The residual; zero or less where the law holds exactly.
+    /// Residual in the unit of `kind`; zero or less where the law holds exactly.
     pub value: f64,
-    /// Scale that a tolerance is multiplied by.
+    /// Scale by which a tolerance is multiplied, in the same unit; at least 1.
     pub scale: f64,
-    /// Quantity of the residual.
+    /// Physical quantity of residual and scale.
     pub kind: ResidualKind,
-    /// Element of the residual.
+    /// Element with this residual.
     pub element: LawElement,
 }
 
 impl LawResidual {
-    /// Residual over scale: what a tolerance is compared with. A residual that is not a number is infinite.
+    /// Residual over scale (dimensionless), to be compared with a tolerance; infinite for a residual that is not a
+    /// number.
     #[must_use]
     pub fn relative(&self) -> f64 {
         let share = self.value / self.scale;
@@ -159,20 +161,20 @@ impl LawResidual {
     }
 }
 
-/// Worst residual of each law at one instant; none where nothing is subject to a law.
+/// Worst residual of each law at one instant, from [`Observation::law_residuals`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LawResiduals {
     worst: [Option<LawResidual>; Law::ALL.len()],
 }
 
 impl LawResiduals {
-    /// Worst residual of a law.
+    /// Worst residual of a law; `None` if no element is subject to it.
     #[must_use]
     pub fn get(&self, law: Law) -> Option<&LawResidual> {
         self.worst[law as usize].as_ref()
     }
 
-    /// All laws that something is subject to, with their worst residuals.
+    /// Laws that an element is subject to, in the order of [`Law::ALL`], with their worst residuals.
     pub fn iter(&self) -> impl Iterator<Item = (Law, &LawResidual)> {
         Law::ALL.into_iter().filter_map(|law| Some((law, self.get(law)?)))
     }
@@ -202,7 +204,8 @@ impl Scales {
 }
 
 impl Observation<'_> {
-    /// Worst residual of each law in the present state, and the element it belongs to. Nothing is allocated.
+    /// Audits all laws in the present state: the worst residual of each, and the element it belongs to. Drives are
+    /// audited at the end of a tick only. Nothing is allocated.
     #[must_use]
     pub fn law_residuals(&self) -> LawResiduals {
         let mut found = LawResiduals::default();

@@ -13,7 +13,7 @@ const DEFAULT_STEP: f64 = 1e-3;
 /// Local error allowed in a step of a method with error control unless another is set.
 const DEFAULT_ACCURACY: f64 = 1e-6;
 
-/// Builder of a [`World`]; [`World::builder`] makes one.
+/// Builder of a [`World`], made by [`World::builder`]: initial state, method, step size.
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -53,18 +53,18 @@ impl WorldBuilder {
         Self { model, state, method: MethodKind::Implicit, step_size, accuracy, tracks_totals: true }
     }
 
-    /// Sets the initial state; by default everything is at rest at coordinates zero.
+    /// Sets the initial state; by default the one of [`State::new`], at rest at coordinates zero.
     #[must_use]
     pub fn state(mut self, state: State<f64>) -> Self {
         self.state = state;
         self
     }
 
-    /// Sets the initial coordinates of a joint `[rad]`, `[m]` or a quaternion (w, x, y, z), as many as it has.
+    /// Sets the initial coordinates of a joint, as many as it has: `[rad]`, `[m]`, quaternions (w, x, y, z).
     ///
     /// # Panics
     ///
-    /// If the joint has another number of coordinates.
+    /// If the model has no such joint, or the joint another number of coordinates.
     #[must_use]
     pub fn coordinates(mut self, joint: JointId, q: &[f64]) -> Self {
         let info = self.model.names().joint_info(joint);
@@ -72,11 +72,11 @@ impl WorldBuilder {
         self
     }
 
-    /// Sets the initial velocities of a joint [rad/s] or [m/s], as many as it has degrees of freedom.
+    /// Sets the initial velocities of a joint `[rad/s]` or `[m/s]`, one for each of its degrees of freedom.
     ///
     /// # Panics
     ///
-    /// If the joint has another number of degrees of freedom.
+    /// If the model has no such joint, or the joint another number of degrees of freedom.
     #[must_use]
     pub fn velocities(mut self, joint: JointId, v: &[f64]) -> Self {
         let info = self.model.names().joint_info(joint);
@@ -99,26 +99,28 @@ impl WorldBuilder {
         self
     }
 
-    /// Sets the local error allowed in a step of a method with error control, relative to max(|y|, 1); by default 1e-6.
+    /// Sets the local error allowed in a step of a method with error control, relative to max(|y|, 1) (dimensionless);
+    /// by default 1e-6. No effect on fixed steps.
     #[must_use]
     pub fn accuracy(mut self, accuracy: f64) -> Self {
         self.accuracy = accuracy;
         self
     }
 
-    /// Leaves out the integrals of work, dissipation and motor impulses, which saves time.
+    /// Leaves out the integrals of work, dissipation and motor impulses ([`State::totals`]), which saves time; they
+    /// stay 0.
     #[must_use]
     pub fn without_totals(mut self) -> Self {
         self.tracks_totals = false;
         self
     }
 
-    /// Makes the world and resolves drives and contacts in the initial state.
+    /// Creates the world and resolves drives and contacts in the initial state.
     ///
     /// # Errors
     ///
-    /// All that is wrong, one sentence each: a step or an accuracy that is not positive, a state that does not fit the
-    /// model or is not finite.
+    /// [`InvalidParameters`] with one sentence for each fault: a step size or an accuracy that is not positive and
+    /// finite, a state whose lists do not fit the model, numbers in it that are not finite.
     pub fn build(self) -> Result<World, InvalidParameters> {
         let problems = self.problems();
         if !problems.is_empty() {

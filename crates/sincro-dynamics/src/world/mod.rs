@@ -48,7 +48,7 @@ const SAME_INSTANT: f64 = 1e-9;
 
 /// Integration method with its working memory.
 #[derive(Clone, Debug)]
-pub enum Method {
+enum Method {
     /// Semi-implicit Euler, fixed step, order 1: every step is one at velocity level.
     SemiImplicitEuler,
     /// Runge–Kutta, fixed step, order 4.
@@ -61,7 +61,7 @@ pub enum Method {
     Stiff(Extrapolated<f64>),
 }
 
-/// The methods by name.
+/// Integration method of a world, chosen with [`WorldBuilder::method`].
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -87,58 +87,64 @@ pub enum Method {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
 pub enum MethodKind {
+    /// Semi-implicit Euler, fixed step, order 1; joint dampers implicit, contacts at velocity level (Moreau–Jean).
     SemiImplicitEuler,
+    /// Classical Runge–Kutta, fixed step, order 4: for smooth mechanisms.
     Rk4,
+    /// Extrapolated linearly implicit Euler, fixed step, order 2: stable for any stiffness and damping of joints.
     Implicit,
+    /// Dormand–Prince 5(4), error control: for smooth mechanisms.
     DormandPrince,
+    /// Extrapolated linearly implicit Euler, order 2 to 8, error control: for stiff mechanisms.
     Stiff,
 }
 
-/// Reason for which a world stopped.
+/// Reason for which a world stopped; in a [`StepError`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
-    /// The integrator could not go on.
+    /// The integrator could not make a step.
     Integration(Failure),
-    /// Too many constraint problems had no solution that fits.
+    /// More constraint problems than allowed in a run were left without a solution within tolerance.
     Unsolved {
-        /// Time `[s]`.
+        /// Time of the stop `[s]`.
         t: f64,
-        /// Largest complementarity residual, relative to the largest force or rate.
+        /// Largest complementarity residual, relative to the largest force or rate (dimensionless).
         residual: f64,
     },
-    /// Drives changed state too often within one tick.
+    /// Drives changed between locked and saturated too often within one tick.
     Chatter {
-        /// Time `[s]`.
+        /// Time of the stop `[s]`.
         t: f64,
     },
 }
 
-/// Step statistics since the world was made.
+/// Statistics of the steps: of [`World::statistics`] since the world was made, of a [`StepReport`] those of one base
+/// step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepStatistics {
-    /// Sub-steps accepted.
+    /// Number of accepted sub-steps.
     pub steps: u64,
-    /// Located changes of drives, limits and contacts.
+    /// Number of located zero crossings: changes of drives, limits and contacts.
     pub events: u64,
-    /// Impacts.
+    /// Number of impacts.
     pub impacts: u64,
-    /// Ticks finished at velocity level because of Zeno behaviour.
+    /// Number of ticks finished at velocity level because of Zeno behaviour.
     pub fallback_ticks: u64,
-    /// Steps at velocity level after too many events without progress in time.
+    /// Number of steps at velocity level after too many events without progress in time.
     pub fallback_steps: u64,
-    /// Decisions between modes of drives that did not end.
+    /// Number of times that the modes of drives could not be decided within the iteration limit.
     pub undecided_modes: u64,
     /// Work of the contact forces over the distances at which contacts counted as closed `[J]`, which projection
     /// removes: an uncertainty of the energy balance that no finer step reduces.
     pub closing_work: f64,
 }
 
-/// A mechanism, its state and a method.
+/// Simulated world: a mechanism, its state and an integration method, advanced by [`World::step`]. Made by
+/// [`World::builder`].
 #[derive(Clone, Debug)]
 pub struct World {
-    /// The state.
+    /// Present state; may be changed between steps, then see [`World::mark_changed`].
     pub state: State<f64>,
     mechanism: Mechanism<f64>,
     method: Method,
@@ -179,7 +185,8 @@ pub struct World {
 }
 
 impl World {
-    /// A world of `model` in `state`; [`World::builder`] makes one that checks its arguments and is ready for a step.
+    /// Creates a world of `model` in `state`, to be followed by [`World::initialize`]; [`World::builder`] is the way
+    /// that checks its arguments and is ready for a step.
     ///
     /// `accuracy` is the local error allowed in a step of a method with error control, relative to max(|y|, 1);
     /// `first_step` `[s]` is the first step that such a method tries, and for all methods the base step of
@@ -189,7 +196,8 @@ impl World {
         Self::with_totals(model, state, kind, Control::new(accuracy, first_step), true)
     }
 
-    /// As [`World::new`]; without totals no work, dissipation or motor impulse is integrated, which saves time.
+    /// Creates a world as [`World::new`] does, with the accuracy and step size of `control`; if `tracks_totals` is
+    /// false, no work, dissipation or motor impulse is integrated, which saves time.
     #[must_use]
     pub fn with_totals(
         model: Model<f64>,
@@ -201,7 +209,7 @@ impl World {
         Self::with_coupled_states(model, state, kind, control, tracks_totals, 0)
     }
 
-    /// As [`World::with_totals`], for a [`CoupledSystem`] with `n_states` states, to be given to
+    /// Creates a world as [`World::with_totals`] does, for a [`CoupledSystem`] with `n_states` states, to be given to
     /// [`World::advance_with`].
     #[must_use]
     pub fn with_coupled_states(
@@ -260,44 +268,44 @@ impl World {
         }
     }
 
-    /// The model.
+    /// Model of the world, with its present parameters.
     #[must_use]
     pub fn model(&self) -> &Model<f64> {
         self.mechanism.model()
     }
 
-    /// Step statistics so far.
+    /// Statistics of all steps since the world was made.
     #[must_use]
     pub fn statistics(&self) -> StepStatistics {
         self.statistics
     }
 
-    /// Solver statistics so far, if there are constraints.
+    /// Statistics of the constraint solver since the world was made; `None` if the model has no constraints.
     #[must_use]
     pub fn solver_report(&self) -> Option<SolverReport> {
         self.mechanism.constraints.as_ref().map(|c| c.solver.report)
     }
 
-    /// Singular positions of loops that were passed so far. Not part of the state; semi-implicit Euler does not look
-    /// for them.
+    /// Passages of singular positions of the loops since the world was made. Not part of the state; semi-implicit Euler
+    /// does not look for them.
     #[must_use]
     pub fn passed_singularities(&self) -> PassedSingularities {
         self.mechanism.passed_singularities()
     }
 
-    /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`].
+    /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`]; empty before.
     pub fn contacts(&self) -> impl Iterator<Item = ContactPoint> {
         contacts_of(&self.mechanism)
     }
 
-    /// Torque [N·m] or force `[N]` that a locked degree of freedom needed in the last [`World::rates`] or
-    /// [`World::observe`].
+    /// Torque `[N·m]` or force `[N]` that the locked degree of freedom `dof` (0 to n_v − 1) needed in the last
+    /// [`World::rates`] or [`World::observe`]; meaningless if it is not locked.
     #[must_use]
     pub fn reaction(&self, dof: usize) -> f64 {
         self.mechanism.scratch.reaction[dof]
     }
 
-    /// The error control of the method, none for fixed steps. Part of what a snapshot holds.
+    /// Step-size control of the method, which a snapshot must hold; `None` for methods with a fixed step.
     #[must_use]
     pub fn control(&self) -> Option<Control> {
         match &self.method {
@@ -307,7 +315,7 @@ impl World {
         }
     }
 
-    /// Puts the error control back to what a snapshot holds.
+    /// Sets the step-size control, such as that of a snapshot; no effect on methods with a fixed step.
     pub fn set_control(&mut self, control: Control) {
         match &mut self.method {
             Method::DormandPrince(m) => m.control = control,
@@ -316,19 +324,20 @@ impl World {
         }
     }
 
-    /// Divides every fixed step into `n` equal ones, and lets no method with error control take longer ones; commands
-    /// are still latched once a tick. For estimating errors.
+    /// Divides every fixed step into `n` equal ones (0 counts as 1), and limits steps of error control to that length;
+    /// commands are still latched once a tick. For error estimates by refinement.
     pub fn set_substeps(&mut self, n: u32) {
         self.substeps = n.max(1);
     }
 
-    /// Resolves drives and contacts at the start of a run, velocities as they are (nothing jumps before the first
-    /// command).
+    /// Resolves drives and contacts at the start of a run, at time `t` `[s]`; velocities stay (nothing jumps before the
+    /// first command). To be called once after [`World::new`].
     pub fn initialize(&mut self, t: f64) {
         self.initialize_with(t, &mut NoCoupling);
     }
 
-    /// As [`World::initialize`], with a coupled system.
+    /// Resolves drives and contacts at the start of a run, at time `t` `[s]`, with the commands of a coupled system;
+    /// see [`World::initialize`].
     pub fn initialize_with<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
         self.load(system);
         self.latch_target_velocities();
@@ -341,12 +350,13 @@ impl World {
         self.mechanism.store(&self.y, &mut self.state);
     }
 
-    /// Notes that state or model were changed from outside: the laws are audited again after the next tick.
+    /// Records that state or model were changed from outside: drives and constraints are audited again
+    /// ([`Observation::law_residuals`]) only after the next tick.
     pub fn mark_changed(&mut self) {
         self.settled_at = None;
     }
 
-    /// Bytes that this world takes beside the shared model's numbers.
+    /// Bytes that this world takes on the heap, the model left out; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
         let own = self.y.len() * 3 + self.base_before.len() + self.target_velocities.len() + self.accelerations.len();
@@ -359,21 +369,26 @@ impl World {
         self.state.heap_bytes() + self.mechanism.heap_bytes() + 8 * (own + method)
     }
 
-    /// Advances the state from time `t` by `h` `[s]` under the latched commands; the tick is counted up.
+    /// Advances the state from time `t` `[s]` by one tick of `h` `[s]` under the latched commands, and counts the tick.
     ///
     /// # Errors
     ///
-    /// When the method cannot go on; the state is then that of the last instant reached.
+    /// Time of the last instant reached `[s]` and the reason, if the method cannot go on; the state is then that of
+    /// this instant, and the tick is not counted.
     pub fn advance(&mut self, t: f64, h: f64) -> Result<(), (f64, Stop)> {
         self.advance_with(t, h, &mut NoCoupling)
     }
 
-    /// As [`World::advance`], together with a coupled system; the world was made for as many states
-    /// ([`World::with_coupled_states`]).
+    /// Advances the state as [`World::advance`] does, together with a coupled system with as many states as the world
+    /// was made for ([`World::with_coupled_states`]).
     ///
     /// # Errors
     ///
     /// As [`World::advance`]; the states of the coupled system are then those of the last instant reached, too.
+    ///
+    /// # Panics
+    ///
+    /// If the number of its states differs.
     pub fn advance_with<A: CoupledSystem<f64> + ?Sized>(
         &mut self,
         t: f64,
@@ -402,14 +417,15 @@ impl World {
         Ok(())
     }
 
-    /// First rotor whose thrust or torque was not a number in the last evaluation, as the law of the stock propeller's
-    /// script can give; none if all are finite.
+    /// Id of the first rotor whose thrust or torque was not a number in the last evaluation, as the published script
+    /// can give; `None` if all are finite.
     #[must_use]
     pub fn rotor_without_load(&self) -> Option<RotorId> {
         self.mechanism.rotor_without_load()
     }
 
-    /// Speed of a rotor in the present state [rad/s].
+    /// Speed of a rotor in the present state `[rad/s]`, of a stock propeller the velocity of its particles `[m/s]`.
+    /// Panics if the model has no such rotor.
     #[must_use]
     pub fn rotor_speed(&self, rotor: RotorId) -> f64 {
         let State { v, commands, rotors, .. } = &self.state;
@@ -425,7 +441,8 @@ impl World {
         }
     }
 
-    /// Accelerations [rad/s²], [m/s²] and motor torques [N·m], `[N]` at the present state, as the drives now stand.
+    /// Computes accelerations (n_v) `[rad/s²]`, `[m/s²]` and motor torques (in the order of the motors) `[N·m]`, `[N]`
+    /// in the present state at time `t` `[s]`, with the drives as they now stand.
     pub fn rates(&mut self, t: f64) -> (&[f64], &[f64]) {
         self.mechanism.load(&self.state, &mut self.y);
         if self.is_next_step_large() {
@@ -457,27 +474,48 @@ impl World {
         (&self.accelerations, self.mechanism.motor_torque())
     }
 
-    /// Announces the length of the next step `[s]`, over which the forces of many contacts are found; after a step it
-    /// is the same again.
+    /// Announces the length of the next tick `[s]`, over which [`World::rates`] finds the forces of many contacts; by
+    /// default that of the last one.
     pub fn announce_step(&mut self, h: f64) {
         self.next_step = h / f64::from(self.substeps);
     }
 
-    /// Calls `look` with the state view of the present state.
+    /// Calls `look` with the view of the present state at time `t` `[s]`, as sensors and controllers take it, and
+    /// returns its result.
     pub fn with_state_view<T>(&mut self, t: f64, look: impl FnOnce(StateView<'_, f64>) -> T) -> T {
         let (state, mechanism) = (&self.state, &mut self.mechanism);
         let State { q, v, rotors, commands, .. } = state;
         look(StateView { t, model: &mechanism.model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
     }
 
-    /// Applies an external force to a link from now on, until
-    /// [`World::clear_external_forces`]; forces at one point add up. Not part
-    /// of the state: a force that acts over one step leaves nothing behind.
+    /// Applies an external force to a link in all steps until [`World::clear_external_forces`]; several add up. Not
+    /// part of the state.
+    ///
+    /// # Panics
+    ///
+    /// In the next evaluation, if the model has no such link.
+    ///
+    /// ```
+    /// use sincro_dynamics::actuation::ExternalForce;
+    /// use sincro_dynamics::prelude::*;
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0; 3]);
+    /// # let base = builder.joint("base", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
+    /// # let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+    /// # builder.body("ball", base, Pose::identity(), BodySpec { mass });
+    /// # let model = builder.build()?.0;
+    /// let force = Vec3([0.0, 0.0, 2.0 * model.total_mass()]); // accelerates by 2 m/s²
+    /// let mut world = World::builder(model).step_size(0.01).build()?;
+    /// world.apply_external_force(ExternalForce { link: 0, point: Vec3([0.0; 3]), force, torque: Vec3([0.0; 3]) });
+    /// world.step()?;
+    /// assert!((world.state.v[5] - 2.0 * 0.01).abs() < 1e-12); // [m/s]
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn apply_external_force(&mut self, applied: ExternalForce<f64>) {
         self.mechanism.apply_external_force(applied);
     }
 
-    /// Removes all external forces.
+    /// Removes all forces of [`World::apply_external_force`].
     pub fn clear_external_forces(&mut self) {
         self.mechanism.clear_external_forces();
     }
@@ -487,7 +525,7 @@ impl World {
     ///
     /// # Panics
     ///
-    /// If there is no motor of that id.
+    /// If the model has no such motor.
     pub fn set_motor(&mut self, id: MotorId, motor: Motor<f64>) {
         self.mark_changed();
         self.mechanism.drives.copy_from_slice(&self.state.drives);
@@ -505,7 +543,7 @@ impl World {
         self.kink_of.resize(n, NO_KINK);
     }
 
-    /// The mechanism, for kinematics and energies at the state.
+    /// Mechanism of the world, for kinematics and energies at the state; changes of its modes last until the next step.
     pub fn mechanism(&mut self) -> &mut Mechanism<f64> {
         &mut self.mechanism
     }

@@ -42,7 +42,8 @@ impl World {
         }
     }
 
-    /// Sets gravity [m/s²], world axes; the change of energy is counted as work, unless no step has been made yet.
+    /// Sets the gravitational acceleration `[m/s²]`, world axes; the change of energy is counted as work, unless no
+    /// step has been made yet.
     pub fn set_gravity(&mut self, gravity: Vec3<f64>) {
         self.mark_changed();
         let before = self.energy().total();
@@ -52,8 +53,8 @@ impl World {
         }
     }
 
-    /// Sets the joint limits of a degree of freedom that has them `[rad]` or `[m]`: lower and upper. Returns false, and
-    /// changes nothing, if the bounds given are not those that exist.
+    /// Sets the lower and upper limit `[rad]` or `[m]` of degree of freedom `dof` (0 to n_v − 1), `None` where it has
+    /// none. Returns false, and changes nothing, if it has other limits than those given.
     pub fn set_limits(&mut self, dof: usize, bounds: [Option<f64>; 2]) -> bool {
         self.mark_changed();
         let has = |sign: f64, model: &Model<f64>| {
@@ -71,7 +72,8 @@ impl World {
         true
     }
 
-    /// Sets ratio and offset `[rad]` or `[m]` of gear `k`.
+    /// Sets ratio (q̇₂ over q̇₁) and offset `[rad]` or `[m]` of gear `k`, an index in
+    /// [`ConstraintSet::gears`](crate::model::ConstraintSet).
     ///
     /// # Panics
     ///
@@ -82,8 +84,8 @@ impl World {
         (gear.ratio, gear.offset) = (ratio, offset);
     }
 
-    /// Sets the contact law of a pair of surfaces, or ignores the pair from now on. A contact stores nothing: an
-    /// ignored one ends at once.
+    /// Sets the contact law of a pair of colliders, an index in [`ConstraintSet::pairs`](crate::model::ConstraintSet);
+    /// `is_ignored` ends its contacts from the next step on.
     ///
     /// # Panics
     ///
@@ -99,9 +101,11 @@ impl World {
         }
     }
 
-    /// Broad phase over one step: writes the pairs of surfaces that may come into contact within `h` `[s]`, whose
-    /// bounding spheres are closer than twice the distance that the two surfaces travel at most, plus four times the
-    /// fall.
+    /// Broad phase over a step of `h` `[s]`: replaces the content of `found` by the pairs of colliders (indices in
+    /// [`ConstraintSet::pairs`](crate::model::ConstraintSet), ascending) that may come into contact in it.
+    ///
+    /// Their bounding spheres are closer than 1 mm plus twice the distance that the two surfaces travel plus four times
+    /// the fall.
     pub fn near(&mut self, h: f64, found: &mut Vec<usize>) {
         found.clear();
         let mechanism = &mut self.mechanism;

@@ -8,7 +8,7 @@ use crate::ids::{JointId, MotorId};
 use crate::model::Model;
 use crate::world::StepStatistics;
 
-/// Report of one base step.
+/// Report of one base step, returned by [`World::step`].
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -27,7 +27,7 @@ use crate::world::StepStatistics;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport {
-    /// Base steps since the start, this one included.
+    /// Number of base steps since the start, this one included.
     pub tick: u64,
     /// Time at its end `[s]`.
     pub t: f64,
@@ -35,7 +35,8 @@ pub struct StepReport {
     pub statistics: StepStatistics,
 }
 
-/// Error of a step: the world stopped within it. Its state is that of the last instant reached, everything finite.
+/// Error of [`World::step`]: the world stopped within the step. Its state is that of the last instant reached, with
+/// finite numbers.
 ///
 /// ```
 /// use sincro_dynamics::prelude::*;
@@ -57,7 +58,7 @@ pub struct StepReport {
 pub struct StepError {
     /// Last instant reached `[s]`.
     pub t: f64,
-    /// Reason.
+    /// Reason for which it stopped.
     pub reason: Stop,
 }
 
@@ -91,7 +92,7 @@ impl fmt::Display for Stop {
 impl std::error::Error for Stop {}
 
 impl World {
-    /// Builder of a world of `model`.
+    /// Builder of a world of `model`, which sets initial state, method and step size.
     ///
     /// ```
     /// use sincro_dynamics::prelude::*;
@@ -117,7 +118,8 @@ impl World {
     ///
     /// # Errors
     ///
-    /// If the method cannot go on; the state is then that of the last instant reached, and the tick is not counted.
+    /// [`StepError`] with time and reason if the method cannot go on; the state is then that of the last instant
+    /// reached, and the tick is not counted.
     pub fn step(&mut self) -> Result<StepReport, StepError> {
         let before = self.statistics();
         let (t, h) = (self.time(), self.step_size);
@@ -125,19 +127,20 @@ impl World {
         Ok(StepReport { tick: self.state.tick, t: self.time(), statistics: self.statistics().since(&before) })
     }
 
-    /// Time of the present state `[s]`: the tick times the base step.
+    /// Time of the present state `[s]`: number of ticks times step size.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.state.tick as f64 * self.step_size
     }
 
-    /// Base step of [`World::step`] `[s]`.
+    /// Length of the base step of [`World::step`] `[s]`.
     #[must_use]
     pub fn step_size(&self) -> f64 {
         self.step_size
     }
 
-    /// Coordinates of a joint in the present state `[rad]`, `[m]`, quaternions (w, x, y, z).
+    /// Coordinates of a joint in the present state, as many as it has: `[rad]`, `[m]`, quaternions (w, x, y, z). Panics
+    /// if the model has no such joint.
     ///
     /// ```
     /// use sincro_dynamics::prelude::*;
@@ -159,19 +162,21 @@ impl World {
         &self.state.q[info.q_idx..info.q_idx + info.n_q]
     }
 
-    /// Velocities of a joint in the present state [rad/s], [m/s].
+    /// Velocities of a joint in the present state `[rad/s]`, `[m/s]`, one for each of its degrees of freedom, in the
+    /// order that [`JointKind`](crate::joint::JointKind) gives. Panics if the model has no such joint.
     #[must_use]
     pub fn velocities(&self, joint: JointId) -> &[f64] {
         let info = self.model().names().joint_info(joint);
         &self.state.v[info.v_idx..info.v_idx + info.n_v]
     }
 
-    /// Sets the command of a motor, in the units of its mode; it acts from the next step on.
+    /// Sets the command of a motor, in the unit of its [`MotorMode`](crate::actuation::MotorMode); it acts from the
+    /// next step on. Panics if the model has no such motor.
     pub fn set_command(&mut self, motor: MotorId, command: f64) {
         self.state.commands[motor.index()] = command;
     }
 
-    /// Kinetic and potential energy in the present state `[J]`.
+    /// Kinetic and potential energy in the present state `[J]`; computed anew by each call.
     pub fn energy(&mut self) -> Energy<f64> {
         let mechanism = &mut self.mechanism;
         energy_at(&mechanism.model, &self.state.q, &self.state.v, &mut mechanism.scratch)

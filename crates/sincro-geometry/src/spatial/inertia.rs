@@ -14,25 +14,26 @@ use sincro_math::Real;
 use super::sym3::{ELEMENTS, Sym3};
 use super::{Force, Mat3, Motion, Vec3};
 
-/// Inertia of a rigid body about the origin of its frame.
+/// Spatial inertia of a rigid body about the origin of its frame, in the axes of that frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RigidInertia<R> {
     /// Mass m `[kg]`.
     pub mass: R,
-    /// First moment h = m·c [kg·m], c the centre of mass.
+    /// First moment of mass h = m·c `[kg·m]`, c the centre of mass in the frame.
     pub moment: Vec3<R>,
     /// Rotational inertia about the frame's origin [kg·m²].
     pub rotational: Sym3<R>,
 }
 
 impl<R: Real> RigidInertia<R> {
-    /// No mass at all.
+    /// Inertia without mass: all ten numbers zero.
     #[inline(always)]
     pub fn zero() -> Self {
         Self { mass: R::zero(), moment: Vec3::zero(), rotational: Sym3::zero() }
     }
 
-    /// From mass `[kg]`, centre of mass `[m]` and inertia about the centre of mass [kg·m²], all in the frame's axes.
+    /// Spatial inertia about the frame's origin from `mass` `[kg]`, centre of mass `com` `[m]` and rotational inertia
+    /// about the centre of mass `[kg·m²]`, all in the frame's axes (parallel axis theorem).
     pub fn from_center_of_mass(mass: R, com: Vec3<R>, inertia: &Sym3<R>) -> Self {
         // Steiner: I_o = I_c + m (|c|² 1 − c cᵀ)
         let cc = com.dot(com);
@@ -43,7 +44,8 @@ impl<R: Real> RigidInertia<R> {
         Self { mass, moment: com.scale(mass), rotational: inertia.plus(&steiner) }
     }
 
-    /// Momentum `[kg·m²/s]`, `[kg·m/s]` of the body moving with `v` `[rad/s]`, `[m/s]`: `I·v`.
+    /// Spatial momentum `I·v` of the body moving with the twist `v` (`[rad/s]`, `[m/s]`): angular part about the origin
+    /// `[kg·m²/s]`, linear part `[kg·m/s]`. With a spatial acceleration instead, the wrench `[N·m]`, `[N]`.
     #[inline(always)]
     pub fn mul(&self, v: &Motion<R>) -> Force<R> {
         Force {
@@ -52,7 +54,7 @@ impl<R: Real> RigidInertia<R> {
         }
     }
 
-    /// Sum of two inertias in the same frame.
+    /// Sum of two inertias given in the same frame: that of the two bodies fixed to each other.
     #[inline(always)]
     pub fn plus(&self, b: &Self) -> Self {
         Self {
@@ -62,7 +64,7 @@ impl<R: Real> RigidInertia<R> {
         }
     }
 
-    /// The same inertia seen from a frame in which this one's origin lies at `r`, axes parallel.
+    /// Same inertia about the origin of another frame, in which this one's origin lies at `r` `[m]`; axes parallel.
     #[inline(always)]
     pub fn shifted(&self, r: Vec3<R>) -> Self {
         // I' = I + (2 r·h + m r²) 1 − r hᵀ − h rᵀ − m r rᵀ,  h' = h + m r
@@ -77,13 +79,13 @@ impl<R: Real> RigidInertia<R> {
         Self { mass: self.mass, moment: k, rotational }
     }
 
-    /// The same inertia with its components turned by `e`: from frame B to frame A for `e` = R_ab.
+    /// Same inertia in other axes: `e` = R_ab takes components in B (of `self`) to components in A (of the result).
     #[inline(always)]
     pub fn turned(&self, e: &Mat3<R>) -> Self {
         Self { mass: self.mass, moment: e.mul_vec(self.moment), rotational: e.congruence_sym(&self.rotational) }
     }
 
-    /// The same inertia in the general form of articulated bodies.
+    /// Same inertia in the general form of articulated bodies, in the same frame.
     #[inline(always)]
     pub fn articulated(&self) -> ArticulatedInertia<R> {
         ArticulatedInertia {
@@ -94,19 +96,21 @@ impl<R: Real> RigidInertia<R> {
     }
 }
 
-/// Inertia that a link shows at its joint with everything hanging on it.
+/// Articulated-body inertia: resistance of a link to acceleration together with all that hangs on it through joints,
+/// about the origin of its frame. Intermediate result of the articulated-body algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ArticulatedInertia<R> {
-    /// I, rotational block.
+    /// Rotational block I `[kg·m²]`: moment over angular acceleration.
     pub rotational: Sym3<R>,
-    /// H, moment caused by linear acceleration.
+    /// Coupling block H `[kg·m]`: moment over linear acceleration; its transpose is force over angular acceleration.
     pub coupling: Mat3<R>,
-    /// M, linear block.
+    /// Linear block M `[kg]`: force over linear acceleration; direction-dependent, unlike a mass.
     pub linear: Sym3<R>,
 }
 
 impl<R: Real> ArticulatedInertia<R> {
-    /// Wrench needed for acceleration `a`.
+    /// Wrench (`[N·m]` about the origin, `[N]`) that gives the spatial acceleration `a` (`[rad/s²]`, `[m/s²]`), in the
+    /// same frame.
     #[inline(always)]
     pub fn mul(&self, a: &Motion<R>) -> Force<R> {
         Force {
@@ -115,8 +119,8 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// `self − u·(ku)ᵀ` `[kg]`, `[kg·m]`, `[kg·m²]`: the inertia that is left when one degree of freedom gives way.
-    /// `ku` is a multiple of `u`.
+    /// Inertia `self − u·(ku)ᵀ` that remains when one degree of freedom is released: `u` is the inertia times the axis
+    /// of the joint, `ku` is `u` over the inertia at the joint, a multiple of `u` (so that the result is symmetric).
     #[inline(always)]
     pub fn minus_outer(&self, u: &Force<R>, ku: &Force<R>) -> Self {
         let mut coupling = self.coupling;
@@ -132,7 +136,7 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// Sum of two in the same frame.
+    /// Sum of two inertias given in the same frame.
     #[inline(always)]
     pub fn plus(&self, b: &Self) -> Self {
         Self {
@@ -142,7 +146,8 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// Components turned about coordinate axis `A`, from child to parent axes.
+    /// Same inertia in other axes: components turned from child to parent axes, where the child is turned about
+    /// coordinate axis `A` (0, 1, 2) by the angle with this sine and cosine.
     #[inline(always)]
     pub fn rotated<const A: usize>(&self, sin: R, cos: R) -> Self {
         let (b, c) = ((A + 1) % 3, (A + 2) % 3);
@@ -164,7 +169,7 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// Components turned by `e`.
+    /// Same inertia in other axes: `e` = R_ab takes components in B (of `self`) to components in A (of the result).
     #[inline(always)]
     pub fn turned(&self, e: &Mat3<R>) -> Self {
         Self {
@@ -174,7 +179,7 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// The same inertia about a point seen from which this frame's origin lies at `r`, axes parallel.
+    /// Same inertia about the origin of another frame, in which this one's origin lies at `r` `[m]`; axes parallel.
     #[inline(always)]
     pub fn shifted(&self, r: Vec3<R>) -> Self {
         // G = H + r×M;  I' = I − H r× + r× Gᵀ
@@ -196,7 +201,7 @@ impl<R: Real> ArticulatedInertia<R> {
         Self { rotational, coupling: g, linear: self.linear }
     }
 
-    /// [`Self::shifted`] by `r` along coordinate axis `K`: the same numbers without the products by zero.
+    /// Same as [`Self::shifted`] by `r` `[m]` along coordinate axis `K` (0, 1, 2), without the products by zero.
     #[inline(always)]
     pub fn shifted_along<const K: usize>(&self, r: R) -> Self {
         let (b, c) = ((K + 1) % 3, (K + 2) % 3);
@@ -217,7 +222,7 @@ impl<R: Real> ArticulatedInertia<R> {
         Self { rotational: out, coupling: Mat3(g), linear: self.linear }
     }
 
-    /// Sum with a rigid inertia in the same frame.
+    /// Sum with the inertia of a rigid body given in the same frame.
     #[inline(always)]
     pub fn plus_rigid(&self, b: &RigidInertia<R>) -> Self {
         let (mut h, mut m, [x, y, z]) = (self.coupling.0, self.linear, b.moment.0);

@@ -5,7 +5,8 @@ use sincro_math::Real;
 use super::Vec3;
 use super::sym3::{ELEMENTS, Sym3};
 
-/// A 3×3 matrix by rows. As a rotation `r_ab` it takes components in frame B to components in frame A.
+/// Matrix of 3×3 numbers, stored by rows (`m.0[i][j]` is row i, column j). As a rotation `r_ab` it takes components in
+/// frame B to components in frame A.
 ///
 /// ```
 /// use sincro_geometry::spatial::{Mat3, Vec3};
@@ -33,12 +34,13 @@ impl<R: Real> Mat3<R> {
         Self([[R::zero(); 3]; 3])
     }
 
-    /// Matrix of constants, lifted into `R`; row by row, the units stay.
+    /// Matrix of the constants `m`, given by rows, in numbers of type `R`; the units stay.
     pub fn splat(m: [[f64; 3]; 3]) -> Self {
         Self(m.map(|row| row.map(R::splat)))
     }
 
-    /// Rotation about coordinate axis `A` (0, 1, 2) by the angle with the given sine and cosine; dimensionless.
+    /// Rotation about coordinate axis `A` (0 is x, 1 y, 2 z) by the angle with this sine and cosine (dimensionless):
+    /// takes components in the turned frame to components in the fixed one.
     #[inline(always)]
     pub fn rotation<const A: usize>(sin: R, cos: R) -> Self {
         let (b, c) = ((A + 1) % 3, (A + 2) % 3);
@@ -50,26 +52,26 @@ impl<R: Real> Mat3<R> {
         m
     }
 
-    /// Skew-symmetric matrix of `v`, in its unit: `skew(v)·b = v × b`.
+    /// Skew-symmetric matrix of `v`, in its unit: `skew(v).mul_vec(b)` is `v × b`.
     #[inline(always)]
     pub fn skew(v: Vec3<R>) -> Self {
         let o = R::zero();
         Self([[o, -v[2], v[1]], [v[2], o, -v[0]], [-v[1], v[0], o]])
     }
 
-    /// Column `k` (0, 1, 2), in the unit of the entries.
+    /// Column `k` (0, 1 or 2), in the unit of the entries. Panics for other indices.
     #[inline(always)]
     pub fn col(&self, k: usize) -> Vec3<R> {
         Vec3([self.0[0][k], self.0[1][k], self.0[2][k]])
     }
 
-    /// Row `k` (0, 1, 2), in the unit of the entries.
+    /// Row `k` (0, 1 or 2), in the unit of the entries. Panics for other indices.
     #[inline(always)]
     pub fn row(&self, k: usize) -> Vec3<R> {
         Vec3(self.0[k])
     }
 
-    /// The transpose: of a rotation, its inverse.
+    /// Transposed matrix; of a rotation `r_ab` the inverse, `r_ba`.
     #[inline(always)]
     pub fn transpose(&self) -> Self {
         Self([self.col(0).0, self.col(1).0, self.col(2).0])
@@ -111,7 +113,8 @@ impl<R: Real> Mat3<R> {
         out
     }
 
-    /// Product `self · m · selfᵀ` with a symmetric `m`, in its unit if `self` is a rotation.
+    /// Congruence `self · m · selfᵀ` of a symmetric `m`: for a rotation `r_ab` the tensor `m` of B in the axes of A, in
+    /// its unit.
     #[inline(always)]
     pub fn congruence_sym(&self, m: &Sym3<R>) -> Sym3<R> {
         let t = [m.mul_vec(self.row(0)), m.mul_vec(self.row(1)), m.mul_vec(self.row(2))];
@@ -122,7 +125,8 @@ impl<R: Real> Mat3<R> {
         out
     }
 
-    /// `self · m · selfᵀ`.
+    /// Congruence `self · m · selfᵀ` of any matrix `m`: for a rotation `r_ab` the tensor `m` of B in the axes of A, in
+    /// its unit.
     #[inline(always)]
     pub fn congruence(&self, m: &Self) -> Self {
         self.mul(m).mul(&self.transpose())

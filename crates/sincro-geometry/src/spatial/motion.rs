@@ -6,46 +6,49 @@ use sincro_math::Real;
 
 use super::Vec3;
 
-/// A twist or spatial acceleration: angular [rad/s], linear velocity of the frame's origin [m/s].
+/// Spatial motion vector (twist or spatial acceleration) in the axes and about the origin of some frame, angular part
+/// first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion<R> {
-    /// Angular part.
+    /// Angular velocity `[rad/s]`, or angular acceleration `[rad/s²]`.
     pub ang: Vec3<R>,
-    /// Linear part, of the point at the frame's origin.
+    /// Linear velocity of the body's point at the frame's origin `[m/s]`, or the linear part of the spatial
+    /// acceleration `[m/s²]`.
     pub lin: Vec3<R>,
 }
 
-/// A wrench or spatial momentum: moment about the frame's origin [N·m], force `[N]`.
+/// Spatial force vector (wrench or momentum) in the axes and about the origin of some frame, angular part first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Force<R> {
-    /// Moment about the origin.
+    /// Moment about the frame's origin `[N·m]`, or angular momentum `[kg·m²/s]`.
     pub ang: Vec3<R>,
-    /// Force.
+    /// Force `[N]`, or linear momentum `[kg·m/s]`.
     pub lin: Vec3<R>,
 }
 
 impl<R: Real> Motion<R> {
-    /// No motion.
+    /// Motion vector with both parts zero, such as the twist of a body at rest.
     #[inline(always)]
     pub fn zero() -> Self {
         Self { ang: Vec3::zero(), lin: Vec3::zero() }
     }
 
-    /// Power of a force along this motion: `self · f` `[W]`.
+    /// Scalar product with a force in the same frame: of a twist and a wrench the power `[W]`, of a twist and its
+    /// momentum twice the kinetic energy `[J]`.
     #[inline(always)]
     pub fn dot(&self, f: &Force<R>) -> R {
         self.ang.dot(f.ang) + self.lin.dot(f.lin)
     }
 
-    /// Rate `self × m` of a motion `m` (its unit per second) that is fixed in a frame moving with `self` `[rad/s]`,
-    /// `[m/s]`.
+    /// Spatial cross product `self × m`: rate of change (unit of `m` per second) of a motion vector `m` that is fixed
+    /// in a body moving with the twist `self`, all in one frame.
     #[inline(always)]
     pub fn cross(&self, m: &Self) -> Self {
         Self { ang: self.ang.cross(m.ang), lin: self.ang.cross(m.lin) + self.lin.cross(m.ang) }
     }
 
-    /// Rate `self ×* f` `[N·m/s]`, `[N/s]` of a force `f` that is fixed in a frame moving with `self` `[rad/s]`,
-    /// `[m/s]`.
+    /// Spatial cross product `self ×* f`: rate of change (unit of `f` per second) of a force vector `f` that is fixed
+    /// in a body moving with the twist `self`, all in one frame.
     #[inline(always)]
     pub fn cross_force(&self, f: &Force<R>) -> Force<R> {
         Force { ang: self.ang.cross(f.ang) + self.lin.cross(f.lin), lin: self.ang.cross(f.lin) }
@@ -53,13 +56,13 @@ impl<R: Real> Motion<R> {
 }
 
 impl<R: Real> Force<R> {
-    /// No force.
+    /// Force vector with both parts zero.
     #[inline(always)]
     pub fn zero() -> Self {
         Self { ang: Vec3::zero(), lin: Vec3::zero() }
     }
 
-    /// Product with a scalar; the units multiply.
+    /// Product of both parts with the scalar `k`; the units multiply.
     #[inline(always)]
     pub fn scale(&self, k: R) -> Self {
         Self { ang: self.ang.scale(k), lin: self.lin.scale(k) }

@@ -20,9 +20,9 @@ use super::{Mat3, Vec3};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose<R> {
-    /// Takes components in B to components in A.
+    /// Rotation `r_ab`: takes components in B to components in A (dimensionless).
     pub rot: Mat3<R>,
-    /// Origin of B in A.
+    /// Position `p_ab` of the origin of B, in the axes of A `[m]`.
     pub pos: Vec3<R>,
 }
 

@@ -4,7 +4,8 @@ use sincro_math::{Real, elementary};
 
 use super::{Mat3, Vec3};
 
-/// Rotation of a frame B in a frame A: takes components in B to components in A.
+/// Unit quaternion of the rotation of a frame B in a frame A: takes components in B to components in A. As four numbers
+/// in the order w, x, y, z.
 ///
 /// ```
 /// use sincro_geometry::spatial::{Quat, Vec3};
@@ -19,32 +20,40 @@ use super::{Mat3, Vec3};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quat<R> {
-    /// Scalar part, cosine of half the angle.
+    /// Scalar part: cosine of half the angle (dimensionless).
     pub w: R,
-    /// Vector part, axis times sine of half the angle.
+    /// Vector part: axis times sine of half the angle (dimensionless).
     pub xyz: Vec3<R>,
 }
 
 impl<R: Real> Quat<R> {
-    /// Unit quaternion of no rotation, dimensionless: w = 1.
+    /// Quaternion of no rotation (dimensionless): w = 1.
     pub fn identity() -> Self {
         Self { w: R::one(), xyz: Vec3::zero() }
     }
 
-    /// Quaternion of four coordinates in the order w, x, y, z; dimensionless.
+    /// Reads a quaternion from the first four numbers of `q`, in the order w, x, y, z (dimensionless).
+    ///
+    /// # Panics
+    ///
+    /// If `q` has fewer than four numbers.
     #[inline(always)]
     pub fn from_slice(q: &[R]) -> Self {
         Self { w: q[0], xyz: Vec3([q[1], q[2], q[3]]) }
     }
 
-    /// Writes the four coordinates in the order w, x, y, z; dimensionless.
+    /// Writes w, x, y, z (dimensionless) to the first four places of `q`.
+    ///
+    /// # Panics
+    ///
+    /// If `q` has fewer than four places.
     #[inline(always)]
     pub fn write(&self, q: &mut [R]) {
         q[0] = self.w;
         q[1..4].copy_from_slice(&self.xyz.0);
     }
 
-    /// The rotation by the vector `phi` `[rad]`: |phi| about its direction.
+    /// Rotation by the rotation vector `phi` `[rad]`: about its direction by its length (exponential map).
     #[inline(always)]
     pub fn exp(phi: Vec3<R>) -> Self {
         let half = phi.scale(R::splat(0.5));
@@ -66,7 +75,8 @@ impl<R: Real> Quat<R> {
         Self { w, xyz: half.scale(sinc) }
     }
 
-    /// Rotation vector `[rad]` of a unit quaternion: axis times angle, the angle at most π.
+    /// Rotation vector `[rad]` of a unit quaternion, axis times angle, the angle at most π: the inverse of
+    /// [`Quat::exp`].
     #[inline(always)]
     pub fn log(&self) -> Vec3<R> {
         let zero = R::zero();
@@ -84,7 +94,7 @@ impl<R: Real> Quat<R> {
         self.xyz.scale(sign * small.if_less(square, closed, series))
     }
 
-    /// Hamilton product: first `b`, then `self`, for components; `q_ab * q_bc = q_ac`.
+    /// Hamilton product: `q_ab.mul(&q_bc)` is `q_ac`, the rotation `b` followed by `self` (about fixed axes).
     #[inline(always)]
     pub fn mul(&self, b: &Self) -> Self {
         Self {
@@ -93,20 +103,20 @@ impl<R: Real> Quat<R> {
         }
     }
 
-    /// The inverse of a unit quaternion.
+    /// Inverse of a unit quaternion: `q_ba` of `q_ab`.
     #[inline(always)]
     pub fn conjugate(&self) -> Self {
         Self { w: self.w, xyz: -self.xyz }
     }
 
-    /// Scaled to length one.
+    /// Quaternion scaled to unit length; NaN of zero.
     #[inline(always)]
     pub fn normalized(&self) -> Self {
         let k = R::one() / (self.w * self.w + self.xyz.dot(self.xyz)).sqrt();
         Self { w: self.w * k, xyz: self.xyz.scale(k) }
     }
 
-    /// Rotation matrix, dimensionless, of a unit quaternion.
+    /// Rotation matrix `r_ab` of a unit quaternion `q_ab` (dimensionless).
     #[inline(always)]
     pub fn matrix(&self) -> Mat3<R> {
         let (w, [x, y, z]) = (self.w, self.xyz.0);
@@ -122,8 +132,8 @@ impl<R: Real> Quat<R> {
 }
 
 impl<R: Real> Quat<R> {
-    /// Unit quaternion of a rotation matrix, dimensionless, w ≥ 0; exact to rounding for any rotation (Shepperd's
-    /// choice of pivot). For numbers of one lane.
+    /// Unit quaternion of the rotation matrix `m` (dimensionless), with w ≥ 0; exact to rounding for any rotation
+    /// (Shepperd's choice of pivot). Only for numbers of one lane, since lanes can differ in their pivot.
     pub fn from_matrix(m: &Mat3<R>) -> Self {
         debug_assert!(R::LANES == 1, "lanes can differ in their pivot");
         let m = &m.0;

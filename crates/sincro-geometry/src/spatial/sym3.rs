@@ -4,7 +4,8 @@ use sincro_math::Real;
 
 use super::{Mat3, Vec3};
 
-/// A symmetric matrix by its upper triangle (xx, xy, xz, yy, yz, zz).
+/// Symmetric 3×3 matrix, stored as its upper triangle by rows: xx, xy, xz, yy, yz, zz. For rotational inertias and the
+/// diagonal blocks of articulated ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sym3<R>(pub [R; 6]);
 
@@ -21,37 +22,37 @@ impl<R: Real> Sym3<R> {
         Self([R::zero(); 6])
     }
 
-    /// Product of `k` with the identity, in its unit.
+    /// Product of the scalar `k` with the identity matrix, in the unit of `k`.
     #[inline(always)]
     pub fn scalar(k: R) -> Self {
         let o = R::zero();
         Self([k, o, o, k, o, k])
     }
 
-    /// Symmetric matrix of constants xx, yy, zz, xy, xz, yz lifted into `R`; the units stay.
+    /// Symmetric matrix of the constants xx, xy, xz, yy, yz, zz, in this order, in numbers of type `R`; the units stay.
     pub fn splat(m: [f64; 6]) -> Self {
         Self(m.map(R::splat))
     }
 
-    /// Symmetric matrix with elements `f(i, j)` in one unit, asked for i ≤ j only.
+    /// Symmetric matrix with the elements `f(i, j)`, 0 ≤ i ≤ j ≤ 2, in one unit.
     #[inline(always)]
     pub fn from_fn(f: impl Fn(usize, usize) -> R) -> Self {
         Self([f(0, 0), f(0, 1), f(0, 2), f(1, 1), f(1, 2), f(2, 2)])
     }
 
-    /// Element (i, j), indices 0, 1, 2, in the unit of the entries.
+    /// Element of row `i` and column `j`, each 0, 1 or 2, in the unit of the entries. Panics for other indices.
     #[inline(always)]
     pub fn at(&self, i: usize, j: usize) -> R {
         self.0[PACKED[i][j]]
     }
 
-    /// Sets elements (i, j) and (j, i), indices 0, 1, 2, in the unit of the entries.
+    /// Sets elements (i, j) and (j, i) to `x`, in the unit of the entries; indices 0, 1 or 2. Panics for others.
     #[inline(always)]
     pub fn set(&mut self, i: usize, j: usize, x: R) {
         self.0[PACKED[i][j]] = x;
     }
 
-    /// Column (or row) `k` (0, 1, 2), in the unit of the entries.
+    /// Column (or row) `k`, 0, 1 or 2, in the unit of the entries. Panics for other indices.
     #[inline(always)]
     pub fn col(&self, k: usize) -> Vec3<R> {
         Vec3([self.at(0, k), self.at(1, k), self.at(2, k)])
@@ -63,7 +64,7 @@ impl<R: Real> Sym3<R> {
         Vec3([self.col(0).dot(v), self.col(1).dot(v), self.col(2).dot(v)])
     }
 
-    /// The same matrix with all nine entries, in their unit.
+    /// Same matrix with all nine entries, in their unit.
     #[inline(always)]
     pub fn full(&self) -> Mat3<R> {
         Mat3([self.col(0).0, self.col(1).0, self.col(2).0])
@@ -79,7 +80,8 @@ impl<R: Real> Sym3<R> {
         out
     }
 
-    /// `self − k·a·bᵀ` where `k·a·bᵀ` is symmetric (b parallel to a).
+    /// Difference `self − a·bᵀ` for parallel `a` and `b`, so that it is symmetric; the product has the unit of the
+    /// entries.
     #[inline(always)]
     pub fn minus_outer(&self, a: Vec3<R>, b: Vec3<R>) -> Self {
         let mut out = *self;
@@ -89,7 +91,8 @@ impl<R: Real> Sym3<R> {
         out
     }
 
-    /// Rotation about axis `A`: `E·self·Eᵀ`, where `E` turns by the angle with this sine and cosine.
+    /// Congruence `E·self·Eᵀ` with the rotation `E` about coordinate axis `A` (0, 1, 2) by the angle with this sine and
+    /// cosine; the unit stays.
     #[inline(always)]
     pub fn rotated<const A: usize>(&self, sin: R, cos: R) -> Self {
         let (b, c) = ((A + 1) % 3, (A + 2) % 3);

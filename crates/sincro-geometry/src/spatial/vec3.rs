@@ -4,7 +4,7 @@ use core::ops::{Add, AddAssign, Index, IndexMut, Neg, Sub, SubAssign};
 
 use sincro_math::Real;
 
-/// A vector of three components in some frame.
+/// Vector of three components (x, y, z) along the axes of some frame, in one unit.
 ///
 /// ```
 /// use sincro_geometry::spatial::Vec3;
@@ -25,8 +25,11 @@ impl<R: Real> Vec3<R> {
         Self([x, y, z])
     }
 
-    /// Coefficient c of φ×(φ×ω) in the rate of a rotation vector φ `[rad]`, and in the gradient of a function of it:
-    /// c = (1 − (θ/2) cot(θ/2))/θ², θ = |φ|. Source: key `iserles2000`, section 2.5.
+    /// Coefficient c of the third term in the rate of the rotation vector φ (`self`, `[rad]`) of a body with the
+    /// angular velocity ω `[rad/s]` in its own axes: φ' = ω + φ×ω/2 + c φ×(φ×ω); also in the gradient of a function of
+    /// φ.
+    ///
+    /// c = (1 − (θ/2) cot(θ/2))/θ² `[1/rad²]`, θ = |φ|. Source: key `iserles2000`, section 2.5.
     #[inline(always)]
     pub fn rotation_rate_coefficient(self) -> R {
         let square = self.dot(self);
@@ -48,7 +51,7 @@ impl<R: Real> Vec3<R> {
         Self([R::zero(); 3])
     }
 
-    /// Vector of a length in any unit along coordinate axis `axis` (0, 1, 2).
+    /// Vector of the given `length` (any unit) along coordinate axis `axis` (0, 1 or 2). Panics for other indices.
     #[inline(always)]
     pub fn along(axis: usize, length: R) -> Self {
         let mut v = Self::zero();
@@ -56,7 +59,7 @@ impl<R: Real> Vec3<R> {
         v
     }
 
-    /// Vector of constants (x, y, z) lifted into `R`; the units stay.
+    /// Vector of the constants `v` (x, y, z) in numbers of type `R`; the units stay.
     #[inline(always)]
     pub fn splat(v: [f64; 3]) -> Self {
         Self(v.map(R::splat))
@@ -68,14 +71,15 @@ impl<R: Real> Vec3<R> {
         self[0] * b[0] + self[1] * b[1] + self[2] * b[2]
     }
 
-    /// Cross product `self × b`.
+    /// Cross product `self × b`; the units multiply.
     #[inline(always)]
     pub fn cross(self, b: Self) -> Self {
         let a = self;
         Self([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
     }
 
-    /// Cross product `self × (r e_K)` with a vector along coordinate axis `K`; the units multiply.
+    /// Cross product `self × (r e_K)` with a vector of length `r` along coordinate axis `K` (0, 1, 2); the units
+    /// multiply.
     #[inline(always)]
     pub fn cross_along<const K: usize>(self, r: R) -> Self {
         let (b, c) = ((K + 1) % 3, (K + 2) % 3);
@@ -85,7 +89,7 @@ impl<R: Real> Vec3<R> {
         out
     }
 
-    /// Product with a scalar; the units multiply.
+    /// Product with the scalar `k`; the units multiply.
     #[inline(always)]
     pub fn scale(self, k: R) -> Self {
         Self([self[0] * k, self[1] * k, self[2] * k])

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::Range;
 
-/// Error of a formula, with its position.
+/// Error of [`Expression::parse`](super::Expression::parse): description and position of the first fault in a formula.
 ///
 /// ```
 /// use sincro_math::expression::Expression;
@@ -16,11 +16,12 @@ use core::ops::Range;
 pub struct ParseError {
     /// Description: lower case, names in backticks.
     pub message: String,
-    /// The bytes of the formula that are wrong; empty at the end of the formula where something is missing.
+    /// Range of the bytes of the formula that are wrong, counted from 0; empty at the end of the formula where
+    /// something is missing.
     pub span: Range<usize>,
-    /// The first wrong character, counted from 1.
+    /// Position of the first wrong character, in characters counted from 1.
     pub column: usize,
-    /// Correction, where it is known.
+    /// Suggested correction, such as a name that is spelled similarly; `None` where there is none.
     pub help: Option<String>,
 }
 

@@ -50,15 +50,23 @@ use parse::Names;
 
 pub use error::ParseError;
 
-/// Longest formula in bytes. It bounds time and memory for whatever is pasted; a formula by hand has a hundred.
+/// Length limit of a formula in bytes; [`Expression::parse`] refuses longer ones. Bounds time and memory for pasted
+/// text.
 pub const MAX_LENGTH: usize = 65_536;
 
-/// Deepest nesting of brackets, arguments, signs and exponents. It bounds the stack of the parser.
+/// Limit on the nesting of brackets, arguments, signs and exponents; [`Expression::parse`] refuses deeper formulas.
+/// Bounds the stack of the parser.
 pub const MAX_DEPTH: usize = 100;
 
-/// A formula, ready to be evaluated.
+/// Compiled formula of named values, for scenes, blocks and force laws; displays as the text from which it was read.
 ///
-/// It prints as the text it was read from.
+/// ```
+/// use sincro_math::expression::Expression;
+///
+/// let energy = Expression::parse("0.5*m*v^2", &["m", "v"])?;
+/// assert_eq!(energy.eval(&[2.0, 3.0], &mut energy.scratch()), 9.0);
+/// # Ok::<(), sincro_math::expression::ParseError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     text: String,
@@ -68,11 +76,12 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Reads a formula of the given names; the value of `names[i]` is expected in `values[i]` by [`Expression::eval`].
+    /// Parses a formula of the given `names`; the value of `names[i]` is expected in `values[i]` by
+    /// [`Expression::eval`].
     ///
     /// # Errors
     ///
-    /// The first thing in the text that is not understood: where, what, and a help where there is one.
+    /// [`ParseError`] with the first fault of the text: position, description, and a help where there is one.
     ///
     /// ```
     /// use sincro_math::expression::Expression;
@@ -89,11 +98,11 @@ impl Expression {
         Ok(Self { text: text.to_owned(), program, stack_depth, n_names: names.len() })
     }
 
-    /// The names that a formula uses, in the order they first appear; `pi` and functions are not among them.
+    /// Names that a formula uses, in the order in which they first appear; `pi` and functions are not among them.
     ///
     /// # Errors
     ///
-    /// As [`Expression::parse`], but that any name is known.
+    /// [`ParseError`] as of [`Expression::parse`], except that any name is known.
     ///
     /// ```
     /// use sincro_math::expression::Expression;
@@ -109,7 +118,8 @@ impl Expression {
         }
     }
 
-    /// The value of the formula. `values[i]` belongs to the `i`-th name given to [`Expression::parse`].
+    /// Value of the formula. `values[i]` belongs to the `i`-th name given to [`Expression::parse`]; units are the
+    /// caller's, angles of trigonometric functions `[rad]`.
     ///
     /// `stack` is scratch memory of any content; one from [`Expression::scratch`], or with a capacity of at least
     /// [`Expression::stack_depth`], never grows.
@@ -122,7 +132,7 @@ impl Expression {
         eval::run(&self.program, values, stack)
     }
 
-    /// The value of the formula, as [`Expression::eval`] gives it, with a stack of given length.
+    /// Value of the formula, as of [`Expression::eval`], with a stack of fixed length and any content.
     ///
     /// # Panics
     ///
@@ -132,19 +142,19 @@ impl Expression {
         eval::run_in(&self.program, values, stack)
     }
 
-    /// Scratch memory for [`Expression::eval`].
+    /// Empty stack for [`Expression::eval`], with memory for [`Expression::stack_depth`] values.
     #[must_use]
     pub fn scratch<R: Real>(&self) -> Vec<R> {
         Vec::with_capacity(self.stack_depth)
     }
 
-    /// Largest number of values in the scratch memory of [`Expression::eval`].
+    /// Largest number of intermediate values at once: the length that the stack of [`Expression::eval_in`] needs.
     #[must_use]
     pub fn stack_depth(&self) -> usize {
         self.stack_depth
     }
 
-    /// The value, if the formula depends on no name.
+    /// Value of a formula that depends on no name; `None` if it uses one.
     ///
     /// ```
     /// use sincro_math::expression::Expression;
@@ -160,13 +170,14 @@ impl Expression {
         }
     }
 
-    /// Returns true if the `slot`-th name given to [`Expression::parse`] appears in the formula.
+    /// Returns true if the name of index `slot` in the list given to [`Expression::parse`] appears in the formula;
+    /// false for an index beyond the list.
     #[must_use]
     pub fn uses(&self, slot: usize) -> bool {
         self.program.iter().any(|op| matches!(op, Op::Value(used) if *used as usize == slot))
     }
 
-    /// The formula as it was written.
+    /// Formula as it was written.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
@@ -179,7 +190,8 @@ impl fmt::Display for Expression {
     }
 }
 
-/// Returns true if a formula can refer to something called `text`.
+/// Returns true if `text` can be a name in a formula: letters, digits and `_`, beginning with a letter or `_`, with
+/// single dots inside and primes at the end, and no reserved word (`and`, `or`, `not`).
 ///
 /// ```
 /// use sincro_math::expression::is_name;

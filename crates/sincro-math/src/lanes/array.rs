@@ -8,7 +8,15 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 use crate::Real;
 use crate::elementary::{self, Bits};
 
-/// `N` numbers, one a world.
+/// Bundle of `N` numbers, one per simulated world, with arithmetic lane by lane: the portable [`Real`] for a batch.
+/// Each lane has the bits of the same computation on `f64`.
+///
+/// ```
+/// use sincro_math::{Lanes, Real};
+///
+/// let speed = Lanes([1.0, 2.0, 3.0, 4.0]); // four worlds [m/s]
+/// assert_eq!((speed * speed * Lanes::splat(0.5)).lane(3), 8.0); // kinetic energy of 1 kg [J]
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct Lanes<const N: usize>(pub [f64; N]);

@@ -16,16 +16,34 @@ pub use array::Lanes;
 use crate::Real;
 use crate::real::Task;
 
-/// A computation over any kind of number. `visit` must be `#[inline(always)]`, and so must be everything it calls.
+/// Computation over any kind of number, to be run by [`dispatch_lanes`]. Its `visit` must be `#[inline(always)]`, and
+/// so must everything that it calls, to be compiled for the instruction set that runs it.
+///
+/// ```
+/// use sincro_math::{LaneVisitor, Real, lanes};
+///
+/// struct Squares;
+/// impl LaneVisitor for Squares {
+///     type Output = f64;
+///     #[inline(always)]
+///     fn visit<R: Real>(self) -> f64 {
+///         let x = R::from_lanes(|k| k as f64); // one number in each lane
+///         (x * x).lane(R::LANES - 1)
+///     }
+/// }
+/// let last = (lanes::width() - 1) as f64;
+/// assert_eq!(lanes::dispatch_lanes(Squares), last * last);
+/// ```
 pub trait LaneVisitor {
     /// Result type.
     type Output;
 
-    /// Runs the computation on numbers of type `R`, of [`Real::LANES`] lanes.
+    /// Runs the computation on numbers of type `R`, bundles of [`Real::LANES`] lanes, and returns its result.
     fn visit<R: Real>(self) -> Self::Output;
 }
 
-/// Runs `visitor` on the widest lanes of this processor; on one without lanes of ours, on `f64`.
+/// Runs `visitor` on the widest lanes of this processor (8 with AVX-512, 4 with AVX2), or on `f64` if it has neither;
+/// returns the visitor's result.
 #[inline]
 pub fn dispatch_lanes<V: LaneVisitor>(visitor: V) -> V::Output {
     #[cfg(target_arch = "x86_64")]
@@ -47,7 +65,7 @@ pub(crate) fn run_scalar<T: Task>(task: T) -> T::Output {
     task.run()
 }
 
-/// Number of lanes that [`dispatch_lanes`] runs on this processor.
+/// Number of lanes with which [`dispatch_lanes`] runs on this processor: 8, 4 or 1.
 #[must_use]
 pub fn width() -> usize {
     struct Width;
@@ -61,7 +79,8 @@ pub fn width() -> usize {
     dispatch_lanes(Width)
 }
 
-/// The instruction set that the dispatch has chosen, for reports.
+/// Name of the instruction set that [`dispatch_lanes`] uses on this processor, for reports: `AVX-512`, `AVX2` or
+/// `baseline`.
 #[must_use]
 pub fn instruction_set() -> &'static str {
     #[cfg(target_arch = "x86_64")]

@@ -5,27 +5,29 @@ use sincro_math::Real;
 use crate::block::{At, of};
 use crate::reader::{Matrix, Reader};
 
-/// `x' = a x + b u`, `y = c x + d u` (or, discrete, `x[k+1] = …`).
+/// Linear system by its four matrices, `x' = a x + b u`, `y = c x + d u` (or, discrete, `x[k+1] = a x + b u`), for the
+/// blocks [`StateSpace`](super::StateSpace) and `DiscreteStateSpace`. Entries have the units that states, inputs and
+/// outputs give them; with n states, m inputs, p outputs:
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearSystem {
-    /// n × n.
+    /// System matrix, n × n.
     pub a: Matrix,
-    /// n × number of inputs.
+    /// Input matrix, n × m.
     pub b: Matrix,
-    /// Number of outputs × n.
+    /// Output matrix, p × n.
     pub c: Matrix,
-    /// Number of outputs × number of inputs.
+    /// Feedthrough matrix, p × m.
     pub d: Matrix,
-    /// States at the start, one for all or one for each.
+    /// Initial states, one number for all or one for each (n), in the units of the states.
     pub initial: Vec<f64>,
 }
 
 impl LinearSystem {
-    /// Creates a system whose states start at zero.
+    /// Creates a system of the four matrices, with initial states of zero.
     ///
     /// # Errors
     ///
-    /// Sizes that do not fit, in words.
+    /// A message that names the matrix whose size does not fit.
     pub fn new(a: Matrix, b: Matrix, c: Matrix, d: Matrix) -> Result<Self, String> {
         let new = Self { a, b, c, d, initial: vec![0.0] };
         match new.misfit() {
@@ -78,7 +80,7 @@ impl LinearSystem {
         None
     }
 
-    /// Number of continuous states of one component.
+    /// Number of states n.
     #[must_use]
     pub fn n_states(&self) -> usize {
         self.a.rows

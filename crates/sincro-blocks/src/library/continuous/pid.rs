@@ -13,16 +13,16 @@ use super::PidLaw;
 use super::pid_law::AntiWindup;
 use crate::library::prelude::*;
 
-/// A PID controller. With an output lag it has no direct feedthrough.
+/// Block `pid`: continuous PID controller; it has no direct feedthrough if its output has a lag.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pid {
-    /// Its parameters.
+    /// Gains, limits and options.
     pub law: PidLaw,
 }
 
 impl Pid {
-    /// Creates a controller of gains `kp` `[output/error]`, `ki` `[output/(error·s)]` and `kd` `[output·s/error]`: no
-    /// limits, the error as its only input, the derivative filtered with 0.01 s.
+    /// Creates a controller with the gains `kp` `[output/error]`, `ki` `[output/(error·s)]` and `kd`
+    /// `[output·s/error]`: no limits, the error as its only input, a derivative filter of 0.01 s.
     #[must_use]
     pub fn new(kp: f64, ki: f64, kd: f64) -> Self {
         Self { law: PidLaw::new(kp, ki, kd) }

@@ -2,7 +2,8 @@
 
 use crate::reader::Reader;
 
-/// `numerator/denominator`, a proper quotient of polynomials: coefficients with the highest power first, as in MATLAB.
+/// Proper quotient of polynomials in s or z, `numerator/denominator`, with coefficients in the order of descending
+/// powers, as in MATLAB: the transfer function of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rational {
     numerator: Vec<f64>,
@@ -14,12 +15,12 @@ pub struct Rational {
 }
 
 impl Rational {
-    /// Creates a quotient of polynomials from their coefficients, highest power first, in powers of the unit of the
-    /// variable (`[s]` for `s`); zeros in front are dropped.
+    /// Creates the quotient from the coefficients of numerator and denominator, highest power first (the coefficient of
+    /// sᵏ in units of `[sᵏ]` relative to that of s⁰); leading zeros are dropped.
     ///
     /// # Errors
     ///
-    /// A denominator of zeros, or a numerator of a higher degree, in words.
+    /// A message, if the denominator is zero or the numerator of a higher degree.
     pub fn new(numerator: &[f64], denominator: &[f64]) -> Result<Self, String> {
         let (numerator, denominator) = (stripped(numerator), stripped(denominator));
         let Some(&lead) = denominator.first() else {
@@ -58,42 +59,41 @@ impl Rational {
         Self { numerator: vec![1.0], denominator: vec![1.0], b: vec![1.0], a: vec![1.0] }
     }
 
-    /// Coefficients of the numerator as they were given, highest power first, without zeros in front; same units as
-    /// given.
+    /// Coefficients of the numerator as given, highest power first, without leading zeros; `[0]` for zero.
     #[must_use]
     pub fn numerator(&self) -> &[f64] {
         &self.numerator
     }
 
-    /// Coefficients of the denominator as they were given, highest power first, without zeros in front; same units as
-    /// given.
+    /// Coefficients of the denominator as given, highest power first, without leading zeros.
     #[must_use]
     pub fn denominator(&self) -> &[f64] {
         &self.denominator
     }
 
-    /// Degree of the denominator: number of states.
+    /// Degree of the denominator: the number of states of one component.
     #[must_use]
     pub fn order(&self) -> usize {
         self.a.len() - 1
     }
 
-    /// Coefficient `k` of the numerator in units in which the denominator's leading coefficient is 1: `b(0)` belongs to
-    /// the denominator's highest power.
+    /// Coefficient `k` of the numerator, 0 to `order()`, divided by the denominator's leading coefficient; `b(0)`
+    /// belongs to the highest power of the denominator. Panics for other indices.
     #[must_use]
     #[inline(always)]
     pub fn b(&self, k: usize) -> f64 {
         self.b[k]
     }
 
-    /// Coefficient `k` of the denominator in units in which the leading one, `a(0)`, is 1.
+    /// Coefficient `k` of the denominator, 0 to `order()`, divided by the leading one, so that `a(0)` is 1. Panics for
+    /// other indices.
     #[must_use]
     #[inline(always)]
     pub fn a(&self, k: usize) -> f64 {
         self.a[k]
     }
 
-    /// Written out in the variable `s` or `z`, such as `(s + 1)/(s² + 2s)`.
+    /// Formula in the given variable (`s` or `z`), such as `(s + 1)/(s² + 2s)`.
     #[must_use]
     pub fn text(&self, variable: char) -> String {
         let below = polynomial(&self.denominator, variable);

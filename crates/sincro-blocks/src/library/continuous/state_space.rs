@@ -3,15 +3,16 @@
 use super::LinearSystem;
 use crate::library::prelude::*;
 
-/// A linear system given by its four matrices. It has direct feedthrough only where `d` is not zero.
+/// Block `state-space`: continuous linear system of its four matrices. It has direct feedthrough only where `d` is not
+/// zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateSpace {
-    /// Matrices and initial states; `a` in `[1/s]`.
+    /// Matrices and initial states; `a` `[1/s]` between states of one unit.
     pub system: LinearSystem,
 }
 
 impl StateSpace {
-    /// Creates the block from its matrices.
+    /// Creates the block of a linear system.
     #[must_use]
     pub fn new(system: LinearSystem) -> Self {
         Self { system }

@@ -9,24 +9,26 @@
 use super::Rational;
 use crate::library::prelude::*;
 
-/// A linear system given by the polynomials of its transfer function. A vector is taken component by component.
+/// Block `transfer-function`: continuous linear system by the polynomials of its transfer function. A vector is
+/// processed component by component.
 ///
 /// It has direct feedthrough only if numerator and denominator are of the same degree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferFunction {
-    /// Numerator over denominator, powers of s `[1/s]`.
+    /// Transfer function, a quotient of polynomials in s `[1/s]`.
     pub rational: Rational,
-    /// Output at the start: the states rest as after a long time at the input that gives it. One for all components or
-    /// one for each.
+    /// Initial output, in its unit, one number for all components or one for each: the states are at rest at the
+    /// constant input that gives it.
     pub initial_output: Vec<f64>,
 }
 
 impl TransferFunction {
-    /// Creates the block from coefficients, highest power of s `[1/s]` first; initially at zero.
+    /// Creates the block from coefficients of the polynomials in s `[1/s]`, highest power first; its initial output is
+    /// zero.
     ///
     /// # Panics
     ///
-    /// If it is improper or the denominator is zero.
+    /// If the denominator is zero or of a lower degree than the numerator.
     #[must_use]
     pub fn new(numerator: &[f64], denominator: &[f64]) -> Self {
         let rational = Rational::new(numerator, denominator).unwrap_or_else(|words| panic!("{words}"));

@@ -17,12 +17,12 @@ use super::Method;
 use crate::library::continuous::PidLaw;
 use crate::library::prelude::*;
 
-/// A PID controller that is evaluated at its sample time.
+/// Block `discrete-pid`: PID controller that is evaluated at its sample time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscretePid {
-    /// Its parameters, those of the continuous `pid`.
+    /// Gains, limits and options, those of the continuous `pid`.
     pub law: PidLaw,
-    /// Rule of the integral term.
+    /// Integration rule of the integral term.
     pub method: Method,
 }
 
@@ -37,8 +37,8 @@ struct Terms<R> {
 }
 
 impl DiscretePid {
-    /// Creates a controller of gains `kp` `[output/error]`, `ki` `[output/(error·s)]` and `kd` `[output·s/error]`: no
-    /// limits, the error as its only input, forward Euler, the derivative filtered with 0.01 s.
+    /// Creates a controller with the gains `kp` `[output/error]`, `ki` `[output/(error·s)]` and `kd`
+    /// `[output·s/error]`: no limits, the error as its only input, forward Euler, a derivative filter of 0.01 s.
     #[must_use]
     pub fn new(kp: f64, ki: f64, kd: f64) -> Self {
         Self { law: PidLaw::new(kp, ki, kd), method: Method::ForwardEuler }

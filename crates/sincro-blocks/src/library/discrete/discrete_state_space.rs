@@ -3,7 +3,8 @@
 use crate::library::continuous::LinearSystem;
 use crate::library::prelude::*;
 
-/// A linear recursion given by its four matrices. It has direct feedthrough only where `d` is not zero.
+/// Block `discrete-state-space`: linear recursion `x[k+1] = a x + b u`, `y = c x + d u`. It has direct feedthrough only
+/// where `d` is not zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscreteStateSpace {
     /// Matrices and initial states.
@@ -11,7 +12,7 @@ pub struct DiscreteStateSpace {
 }
 
 impl DiscreteStateSpace {
-    /// Creates the block from its matrices.
+    /// Creates the block of a linear system.
     #[must_use]
     pub fn new(system: LinearSystem) -> Self {
         Self { system }

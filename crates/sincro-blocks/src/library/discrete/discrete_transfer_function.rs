@@ -9,21 +9,23 @@
 use crate::library::continuous::Rational;
 use crate::library::prelude::*;
 
-/// A linear recursion given by the polynomials of its transfer function. A vector is taken component by component.
+/// Block `discrete-transfer-function`: linear recursion by the polynomials of its transfer function. A vector is
+/// processed component by component.
 ///
 /// It has direct feedthrough only if numerator and denominator are of the same degree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiscreteTransferFunction {
-    /// Numerator over denominator, powers of z.
+    /// Transfer function, a quotient of polynomials in z (dimensionless).
     pub rational: Rational,
 }
 
 impl DiscreteTransferFunction {
-    /// Creates the block from coefficients, highest power of z (dimensionless) first.
+    /// Creates the block from coefficients of the polynomials in z (dimensionless), highest power first; initially at
+    /// rest.
     ///
     /// # Panics
     ///
-    /// If it is improper or the denominator is zero.
+    /// If the denominator is zero or of a lower degree than the numerator.
     #[must_use]
     pub fn new(numerator: &[f64], denominator: &[f64]) -> Self {
         Self { rational: Rational::new(numerator, denominator).unwrap_or_else(|words| panic!("{words}")) }

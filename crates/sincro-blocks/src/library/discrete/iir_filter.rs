@@ -6,19 +6,20 @@
 use crate::library::continuous::Rational;
 use crate::library::prelude::*;
 
-/// A recursive filter. A vector is taken component by component.
+/// Block `iir-filter`: recursive digital filter, a cascade of sections. A vector is processed component by component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IirFilter {
-    /// Its sections, in the order of the signal; powers of z.
+    /// Sections in the order in which the signal passes them, each a quotient of polynomials in z (dimensionless).
     pub sections: Vec<Rational>,
 }
 
 impl IirFilter {
-    /// One section, from coefficients of 1, z⁻¹, z⁻² …
+    /// Creates a filter of one section, `a[0]·y[k] = Σ b[j]·u[k−j] − Σ a[j]·y[k−j]`, from the coefficients of 1, z⁻¹,
+    /// z⁻² … as MATLAB's `filter(b, a, u)` takes them (dimensionless).
     ///
     /// # Errors
     ///
-    /// If `a[0]` is zero, in words.
+    /// A message, if `a[0]` is zero or missing.
     pub fn new(b: &[f64], a: &[f64]) -> Result<Self, String> {
         Ok(Self { sections: vec![section(b, a)?] })
     }

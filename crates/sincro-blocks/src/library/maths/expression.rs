@@ -10,15 +10,16 @@
 use crate::library::prelude::*;
 use sincro_math::expression::{Expression as Parsed, is_name};
 
-/// Computes formulas of its inputs, the diagram's parameters and the time `t` `[s]`.
+/// Block `expression`: formulas of its inputs, the diagram's parameters and the time `t` `[s]`, one component of the
+/// output for each.
 ///
 /// A formula that jumps with time, such as `if(t < 1, 0, 1)`, is no time event for the integrator: a `step` into an
 /// input is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// Names of the inputs.
+    /// Names of the input ports in the formulas.
     pub inputs: Vec<String>,
-    /// Formulas of the inputs, then of `t`.
+    /// Formulas of the components of the output; their names are `inputs`, then `t` `[s]`.
     pub formulas: Vec<Formula>,
 }
 
@@ -30,11 +31,12 @@ pub struct Work<R> {
 }
 
 impl Expression {
-    /// One formula; its inputs are the names in it, in the order in which they first appear, but for `t`.
+    /// Creates a block of one formula; its inputs are the names in it other than `t`, in the order in which they first
+    /// appear.
     ///
     /// # Panics
     ///
-    /// If the formula cannot be read.
+    /// If the formula does not parse.
     #[must_use]
     pub fn new(formula: &str) -> Self {
         let mut inputs = Parsed::names_in(formula).unwrap_or_else(|e| panic!("`{formula}`: {}", e.message));

@@ -2,16 +2,17 @@
 
 use crate::library::prelude::*;
 
-/// Least or greatest of its inputs, component by component; of a single input, of its components.
+/// Block `min` or `max` (`IS_MAX`): extremum of its inputs, component by component; of a single input, of its
+/// components. Use the aliases [`Min`] and [`Max`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Extremum<const IS_MAX: bool> {
     /// Number of inputs, at least 1.
     pub inputs: usize,
 }
 
-/// Least of its inputs, `y = min(u1, u2, …)`; of a single input its least component, `y = min uᵢ`.
+/// Block `min`: least of its inputs, `y = min(u1, u2, …)`; of a single input its least component, `y = min uᵢ`.
 pub type Min = Extremum<false>;
-/// Greatest of its inputs, `y = max(u1, u2, …)`; of a single input its greatest component, `y = max uᵢ`.
+/// Block `max`: greatest of its inputs, `y = max(u1, u2, …)`; of a single input its greatest component, `y = max uᵢ`.
 pub type Max = Extremum<true>;
 
 const INPUTS: &[Parameter] = &[Parameter::optional("inputs", ValueKind::Count, "number of inputs", "2")];
@@ -34,7 +35,7 @@ const KINDS: [Kind; 2] = [
 ];
 
 impl<const IS_MAX: bool> Extremum<IS_MAX> {
-    /// Creates the block with so many inputs, at least 1.
+    /// Creates the block with this number of inputs, at least 1.
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { inputs }

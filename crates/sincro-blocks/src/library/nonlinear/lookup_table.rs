@@ -3,17 +3,17 @@
 use super::table::{Extrapolation, check_breakpoints, interval};
 use crate::library::prelude::*;
 
-/// A function given by points, written down or from two columns of a CSV file. A vector is taken component by
-/// component.
+/// Block `lookup-table`: function of one variable given by points, written down or from two columns of a CSV file. A
+/// vector is processed component by component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LookupTable {
-    /// Arguments of the points, rising.
+    /// Arguments of the points, strictly increasing, in the unit of the input.
     pub breakpoints: Vec<f64>,
-    /// Values at the points.
+    /// Values at the points, as many as `breakpoints`, in the unit of the output.
     pub values: Vec<f64>,
-    /// Between the points.
+    /// Interpolation between the points.
     pub interpolation: Interpolation,
-    /// Beyond the ends; matters for linear interpolation only.
+    /// Extrapolation beyond the ends; only for linear interpolation.
     pub extrapolation: Extrapolation,
 }
 
@@ -30,12 +30,12 @@ choice! {
 }
 
 impl LookupTable {
-    /// Creates the block with lines between the points (`breakpoints[k]`, `values[k]`), in the units of input and
-    /// output; held beyond the ends.
+    /// Creates the block with linear interpolation between the points (`breakpoints[k]`, `values[k]`), in the units of
+    /// input and output; held beyond the ends.
     ///
     /// # Panics
     ///
-    /// If the breakpoints do not rise, or are not as many as the values, or none.
+    /// If the breakpoints do not increase, or are none, or not as many as the values.
     #[must_use]
     pub fn new(breakpoints: &[f64], values: &[f64]) -> Self {
         assert!(!values.is_empty() && breakpoints.len() == values.len(), "a value for every breakpoint");

@@ -6,61 +6,81 @@ use super::algebra::{
 };
 use crate::library::prelude::*;
 
-/// A block of rotations; `MAP` is a [`Map`].
+/// Block of category rotations, one for each [`Map`]; use the aliases, such as [`EulerToQuaternion`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rotation<const MAP: usize> {
-    /// Meaning of the three Euler angles, for the maps that have them.
+    /// Order and axes of the three Euler angles, for the maps that have them.
     pub convention: Convention,
-    /// The map's option, if it has one: `inverse`, `world` or `transposed`.
+    /// Option of the map, if it has one: `inverse` of `rotate-vector`, `world` of
+    /// `angular-velocity-to-quaternion-rate`, `transposed` of the Euler rates.
     pub option: bool,
 }
 
-/// Maps between representations of rotations, and of their rates, in the order of the table.
+/// Map between representations of rotations or of their rates, the parameter of [`Rotation`]. Quaternions are (w, x, y,
+/// z), matrices 9 numbers row by row, angles `[rad]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Map {
+    /// Euler angles to quaternion.
     EulerToQuaternion,
+    /// Quaternion to Euler angles.
     QuaternionToEuler,
+    /// Euler angles to rotation matrix.
     EulerToMatrix,
+    /// Rotation matrix to Euler angles.
     MatrixToEuler,
+    /// Quaternion to rotation matrix.
     QuaternionToMatrix,
+    /// Rotation matrix to quaternion.
     MatrixToQuaternion,
+    /// Vector rotated by a quaternion.
     RotateVector,
+    /// Product of two quaternions.
     QuaternionProduct,
+    /// Conjugate of a quaternion.
     QuaternionConjugate,
+    /// Angular velocity `[rad/s]` to the rate of a quaternion `[1/s]`.
     AngularVelocityToQuaternionRate,
+    /// Angular velocity `[rad/s]` to rates of Euler angles `[rad/s]`.
     EulerRates,
+    /// Rates of Euler angles `[rad/s]` to angular velocity `[rad/s]`.
     EulerRatesToAngularVelocity,
 }
 
-/// Quaternion (w, x, y, z) of Euler angles `[rad]`, of length 1; the parameter `convention` gives their order.
+/// Block `euler-to-quaternion`: unit quaternion (w, x, y, z) of three Euler angles `[rad]`; the parameter `convention`
+/// gives their order.
 pub type EulerToQuaternion = Rotation<{ Map::EulerToQuaternion as usize }>;
-/// Euler angles `[rad]` of a quaternion (w, x, y, z), which need not be of length 1. Where the middle angle is ±π/2,
-/// yaw (or α) is taken as zero.
+/// Block `quaternion-to-euler`: three Euler angles `[rad]` of a quaternion (w, x, y, z), which need not be of unit
+/// length. Where the middle angle is ±π/2, yaw (or α) is taken as zero.
 pub type QuaternionToEuler = Rotation<{ Map::QuaternionToEuler as usize }>;
-/// Rotation matrix, row by row, of Euler angles `[rad]`.
+/// Block `euler-to-matrix`: rotation matrix (9 numbers, row by row, dimensionless) of three Euler angles `[rad]`.
 pub type EulerToMatrix = Rotation<{ Map::EulerToMatrix as usize }>;
-/// Euler angles `[rad]` of a rotation matrix, row by row. Where the middle angle is ±π/2, yaw (or α) is taken as zero.
+/// Block `matrix-to-euler`: three Euler angles `[rad]` of a rotation matrix (9 numbers, row by row). Where the middle
+/// angle is ±π/2, yaw (or α) is taken as zero.
 pub type MatrixToEuler = Rotation<{ Map::MatrixToEuler as usize }>;
-/// Rotation matrix, row by row, of a quaternion (w, x, y, z), which need not be of length 1.
+/// Block `quaternion-to-matrix`: rotation matrix (9 numbers, row by row) of a quaternion (w, x, y, z), which need not
+/// be of unit length; dimensionless.
 pub type QuaternionToMatrix = Rotation<{ Map::QuaternionToMatrix as usize }>;
-/// Quaternion (w, x, y, z) with w ≥ 0 of a rotation matrix, row by row.
+/// Block `matrix-to-quaternion`: unit quaternion (w, x, y, z) with w ≥ 0 of a rotation matrix (9 numbers, row by row);
+/// dimensionless.
 pub type MatrixToQuaternion = Rotation<{ Map::MatrixToQuaternion as usize }>;
-/// Vector turned by a quaternion (w, x, y, z), which need not be of length 1: with q_wb, from components in B to
-/// components in W.
+/// Block `rotate-vector`: vector (3 components, any unit) rotated by a quaternion (w, x, y, z), which need not be of
+/// unit length: with q_wb, from components in B to components in W; the reverse with the option `inverse`.
 pub type RotateVector = Rotation<{ Map::RotateVector as usize }>;
-/// Product of two quaternions (w, x, y, z): first the rotation `u2`, then `u1`, as q_wc = q_wb ⊗ q_bc.
+/// Block `quaternion-product`: product of two quaternions (w, x, y, z), q_wc = q_wb ⊗ q_bc for `u1` and `u2`: first the
+/// rotation `u2`, then `u1` (dimensionless).
 pub type QuaternionProduct = Rotation<{ Map::QuaternionProduct as usize }>;
-/// Conjugate of a quaternion (w, x, y, z): the rotation back, if it is of length 1.
+/// Block `quaternion-conjugate`: conjugate of a quaternion (w, x, y, z), the inverse rotation if it is of unit length
+/// (dimensionless).
 pub type QuaternionConjugate = Rotation<{ Map::QuaternionConjugate as usize }>;
-/// Rate of a quaternion (w, x, y, z) from the angular velocity `w` `[rad/s]`, in the axes of the body or of the world.
+/// Block `angular-velocity-to-quaternion-rate`: rate `[1/s]` of a quaternion (w, x, y, z) from the angular velocity `w`
+/// (3 components, `[rad/s]`), in the axes of the body or, with the option `world`, of the world.
 pub type AngularVelocityToQuaternionRate = Rotation<{ Map::AngularVelocityToQuaternionRate as usize }>;
-/// Rates of Euler angles `[rad/s]` from the angular velocity `w` `[rad/s]` in the axes of the body, or, transposed,
-/// torques about the axes of the body from torques about the angles' axes, of the same power. They are not finite where
-/// the middle angle is ±π/2.
+/// Block `euler-rates`: rates of three Euler angles `[rad/s]` from the angular velocity `w` `[rad/s]` in the axes of
+/// the body; with the option `transposed`, torques `[N·m]` about the axes of the body from torques about the axes of
+/// the angles, of the same power. Not finite where the middle angle is ±π/2.
 pub type EulerRates = Rotation<{ Map::EulerRates as usize }>;
-/// Angular velocity `[rad/s]` in the axes of the body from rates of Euler angles `[rad/s]`: the inverse of
-/// [`EulerRates`].
+/// Block `euler-rates-to-angular-velocity`: angular velocity `[rad/s]` in the axes of the body from rates of three
+/// Euler angles `[rad/s]`: the inverse of [`EulerRates`].
 pub type EulerRatesToAngularVelocity = Rotation<{ Map::EulerRatesToAngularVelocity as usize }>;
 
 /// A map as the diagram sees it.
@@ -237,7 +257,7 @@ const _: () = {
 impl<const MAP: usize> Rotation<MAP> {
     const ROW: &'static Row = &ROWS[MAP];
 
-    /// In a convention, without the option.
+    /// Creates the block for a convention of Euler angles (ignored by maps without them), with its option off.
     #[must_use]
     pub fn new(convention: Convention) -> Self {
         Self { convention, option: false }

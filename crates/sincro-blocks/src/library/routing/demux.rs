@@ -2,15 +2,16 @@
 
 use crate::library::prelude::*;
 
-/// Cuts a vector into pieces. A wire from `a[0:2]` takes one piece without a block.
+/// Block `demux`: divides a vector into one output for each entry of `sizes`. A wire from `a[0:2]` takes one piece
+/// without a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Demux {
-    /// Number of components of every output.
+    /// Widths of the outputs (numbers of components), in the order of the vector; together the width of the input.
     pub sizes: Vec<usize>,
 }
 
 impl Demux {
-    /// Creates a block that cuts a vector into pieces of these sizes, in components.
+    /// Creates a block that divides a vector into pieces of these widths (numbers of components).
     #[must_use]
     pub fn new(sizes: &[usize]) -> Self {
         Self { sizes: sizes.to_vec() }

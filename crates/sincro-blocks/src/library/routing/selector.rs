@@ -2,15 +2,16 @@
 
 use crate::library::prelude::*;
 
-/// Takes components of a vector, in any order and as often as wanted.
+/// Block `selector`: selects components of a vector, in any order and any number of times.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selector {
-    /// Components, counted from 0.
+    /// Indices of the components, counted from 0, in the order of the output.
     pub indices: Vec<usize>,
 }
 
 impl Selector {
-    /// These components, counted from 0.
+    /// Creates a block that selects these components, counted from 0; indices beyond the input are errors of the
+    /// compiler.
     #[must_use]
     pub fn new(indices: &[usize]) -> Self {
         Self { indices: indices.to_vec() }

@@ -2,17 +2,18 @@
 
 use crate::library::prelude::*;
 
-/// A plot of its inputs over time. It computes nothing: whoever runs the diagram records what its wires come from.
+/// Block `scope`: plot of its inputs over time. It computes nothing: the program that runs the diagram records its
+/// inputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Scope {
-    /// Heading of the plot; empty for the name of the block.
+    /// Title of the plot; empty for the name of the block.
     pub title: String,
-    /// Names of the inputs.
+    /// Names of the input ports.
     pub inputs: Vec<String>,
 }
 
 impl Scope {
-    /// Creates the block with so many inputs, `u` or `u1`, `u2` …, at least 1.
+    /// Creates the block with this number of inputs (at least 1), named `u`, or `u1`, `u2` …
     #[must_use]
     pub fn new(inputs: usize) -> Self {
         Self { title: String::new(), inputs: Ports::numbered(inputs).inputs }

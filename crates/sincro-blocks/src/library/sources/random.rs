@@ -6,15 +6,16 @@
 
 use sincro_math::random::splitmix64;
 
-/// A number evenly distributed in (0, 1): neither end is reached, so that its logarithm is finite.
+/// Random number `n` (counted from 0) of the stream of `seed`, uniformly distributed in the open interval (0, 1), so
+/// that its logarithm is finite; dimensionless.
 #[must_use]
 pub fn uniform(seed: u64, n: u64) -> f64 {
     // the upper 52 bits, each interval represented by its middle
     ((splitmix64(seed, n) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
 }
 
-/// Dimensionless random number `n` of the stream of `seed`, from the normal distribution with mean 0 and variance 1
-/// (Box–Muller of the uniform numbers `2n` and `2n+1`).
+/// Random number `n` (counted from 0) of the stream of `seed`, normally distributed with mean 0 and variance 1
+/// (Box–Muller of the uniform numbers `2n` and `2n+1`); dimensionless.
 #[must_use]
 pub fn gaussian(seed: u64, n: u64) -> f64 {
     let (u1, u2) = (uniform(seed, n.wrapping_mul(2)), uniform(seed, n.wrapping_mul(2).wrapping_add(1)));

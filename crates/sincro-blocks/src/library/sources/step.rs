@@ -15,7 +15,7 @@ declare_block! {
 }
 
 impl Step {
-    /// Creates the block: from 0 to `to` at `time` `[s]`.
+    /// Creates a scalar step from 0 to `to` (in the unit of the output) at `time` `[s]`.
     #[must_use]
     pub fn new(time: f64, to: f64) -> Self {
         Self { time, from: vec![0.0], to: vec![to] }

@@ -3,25 +3,27 @@
 use super::cycle::Cycle;
 use crate::library::prelude::*;
 
-/// A signal that is given at instants: before the first and after the last it is constant.
+/// Block `table` of sources: signal given at instants, as lists or as columns of a CSV file; constant before the first
+/// and after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// Instants `[s]`, increasing.
+    /// Instants `[s]`, strictly increasing.
     pub times: Vec<f64>,
-    /// For every instant a row of components.
+    /// Values in the unit of the output: a row for each instant, a column for each component.
     pub values: Matrix,
-    /// Holds a value up to the next instant; else the line between the two is taken.
+    /// True to hold a value until the next instant, false for linear interpolation.
     pub hold: bool,
-    /// After this time, counted from the first instant, it begins anew `[s]`; infinite if never.
+    /// Period `[s]`, counted from the first instant, after which the table begins anew; infinite for no repetition.
     pub repeat: f64,
 }
 
 impl Table {
-    /// Creates a scalar function of time from its values at `times` `[s]`, linear in between.
+    /// Creates a scalar signal from its values (in the unit of the output) at the increasing `times` `[s]`, with linear
+    /// interpolation.
     ///
     /// # Panics
     ///
-    /// If there are not as many values as times, or none.
+    /// If there are no values, or not as many as times.
     #[must_use]
     pub fn new(times: &[f64], values: &[f64]) -> Self {
         assert!(times.len() == values.len() && !times.is_empty(), "a value for every instant");

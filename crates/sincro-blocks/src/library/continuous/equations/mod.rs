@@ -15,7 +15,7 @@ use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
 use crate::kind::{Category, Described, Kind, Parameter, ValueKind};
 use crate::reader::{NoFiles, ParameterError, Reader, Value};
 
-/// Differential equations of first and second order, written as text.
+/// Block `equations`: differential equations of first and second order, written as text.
 ///
 /// `x' = …` has the state `x`; `q'' = …` has the states `q` and `q'`, and so has every name in `coordinates`. Without
 /// `outputs` there is an output for every state, named as the state, but `q_dot` for `q'`: wires know no primes. Only
@@ -89,11 +89,12 @@ impl<R> Default for Work<R> {
 }
 
 impl Equations {
-    /// Creates the block from parameters as in a file.
+    /// Creates the block from parameters, by key and value as in a file: `inputs`, `equations`, `outputs`, `where`, and
+    /// so on.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with them.
+    /// All errors of the parameters: unknown keys, formulas that do not parse, sizes that do not fit.
     ///
     /// ```
     /// use sincro_blocks::library::continuous::Equations;
