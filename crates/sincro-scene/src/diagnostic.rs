@@ -108,7 +108,8 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// Creates an error at a location, without a remedy.
+    /// Creates an error with the message `message` (lower case, names in backticks) at a location in a file, without a
+    /// remedy.
     #[must_use]
     pub fn error(at: &Location, message: impl Into<String>) -> Self {
         Self {
@@ -120,19 +121,19 @@ impl Diagnostic {
         }
     }
 
-    /// Creates an error that belongs to no text.
+    /// Creates an error with the message `message` that belongs to no text, such as for a folder that does not exist.
     #[must_use]
     pub fn without_location(message: impl Into<String>) -> Self {
         Self { severity: Severity::Error, source: None, span: None, message: message.into(), help: None }
     }
 
-    /// Returns the diagnostic as a warning.
+    /// Returns the same diagnostic as a warning, which does not keep a scene from running.
     #[must_use]
     pub fn as_warning(self) -> Self {
         Self { severity: Severity::Warning, ..self }
     }
 
-    /// Returns the diagnostic with this remedy in place of its own.
+    /// Returns the diagnostic with the remedy `help`, in place of an earlier one; it is shown behind `help:`.
     #[must_use]
     pub fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
@@ -145,7 +146,7 @@ impl Diagnostic {
         Some(source.line_column(self.span.as_ref()?.start))
     }
 
-    /// Returns true if it is an error, false if it is a warning.
+    /// Returns true if the severity is error, false if it is warning.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
@@ -184,13 +185,13 @@ impl fmt::Display for Diagnostic {
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// Creates an empty list.
+    /// Creates an empty list, to which a reader adds what it finds.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Appends a diagnostic.
+    /// Appends an error or warning at the end of the list.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.0.push(diagnostic);
     }

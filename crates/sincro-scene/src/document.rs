@@ -69,7 +69,7 @@ impl Document {
         Ok(Self { source: source.clone(), root: content, places: reader.places, odd: reader.odd })
     }
 
-    /// Returns the value at a JSON pointer; `None` if there is none.
+    /// Returns the value at a JSON pointer such as `/joint/0/name`; `None` if there is none.
     #[must_use]
     pub fn get(&self, pointer: &str) -> Option<&Value> {
         self.root.pointer(pointer)

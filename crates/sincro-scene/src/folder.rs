@@ -103,7 +103,7 @@ impl Folder {
         self.bytes.get(&self.path_of(name), read_bytes)
     }
 
-    /// Returns every file read so far, texts and others, ordered by path: its path and its bytes.
+    /// Returns every file read so far, its path and its bytes: texts, then other files, each ordered by path.
     pub fn files(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let texts = self.texts.all();
         let texts = texts.iter().map(|(path, source)| (path.clone(), source.text.clone().into_bytes()));

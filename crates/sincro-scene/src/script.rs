@@ -96,7 +96,7 @@ pub struct ScriptError {
 }
 
 impl ScriptError {
-    /// Returns the error as a diagnostic at its line.
+    /// Returns the error as a diagnostic: at its line if that is known, with the path of the object in the message.
     #[must_use]
     pub fn diagnostic(&self) -> Diagnostic {
         let message = format!("script of `{}`: {}", self.object, self.message);
@@ -157,7 +157,7 @@ pub trait ScriptedLaw: Send + Sync + fmt::Debug {
     /// A message in English with line and cause, if the law fails.
     fn update(&mut self, t: f64, inputs: &[Vec<f64>], memory: &mut [f64]) -> Result<(), String>;
 
-    /// Returns an independent copy of the law.
+    /// Returns an independent copy of the law, for another run.
     fn boxed_clone(&self) -> Box<dyn ScriptedLaw>;
 }
 

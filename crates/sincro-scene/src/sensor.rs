@@ -113,12 +113,14 @@ pub enum SensorKind {
     },
 }
 
-/// Errors of a measured vector of three components, in its unit.
+/// Errors of a measured vector of three components, constant bias and noise, in its unit: of an IMU `[m/s²]` or
+/// `[rad/s]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Constant error of each component, x, y, z in the sensor's axes.
+    /// Constant error of each component, x, y, z in the sensor's axes, in the unit of the vector.
     pub bias: [f64; 3],
-    /// Noise of each component: standard deviation, or density for an IMU.
+    /// Noise of each component: of an IMU density in the unit of the vector per `√Hz`, else standard deviation in that
+    /// unit.
     pub noise: f64,
 }
 

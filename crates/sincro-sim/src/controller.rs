@@ -111,7 +111,7 @@ impl<'a> Commands<'a> {
         Self { values, sources, source: Source::Scene }
     }
 
-    /// Returns the same commands for another source, which sets them from now on.
+    /// Returns the same commands, to be set by `source` from now on; [`Commands::set`] compares its strength.
     pub fn by(&mut self, source: Source) -> Commands<'_> {
         Commands { values: self.values, sources: self.sources, source }
     }
@@ -220,7 +220,7 @@ pub enum Forked {
 /// # }
 /// ```
 pub trait Controller: Any + Send + fmt::Debug {
-    /// Returns the name of the controller in messages.
+    /// Returns the name of the controller, by which messages and reports call it.
     fn name(&self) -> &str;
 
     /// Prepares the controller for a run: called before the first tick, and again where a snapshot was restored.

@@ -137,6 +137,10 @@ impl<R: Number> DiagramController<R> {
     /// Computes all commands of the continuous diagram into `commands`, in the order and units of the command vector,
     /// as [`CoupledSystem::find_commands`] does in a run: `seen` is the state of the world, `z` holds the diagram's
     /// continuous states. `perturbed` is the index of a signal and a number that is added to it, for derivatives.
+    ///
+    /// # Panics
+    ///
+    /// If `z` has another length than the diagram has continuous states.
     pub fn find_all_commands(
         &mut self,
         seen: &mut StateView<'_, R>,
@@ -151,8 +155,9 @@ impl<R: Number> DiagramController<R> {
     }
 
     /// Computes the derivatives of all continuous states of the diagram into `slope`, in their order
-    /// `[unit of the state / s]`, as [`CoupledSystem::slope`] does in a run. `perturbed` as in
-    /// [`DiagramController::find_all_commands`], which must be called before.
+    /// `[unit of the state / s]`, as [`CoupledSystem::slope`] does in a run: `seen` is the state of the world,
+    /// `response` its accelerations and motor torques. `perturbed` as in [`DiagramController::find_all_commands`],
+    /// which must be called before.
     pub fn all_derivatives(
         &mut self,
         seen: &mut StateView<'_, R>,

@@ -84,7 +84,7 @@ impl From<FileError> for FolderError {
 }
 
 impl FolderError {
-    /// Returns the remedy in English.
+    /// Returns the remedy in English, such as to choose another folder.
     #[must_use]
     pub fn help(&self) -> &'static str {
         match self {

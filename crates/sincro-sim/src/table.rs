@@ -106,7 +106,7 @@ impl Table {
         self.times().iter().map(find).collect()
     }
 
-    /// Returns the number of rows.
+    /// Returns the number of rows, the length of every column.
     #[must_use]
     pub fn n_rows(&self) -> usize {
         self.times().len()

@@ -77,13 +77,13 @@ impl Image {
         self.piece.resize(n, NO_PIECE);
     }
 
-    /// Returns the numbers of columns and rows.
+    /// Returns the numbers of columns and rows of pixels.
     #[must_use]
     pub fn resolution(&self) -> [usize; 2] {
         self.resolution
     }
 
-    /// Returns the part that covers the whole image.
+    /// Returns the part that covers the whole image, for [`Image::bytes`] and the like.
     #[must_use]
     pub fn whole(&self) -> Part {
         Part { position: [0; 2], size: self.resolution }
@@ -99,21 +99,22 @@ impl Image {
         fits(0) && fits(1)
     }
 
-    /// Returns the colours of all pixels, three bytes each (red, green, blue, 0 to 255), in the order of [`Image`].
+    /// Returns the colours of all pixels: red, green, blue (0 to 255) of each, `3 · columns · rows` bytes, row by row
+    /// from the bottom of the picture, each row from left to right.
     #[must_use]
     pub fn rgb(&self) -> &[u8] {
         &self.rgb
     }
 
-    /// Returns the depths of all pixels, one each in the order of [`Image`]: distance along the camera's z `[m]`, that
-    /// of the far plane where nothing is.
+    /// Returns the depths of all pixels, `columns · rows` distances along the camera's z `[m]`, row by row from the
+    /// bottom of the picture, each row from left to right; that of the far plane where nothing is.
     #[must_use]
     pub fn depth(&self) -> &[f64] {
         &self.depth
     }
 
-    /// Returns the index of the piece that each pixel shows, one each in the order of [`Image`]: its position in the
-    /// list that was drawn, [`NO_PIECE`] for the background.
+    /// Returns the piece that each pixel shows, `columns · rows` indices into the list that was drawn ([`NO_PIECE`] for
+    /// the background), row by row from the bottom of the picture, each row from left to right.
     #[must_use]
     pub fn pieces(&self) -> &[u32] {
         &self.piece
@@ -130,12 +131,13 @@ impl Image {
         (y..y + h).flat_map(move |row| row * columns + x..row * columns + x + w)
     }
 
-    /// Returns the pixels of `part` as bytes in the format `layer`: `part.size[0] · part.size[1]` pixels of
-    /// [`Layer::width`] bytes, in the order of [`Image`].
+    /// Returns the pixels of `part` in the format `layer`: `part.size[0] · part.size[1]` pixels of [`Layer::width`]
+    /// bytes, row by row from the bottom, each row from left to right.
     ///
     /// # Panics
     ///
-    /// If the part does not lie inside the image ([`Image::has`]).
+    /// If the part reaches beyond the last pixel. It must lie inside the image ([`Image::has`]); else pixels of other
+    /// rows are read.
     #[must_use]
     pub fn bytes(&self, part: Part, layer: Layer) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(layer.width() * part.size[0] * part.size[1]);
@@ -153,20 +155,24 @@ impl Image {
         bytes
     }
 
-    /// Returns the depths of the pixels of `part`, in the order of [`Image`]: `[m]` along the camera's z if
-    /// `in_metres`, else shares of the depth range, 0 at the near plane and 1 at the far plane. Panics as
-    /// [`Image::bytes`].
+    /// Returns the depths of the pixels of `part`, row by row from the bottom, each row from left to right: `[m]` along
+    /// the camera's z if `in_metres`, else shares of the depth range, 0 at the near plane and 1 at the far plane.
+    ///
+    /// # Panics
+    ///
+    /// As [`Image::bytes`], when such a pixel is reached.
     pub fn depths(&self, part: Part, in_metres: bool) -> impl Iterator<Item = f64> {
         let of = move |k: usize| if in_metres { self.depth[k] } else { self.share(self.depth[k]) };
         self.places(part).map(of)
     }
 
-    /// Writes bytes in the format `layer` into the colours of `part`, in the order of [`Image`]. Bytes of opacity are
-    /// skipped, as in V-REP; depths stay. If there are fewer bytes than pixels, the rest of the part stays.
+    /// Writes bytes into the colours of `part`: pixels of [`Layer::width`] bytes in the format `layer`, row by row from
+    /// the bottom, each row from left to right. Bytes of opacity are skipped, as in V-REP; depths stay. If there are
+    /// fewer bytes than pixels, the rest of the part stays.
     ///
     /// # Panics
     ///
-    /// If the part does not lie inside the image.
+    /// As [`Image::bytes`].
     pub fn write(&mut self, part: Part, layer: Layer, bytes: &[u8]) {
         let places: Vec<usize> = self.places(part).collect();
         for (k, pixel) in places.into_iter().zip(bytes.chunks_exact(layer.width())) {

@@ -54,7 +54,7 @@ impl Wiring {
         Some(reading.probes[signal - reading.at])
     }
 
-    /// Returns the compiled diagram.
+    /// Returns the compiled diagram: blocks in their order of evaluation, with the indices of their signals.
     #[must_use]
     pub fn program(&self) -> &Arc<Program> {
         &self.program

@@ -34,7 +34,7 @@ pub struct View<'a, R> {
 }
 
 impl<'a, R> View<'a, R> {
-    /// Creates the view of the state that a coupled system receives between ticks.
+    /// Creates the view of the state that a coupled system, such as a diagram, is given at ticks and between them.
     pub fn of(seen: &'a StateView<'_, R>) -> Self {
         let &StateView { t, model, q, v, rotors, commands, ref scratch } = seen;
         Self { t, model, q, v, rotors, commands, scratch }

@@ -127,7 +127,7 @@ pub enum ObjectKind {
 }
 
 impl ObjectKind {
-    /// Returns the kind in English, such as `revolute joint` or `body`.
+    /// Returns the kind in English for messages and lists, such as `revolute joint` or `body`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {

@@ -79,7 +79,8 @@ impl Default for AuditReport {
 }
 
 impl AuditReport {
-    /// Creates the report of the laws measured, one entry each.
+    /// Creates the report of a run from the laws it was measured against, one entry for each; those that do not hold
+    /// become findings.
     #[must_use]
     pub fn of(laws: Vec<Finding>) -> Self {
         let findings: Vec<Finding> = laws.iter().filter(|law| !law.holds()).cloned().collect();

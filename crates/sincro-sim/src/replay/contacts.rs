@@ -21,7 +21,7 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// Appends a frame with the contact points of the observed world.
+    /// Appends a frame with the contact points of the observed world, as many as there are.
     pub fn record(&mut self, seen: &Observation<'_>) {
         for point in seen.contacts() {
             // indices below 2²⁴ are exact in single precision; a model has far fewer surfaces
@@ -31,7 +31,7 @@ impl Contacts {
         self.ends.push(self.numbers.len() / CONTACT);
     }
 
-    /// Appends the frames of another list.
+    /// Appends all frames of `other` behind those of this list, in their order.
     pub fn append(&mut self, other: &Self) {
         let before = self.numbers.len() / CONTACT;
         self.ends.extend(other.ends.iter().map(|end| before + end));

@@ -152,7 +152,7 @@ pub struct RotorView {
 }
 
 impl SceneView {
-    /// Creates the view of a compiled scene.
+    /// Creates the view of a compiled scene, for its replay; poses relative to movers do not depend on the state.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let model = &*scene.model;
@@ -184,27 +184,29 @@ impl SceneView {
         }
     }
 
-    /// Returns the index in a frame of the three numbers of rotor `k`: speed `[rad/s]`, thrust `[N]`, torque `[N·m]`.
+    /// Returns the index, in a frame of the trajectory, of the three numbers of rotor `k` (from 0): speed `[rad/s]`,
+    /// thrust `[N]`, torque `[N·m]`.
     #[must_use]
     pub fn rotor_at(&self, k: usize) -> usize {
         7 * self.n_movers + 3 * k
     }
 
-    /// Returns the index in a frame of the first of three components of external force `k`, in world axes `[N]`.
+    /// Returns the index, in a frame of the trajectory, of the first of three components of external force `k` (from
+    /// 0), in world axes `[N]`.
     #[must_use]
     pub fn force_at(&self, k: usize) -> usize {
         self.rotor_at(self.n_rotors + k)
     }
 
-    /// Returns the index in a frame of the first of three components of the force of drag element `k`, in world axes
-    /// `[N]`.
+    /// Returns the index, in a frame of the trajectory, of the first of three components of the force of drag element
+    /// `k` (from 0), in world axes `[N]`.
     #[must_use]
     pub fn drag_at(&self, k: usize) -> usize {
         self.force_at(self.n_forces + k)
     }
 
-    /// Returns the index in a frame of the first of three components of the wind at mover `winds[k]`, in world axes
-    /// `[m/s]`.
+    /// Returns the index, in a frame of the trajectory, of the first of three components of the wind at mover
+    /// `winds[k]`, in world axes `[m/s]`.
     #[must_use]
     pub fn wind_at(&self, k: usize) -> usize {
         self.drag_at(self.n_drags + k)

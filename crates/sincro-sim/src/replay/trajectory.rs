@@ -48,7 +48,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Creates the layout of the frames of a model.
+    /// Creates the layout of the frames of a model, whose numbers of joints, rotors, forces and coordinates it keeps.
     #[must_use]
     pub fn new(model: &Model<f64>) -> Self {
         let last_link = |v_end: usize| {
@@ -85,7 +85,7 @@ impl Layout {
         &self.wind_links
     }
 
-    /// Returns the number of entries of a frame.
+    /// Returns the number of entries of a frame, all parts together.
     #[must_use]
     pub fn width(&self) -> usize {
         let vectors = self.n_rotors + self.n_forces + self.n_drags + self.wind_links.len();

@@ -456,7 +456,7 @@ impl RunReport {
         audits.flat_map(|(run, audit)| audit.findings.iter().map(move |finding| (run, finding)))
     }
 
-    /// Returns the text of `run.json`.
+    /// Returns the text of `run.json`: the report as indented JSON.
     #[must_use]
     pub fn to_json(&self) -> String {
         number::to_json(self)

@@ -250,7 +250,7 @@ impl LockStep {
         &self.world.state
     }
 
-    /// Sets all velocities of the world to zero.
+    /// Sets all velocities of the world to zero; coordinates and the state of the diagram stay.
     pub fn stop(&mut self) {
         self.world.state.v.fill(0.0);
         self.world.mark_changed();

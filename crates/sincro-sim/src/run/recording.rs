@@ -82,7 +82,7 @@ impl Recording {
         })
     }
 
-    /// Returns the hash of all states so far.
+    /// Returns the hash of all states so far, the start included, for a snapshot or comparison.
     #[must_use]
     pub fn trace(&self) -> Trace {
         self.trace

@@ -99,13 +99,13 @@ impl TaskWorlds {
         Ok(Self { plan, groups, n, threads: if threads == 0 { available } else { threads } })
     }
 
-    /// Returns the task, resolved against its scene.
+    /// Returns the task, resolved against its scene; it has the lengths of observations and actions.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Returns the number of worlds.
+    /// Returns the number of worlds that are stepped together.
     #[must_use]
     pub fn n_worlds(&self) -> usize {
         self.n

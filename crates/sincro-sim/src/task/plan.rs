@@ -178,7 +178,7 @@ impl Plan {
         self.lanes_refused.as_deref()
     }
 
-    /// Returns the scene of all worlds.
+    /// Returns the scene of all worlds, as its files describe it before random numbers are drawn.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.loaded.scene
@@ -196,7 +196,7 @@ impl Plan {
         self.task.actions.len()
     }
 
-    /// Returns the task as the experiment has it.
+    /// Returns the task as the experiment has it: formulas, actions, random numbers.
     #[must_use]
     pub fn task(&self) -> &Task {
         &self.task

@@ -22,7 +22,7 @@ pub(super) const ITEM: Item =
     Item { kind: GravityTorque::KIND, read: |_, context| Box::new(GravityTorque::new(context)) };
 
 impl GravityTorque {
-    /// Creates the block for the model of `context`.
+    /// Creates the block; it computes with the model of `context`, that of the scene.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

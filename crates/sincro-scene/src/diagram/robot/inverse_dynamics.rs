@@ -22,7 +22,7 @@ pub(super) const ITEM: Item =
     Item { kind: InverseDynamics::KIND, read: |_, context| Box::new(InverseDynamics::new(context)) };
 
 impl InverseDynamics {
-    /// Creates the block for the model of `context`.
+    /// Creates the block; it computes with the model of `context`, that of the scene.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

@@ -21,7 +21,7 @@ pub struct MassMatrix {
 pub(super) const ITEM: Item = Item { kind: MassMatrix::KIND, read: |_, context| Box::new(MassMatrix::new(context)) };
 
 impl MassMatrix {
-    /// Creates the block for the model of `context`.
+    /// Creates the block; it computes with the model of `context`, that of the scene.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

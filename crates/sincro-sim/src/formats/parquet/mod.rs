@@ -37,7 +37,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// Returns the number of values.
+    /// Returns the number of values, one per row.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -47,13 +47,13 @@ impl Values {
         }
     }
 
-    /// Returns true if there are no values.
+    /// Returns true if there are no values: the column has no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Returns an empty list of the same type.
+    /// Returns an empty list of the same type, as [`Writer::new`] takes it for a column.
     #[must_use]
     pub fn emptied(&self) -> Self {
         match self {
