@@ -47,6 +47,21 @@ pub struct EvaluationPoint {
 ///
 /// A message with the name of the list whose length is not `n_q` or `n_v` (`q`, `v`, `a` for `v_dot`, `tau` for
 /// `torque`) and both numbers.
+///
+/// ```
+/// use sincro_analysis::dynamics::{EvaluationPoint, equation_terms};
+/// use sincro_scene::scene::from_text;
+///
+/// let scene = from_text(r#"
+///     joint = [{ name = "hinge", kind = "revolute", axis = [0.0, 1.0, 0.0] }]
+///     body = [{ name = "bob", parent = "/hinge", position = [0.5, 0.0, 0.0], density = 1000.0,
+///               shape = [{ sphere = { radius = 0.1 } }] }]
+/// "#).unwrap();
+/// let at = EvaluationPoint { q: vec![0.3], v: vec![2.0], ..EvaluationPoint::default() };
+/// let terms = equation_terms(&scene.model, &at).unwrap();
+/// // without torque M v̇ + h = 0; the inverse dynamics at v̇ = 0 is h
+/// assert!((terms.mass_matrix[0] * terms.forward_dynamics[0] + terms.inverse_dynamics[0]).abs() < 1e-12); // [N·m]
+/// ```
 pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<EquationTerms, String> {
     let (n_q, n_v) = (model.n_q(), model.n_v());
     let filled = |name: &str, list: &[f64], zero: Vec<f64>| match list.len() {

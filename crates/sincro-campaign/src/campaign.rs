@@ -21,6 +21,30 @@ use crate::row::{Layout, Row};
 
 /// Campaign that is ready to run: a plan with its scene loaded once. [`Campaign::run`] makes one run of it,
 /// [`crate::run_shard`] all.
+///
+/// ```
+/// use std::sync::atomic::AtomicBool;
+///
+/// use sincro_campaign::{Campaign, Plan};
+/// use sincro_sim::prelude::{Extensions, load};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/plan.toml"); // where the plan would stand
+/// let text = r#"
+///     scene = "acrobot"
+///     runs = 3
+///     set = { duration = 0.1 }
+///     parameter = [{ path = "/shoulder.initial.position", uniform = { from = 0.0, to = 0.2 } }]
+///     measure = [{ name = "angle", signal = "/shoulder.position", unit = "rad" }]
+/// "#;
+/// let plan = Plan::parse(path.as_ref(), text.to_owned())?;
+/// let campaign = Campaign::new(plan, |folder, settings| load(folder, settings, Extensions::default()))?;
+/// let row = campaign.run(0, &AtomicBool::new(false))?.expect("not interrupted");
+/// assert_eq!((campaign.plan.n_runs(), row.status), (3, "completed"));
+/// assert!((0.0..0.2).contains(&row.parameters[0]) && row.measures[0] < row.parameters[0]); // it swings back
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Campaign {
     /// Plan as it was read.

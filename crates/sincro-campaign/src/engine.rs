@@ -32,6 +32,14 @@ impl Shard {
     /// # Errors
     ///
     /// A message for the user, if the text is not of this form.
+    ///
+    /// ```
+    /// use sincro_campaign::Shard;
+    ///
+    /// let shard = Shard::parse("2/7").unwrap();
+    /// assert!(shard.has(1) && shard.has(8) && !shard.has(0)); // parts 1, 8, 15 …
+    /// assert!(Shard::parse("8/7").is_err());
+    /// ```
     pub fn parse(text: &str) -> Result<Self, String> {
         let numbers = text.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
         match numbers {

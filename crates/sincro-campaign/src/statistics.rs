@@ -4,6 +4,14 @@ use crate::design::inverse_normal;
 
 /// Running mean, standard deviation and extremes of numbers that come one by one (Welford 1962), all in the unit of the
 /// numbers; [`Moments::add`] takes the next one.
+///
+/// ```
+/// use sincro_campaign::statistics::Moments;
+///
+/// let mut moments = Moments::default();
+/// [1.0, 2.0, 3.0].into_iter().for_each(|x| moments.add(x));
+/// assert_eq!((moments.mean, moments.std(), moments.max), (2.0, 1.0, 3.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
     /// Number of values added.
@@ -25,7 +33,7 @@ impl Default for Moments {
 }
 
 impl Moments {
-    /// Adds one finite value.
+    /// Adds the finite value `x`, in the unit of all others.
     pub fn add(&mut self, x: f64) {
         self.n += 1;
         let before = x - self.mean;
@@ -35,14 +43,15 @@ impl Moments {
         self.max = self.max.max(x);
     }
 
-    /// Returns the sample standard deviation, with the divisor n − 1; 0 of fewer than two values.
+    /// Returns the sample standard deviation, with the divisor n − 1, in the unit of the values; 0 of fewer than two
+    /// values.
     #[must_use]
     pub fn std(&self) -> f64 {
         if self.n < 2 { 0.0 } else { (self.squares / (self.n - 1) as f64).sqrt() }
     }
 
-    /// Returns the half width of the confidence interval of the mean by Student's distribution, for the probability
-    /// `confidence` in (0, 1); NaN of fewer than two values.
+    /// Returns the half width of the confidence interval of the mean by Student's distribution, in the unit of the
+    /// values, for the probability `confidence` in (0, 1); NaN of fewer than two values.
     #[must_use]
     pub fn mean_half_width(&self, confidence: f64) -> f64 {
         if self.n < 2 {

@@ -33,6 +33,20 @@ impl SubspaceRank {
 impl StateSpace {
     /// Returns the dimension of the controllable subspace, which all inputs together reach, and the states outside of
     /// it.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// // two separate lags, of which the input drives the first
+    /// let a = DMatrix::from_row_slice(2, 2, &[-1.0, 0.0, 0.0, -2.0]);
+    /// let (b, c) = (DMatrix::from_row_slice(2, 1, &[1.0, 0.0]), DMatrix::from_row_slice(1, 2, &[1.0, 1.0]));
+    /// let system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?;
+    /// assert_eq!((system.controllability().rank, system.controllability().outside), (1, vec![1]));
+    /// assert!(system.observability().is_full());
+    /// # Ok(())
+    /// # }
+    /// ```
     #[must_use]
     pub fn controllability(&self) -> SubspaceRank {
         krylov_rank(&self.a, &self.b)

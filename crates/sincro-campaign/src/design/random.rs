@@ -58,6 +58,13 @@ pub(crate) fn bits(seed: u64, purpose: Purpose, stream: u32, index: u64) -> u64 
 /// Returns a random number in the open interval (0, 1), uniformly distributed: the middle of one of 2⁵² equal
 /// intervals. It is a function of the arguments alone: the seed, the purpose, a stream (such as the index of a
 /// parameter, below 2²⁸) and an index in the stream (such as the number of the run).
+///
+/// ```
+/// use sincro_campaign::design::random::{Purpose, uniform};
+///
+/// let draw = |run: u64| uniform(42, Purpose::Value, 0, run);
+/// assert!(draw(7) > 0.0 && draw(7) < 1.0 && draw(7) == draw(7) && draw(7) != draw(8));
+/// ```
 #[must_use]
 pub fn uniform(seed: u64, purpose: Purpose, stream: u32, index: u64) -> f64 {
     unit(bits(seed, purpose, stream, index))

@@ -48,6 +48,14 @@ impl SignalChoice {
     /// # Errors
     ///
     /// A diagnostic if the standard deviation is no positive, finite number.
+    ///
+    /// ```
+    /// use sincro_campaign::fit::SignalChoice;
+    ///
+    /// let choice = SignalChoice::parse("/arm.position=angle@0.002").unwrap();
+    /// assert_eq!((choice.signal.as_str(), choice.column.as_str()), ("/arm.position", "angle"));
+    /// assert_eq!(choice.sigma, Some(0.002)); // [rad]
+    /// ```
     pub fn parse(text: &str) -> Result<Self, Diagnostic> {
         let (names, sigma) = text.split_once('@').map_or((text, None), |(names, sigma)| (names, Some(sigma)));
         let sigma = match sigma.map(|word| word.trim().parse::<f64>()) {

@@ -14,9 +14,9 @@ pub struct FreeParameter {
     pub path: String,
     /// Start of the search, between the bounds.
     pub start: f64,
-    /// Lower bound; may be −∞.
+    /// Lower bound, in the parameter's unit; −∞ if there is none.
     pub low: f64,
-    /// Upper bound; may be ∞.
+    /// Upper bound, in the parameter's unit; ∞ if there is none.
     pub high: f64,
 }
 

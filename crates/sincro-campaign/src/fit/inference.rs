@@ -57,8 +57,9 @@ pub struct Inference {
     pub freedom: f64,
 }
 
-/// Computes the statistics of a solution of `n` unknowns. `scales` holds the typical size of each unknown, in its unit,
-/// for unknowns that came out as 0; `confidence` is the probability of the intervals, in (0, 1).
+/// Computes the statistics of a solution of `n` unknowns: intervals, correlation, identifiability. `scales` holds `n`
+/// typical sizes, one for each unknown in its unit and in the order of [`Model::names`](super::Model::names), for
+/// unknowns that came out as 0; `confidence` is the probability of the intervals, in (0, 1).
 #[must_use]
 pub fn infer(solution: &Solution, scales: &[f64], confidence: f64) -> Inference {
     let n = scales.len();

@@ -144,7 +144,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the number of runs made so far.
+    /// Returns the number of simulations made so far, for predictions and sensitivities together.
     #[must_use]
     pub fn n_runs(&self) -> usize {
         self.n_runs.load(Ordering::Relaxed)

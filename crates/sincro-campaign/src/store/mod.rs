@@ -208,7 +208,7 @@ impl Store {
         self.manifest.layout()
     }
 
-    /// Returns the number of parts of the complete results.
+    /// Returns the number of parts (files of [`Manifest::rows_per_part`] rows) of the complete results.
     #[must_use]
     pub fn n_parts(&self) -> u64 {
         self.manifest.n_runs.div_ceil(self.manifest.rows_per_part)

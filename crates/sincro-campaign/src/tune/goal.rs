@@ -77,6 +77,14 @@ impl Goal {
 }
 
 /// Limit of a tuning, an inequality of formulas of the measures: `FORMULA <= FORMULA` or `FORMULA >= FORMULA`.
+///
+/// ```
+/// use sincro_campaign::tune::Limit;
+///
+/// let limit = Limit::parse("overshoot <= 0.05", &["overshoot".into(), "iae".into()]).unwrap();
+/// assert_eq!(limit.violation(&[0.04, 1.0]), 0.0);
+/// assert!((limit.violation(&[0.06, 1.0]) - 0.2).abs() < 1e-12); // by a fifth of 0.05
+/// ```
 #[derive(Clone, Debug)]
 pub struct Limit {
     /// Text of the inequality.
