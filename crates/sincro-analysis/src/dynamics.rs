@@ -9,39 +9,59 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea::inverse_dynamics;
 use sincro_dynamics::scratch::Scratch;
 
-/// Terms of the equations of motion at one state; sizes are those of the model's velocities, `n_v`.
+/// Terms of the equations of motion `M(q) v̇ + h(q, v) = τ` at one state, for comparison with other programs; result of
+/// [`equation_terms`]. Lists have one entry per degree of freedom, `n_v`, in the order of the model's velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquationTerms {
-    /// M with armature, row by row, `n_v × n_v` [kg·m²], [kg·m] or `[kg]`.
+    /// Mass matrix M with the armature on its diagonal, row by row, `n_v × n_v`: `[kg·m²]` between two revolute degrees
+    /// of freedom, `[kg]` between two prismatic ones, `[kg·m]` between one of each.
     pub mass_matrix: Vec<f64>,
-    /// τ = M·v̇ + h that the accelerations `v_dot` take, springs and dampers left out [N·m] or `[N]`.
+    /// Generalized forces τ = M·v̇ + h at the accelerations `v_dot`, without springs and dampers, `n_v`: `[N·m]` or
+    /// `[N]`.
     pub inverse_dynamics: Vec<f64>,
-    /// v̇ under the torques `torque`, springs and dampers left out [rad/s²] or [m/s²].
+    /// Accelerations v̇ under the generalized forces `torque`, without springs and dampers, `n_v`: `[rad/s²]` or
+    /// `[m/s²]`.
     pub forward_dynamics: Vec<f64>,
-    /// Torque of springs and dampers [N·m] or `[N]`.
+    /// Generalized forces of the joints' springs and dampers, `n_v`: `[N·m]` or `[N]`.
     pub passive: Vec<f64>,
 }
 
-/// State and inputs at which the terms are evaluated; a list that is empty stands for zeros (`q`: the model's own
-/// zero).
+/// State and inputs at which [`equation_terms`] evaluates a model; an empty list stands for zeros (for `q`: the model's
+/// zero configuration, with unit quaternions). Order and layout are those of [`sincro_dynamics::state::State`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EvaluationPoint {
-    /// Coordinates, `n_q`.
+    /// Generalized coordinates, `n_q`: `[rad]`, `[m]`, entries of quaternions dimensionless.
     pub q: Vec<f64>,
-    /// Velocities, `n_v`.
+    /// Generalized velocities, `n_v`: `[rad/s]` or `[m/s]`.
     pub v: Vec<f64>,
-    /// Accelerations for the inverse dynamics, `n_v`.
+    /// Accelerations for the inverse dynamics, `n_v`: `[rad/s²]` or `[m/s²]`.
     pub v_dot: Vec<f64>,
-    /// Torques for the forward dynamics, `n_v`.
+    /// Generalized forces for the forward dynamics, `n_v`: `[N·m]` or `[N]`.
     pub torque: Vec<f64>,
 }
 
-/// Evaluates the terms of the equations of motion at one point: one entry for each degree of freedom, in SI units
-/// `[N]`, `[N·m]`, `[kg]`, `[kg·m²]`; derivatives where `at` asks for them.
+/// Evaluates mass matrix, inverse dynamics, forward dynamics and passive forces of a model at one point, with gravity
+/// and in SI units. Loop joints, gears, limits and contacts are left out.
 ///
 /// # Errors
 ///
-/// The name of the list that has a wrong number of entries, with both numbers.
+/// A message with the name of the list whose length is not `n_q` or `n_v` (`q`, `v`, `a` for `v_dot`, `tau` for
+/// `torque`) and both numbers.
+///
+/// ```
+/// use sincro_analysis::dynamics::{EvaluationPoint, equation_terms};
+/// use sincro_scene::scene::from_text;
+///
+/// let scene = from_text(r#"
+///     joint = [{ name = "hinge", kind = "revolute", axis = [0.0, 1.0, 0.0] }]
+///     body = [{ name = "bob", parent = "/hinge", position = [0.5, 0.0, 0.0], density = 1000.0,
+///               shape = [{ sphere = { radius = 0.1 } }] }]
+/// "#).unwrap();
+/// let at = EvaluationPoint { q: vec![0.3], v: vec![2.0], ..EvaluationPoint::default() };
+/// let terms = equation_terms(&scene.model, &at).unwrap();
+/// // without torque M v̇ + h = 0; the inverse dynamics at v̇ = 0 is h
+/// assert!((terms.mass_matrix[0] * terms.forward_dynamics[0] + terms.inverse_dynamics[0]).abs() < 1e-12); // [N·m]
+/// ```
 pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<EquationTerms, String> {
     let (n_q, n_v) = (model.n_q(), model.n_v());
     let filled = |name: &str, list: &[f64], zero: Vec<f64>| match list.len() {

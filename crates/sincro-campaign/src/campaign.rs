@@ -19,18 +19,44 @@ use twox_hash::XxHash3_64;
 use crate::plan::{Checks, Plan, RunPoint};
 use crate::row::{Layout, Row};
 
-/// A plan with its scene.
+/// Campaign that is ready to run: a plan with its scene loaded once. [`Campaign::run`] makes one run of it,
+/// [`crate::run_shard`] all.
+///
+/// ```
+/// use std::sync::atomic::AtomicBool;
+///
+/// use sincro_campaign::{Campaign, Plan};
+/// use sincro_sim::prelude::{Extensions, load};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/plan.toml"); // where the plan would stand
+/// let text = r#"
+///     scene = "acrobot"
+///     runs = 3
+///     set = { duration = 0.1 }
+///     parameter = [{ path = "/shoulder.initial.position", uniform = { from = 0.0, to = 0.2 } }]
+///     measure = [{ name = "angle", signal = "/shoulder.position", unit = "rad" }]
+/// "#;
+/// let plan = Plan::parse(path.as_ref(), text.to_owned())?;
+/// let campaign = Campaign::new(plan, |folder, settings| load(folder, settings, Extensions::default()))?;
+/// let row = campaign.run(0, &AtomicBool::new(false))?.expect("not interrupted");
+/// assert_eq!((campaign.plan.n_runs(), row.status), (3, "completed"));
+/// assert!((0.0..0.2).contains(&row.parameters[0]) && row.measures[0] < row.parameters[0]); // it swings back
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Campaign {
-    /// The plan.
+    /// Plan as it was read.
     pub plan: Plan,
-    /// The scene as the settings of all runs leave it.
+    /// Scene and experiment with the settings of the plan, before those of variants and parameters.
     pub loaded: Loaded,
     /// Parts of the experiment in the order of the plan.
     variants: Vec<VariantPlan>,
-    /// Columns of the results.
+    /// Names of the result columns of parameters and measures, in their order.
     pub layout: Layout,
-    /// Hash of everything that the results depend on.
+    /// Hash of everything that the results depend on (plan, scene files, model, tables, version): 16 hexadecimal
+    /// digits. Results of equal hashes may be put together.
     pub input: String,
 }
 
@@ -47,27 +73,29 @@ struct VariantPlan {
     light: Vec<Override>,
 }
 
-/// Description of a measure or parameter, kept beside the results.
+/// Description of a parameter or measure, which the manifest of a campaign keeps beside the results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
-    /// Its name.
+    /// Name of the column.
     pub name: String,
-    /// Its unit; may be empty.
+    /// Unit as text; may be empty.
     pub unit: String,
-    /// Its distribution or its measure, for a person.
+    /// Distribution or kind of measure in English, such as `uniform from 1 to 2`.
     pub words: String,
-    /// A good run is not above.
+    /// Upper limit of a good run, in the column's unit, if there is one.
     pub at_most: Option<f64>,
-    /// A good run is not below.
+    /// Lower limit of a good run, in the column's unit, if there is one.
     pub at_least: Option<f64>,
 }
 
 impl Campaign {
-    /// Prepares a plan; `load` opens its scene with settings.
+    /// Prepares a plan; `load` opens a scene folder with settings, usually `sincro_sim::load` with the extensions of
+    /// the program. The paths of all parameters are tried before anything runs.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the scene, the measures, the variants; paths of parameters that reach nothing.
+    /// All findings at once: those of `load`, variants and checks that do not exist, formulas that mean nothing, a
+    /// campaign without measures, paths of parameters that reach nothing.
     pub fn new(
         plan: Plan,
         load: impl Fn(&std::path::Path, &[Override]) -> Result<Loaded, Diagnostics>,
@@ -166,7 +194,8 @@ impl Campaign {
         Ok(())
     }
 
-    /// Settings of a run: those of the plan, its variant, its parameters, in the order in which they win.
+    /// Returns the settings of a run: those of the plan, of its variant, of its parameters, in this order; later ones
+    /// win. `point` comes from [`Plan::point`] of the same plan.
     #[must_use]
     pub fn settings(&self, point: &RunPoint) -> Vec<Override> {
         let variant = &self.variants[point.variant_idx];
@@ -175,24 +204,25 @@ impl Campaign {
 
     /// Name of the part of the experiment of a run.
     #[must_use]
-    pub fn variant_name(&self, point: &RunPoint) -> &str {
+    fn variant_name(&self, point: &RunPoint) -> &str {
         &self.variants[point.variant_idx].name
     }
 
-    /// The scene of a run, with the signals that its measures need recorded.
+    /// Returns the scene of a run with all its settings, its checks, and the signals that its measures need recorded;
+    /// `point` comes from [`Plan::point`] of the same plan.
     ///
     /// # Errors
     ///
-    /// Everything that the scene refuses.
+    /// The findings of the scene, if it refuses the values of the parameters.
     pub fn loaded_at(&self, point: &RunPoint) -> Result<Loaded, Diagnostics> {
         self.loaded_with(point, &[])
     }
 
-    /// As [`Campaign::loaded_at`], with further settings, which win.
+    /// As [`Campaign::loaded_at`], with further settings `more` behind those of the run: they win.
     ///
     /// # Errors
     ///
-    /// Everything that the scene refuses.
+    /// The findings of the scene, if it refuses the values.
     pub fn loaded_with(&self, point: &RunPoint, more: &[Override]) -> Result<Loaded, Diagnostics> {
         let variant = &self.variants[point.variant_idx];
         let settings: Vec<Override> = self.settings(point).into_iter().chain(more.iter().cloned()).collect();
@@ -212,16 +242,17 @@ impl Campaign {
         Ok(loaded)
     }
 
-    /// Makes run `k`; none if it was interrupted.
+    /// Makes run `k` (from 0, below [`Plan::n_runs`]) and returns its row; `None` if `interrupt` became true before its
+    /// end. A scene that refuses the values gives a row with the status `refused`.
     ///
     /// # Errors
     ///
-    /// A signal that is not there. A scene that refuses the values is a result, not an error.
+    /// [`RunError::Diagnostics`]: the run could not be begun, such as for a measured signal that does not exist.
     pub fn run(&self, k: u64, interrupt: &AtomicBool) -> Result<Option<Row>, RunError> {
         self.run_with(k, &[], interrupt)
     }
 
-    /// Makes run `k` with further settings, which win; none if it was interrupted.
+    /// As [`Campaign::run`], with further settings `more` behind those of the run: they win.
     ///
     /// # Errors
     ///
@@ -292,7 +323,7 @@ impl Campaign {
 
     /// Descriptions of the parameters.
     #[must_use]
-    pub fn parameter_columns(&self) -> Vec<Column> {
+    pub(crate) fn parameter_columns(&self) -> Vec<Column> {
         let column = |p: &crate::plan::Parameter| Column {
             name: p.name.clone(),
             unit: p.unit.clone(),
@@ -305,7 +336,7 @@ impl Campaign {
 
     /// Descriptions of the measures.
     #[must_use]
-    pub fn measure_columns(&self) -> Vec<Column> {
+    pub(crate) fn measure_columns(&self) -> Vec<Column> {
         let own = self.plan.measures.iter().map(|m| Column {
             name: m.name.clone(),
             unit: m.unit.clone(),

@@ -13,24 +13,33 @@ use crate::campaign::Campaign;
 use crate::row::Row;
 use crate::store::{PartState, Store, StoreError};
 
-/// One of several equal shares of a campaign: number `index` of `count`, from 1.
+/// Share of a campaign that one process makes: of `count` equal ones, number `index`. Shards of different processes or
+/// machines are put together by [`crate::collect`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Number of the share, from 1.
+    /// Number of the share, 1 to `count`.
     pub index: u64,
-    /// Number of shares.
+    /// Number of shares, at least 1.
     pub count: u64,
 }
 
 impl Shard {
-    /// The whole campaign.
+    /// Whole campaign as one share, 1/1.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
 
-    /// Reads `I/N`.
+    /// Reads a shard as `--shard` takes it, `I/N` with 1 ≤ I ≤ N, such as `2/7`.
     ///
     /// # Errors
     ///
-    /// It is not two numbers with 1 ≤ I ≤ N.
+    /// A message for the user, if the text is not of this form.
+    ///
+    /// ```
+    /// use sincro_campaign::Shard;
+    ///
+    /// let shard = Shard::parse("2/7").unwrap();
+    /// assert!(shard.has(1) && shard.has(8) && !shard.has(0)); // parts 1, 8, 15 …
+    /// assert!(Shard::parse("8/7").is_err());
+    /// ```
     pub fn parse(text: &str) -> Result<Self, String> {
         let numbers = text.split_once('/').and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
         match numbers {
@@ -39,19 +48,19 @@ impl Shard {
         }
     }
 
-    /// Returns true if part number `part` of the campaign, counted from 0, belongs to this share.
+    /// Returns true if part `part` of the results (index from 0) belongs to this share: every `count`-th part does.
     #[must_use]
     pub fn has(self, part: u64) -> bool {
         part % self.count == self.index - 1
     }
 }
 
-/// Error of a shard.
+/// Error of [`run_shard`]; whole parts that were written before are kept.
 #[derive(Debug)]
 pub enum ShardError {
-    /// A run could not be begun.
+    /// A run could not be begun, such as for a measured signal that does not exist.
     Run(RunError),
-    /// The results cannot be kept.
+    /// The folder of results cannot be read or written, or holds a damaged part.
     Store(StoreError),
 }
 
@@ -61,14 +70,14 @@ impl From<StoreError> for ShardError {
     }
 }
 
-/// Work of a shard that ended.
+/// Account of a shard after [`run_shard`], in numbers of runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ShardDone {
-    /// Runs that were there before.
+    /// Number of runs that were in the folder before.
     pub n_found: u64,
-    /// Runs that were made.
+    /// Number of runs that were made and written.
     pub n_made: u64,
-    /// Runs that are not done: it was interrupted.
+    /// Number of runs of the shard that are still missing; 0 unless it was interrupted.
     pub n_left: u64,
 }
 
@@ -85,11 +94,14 @@ struct Queue {
     failure: Option<ShardError>,
 }
 
-/// Makes all runs of a shard that are not there yet; `progress` is told the number of runs that are done and of all.
+/// Makes all runs of a shard that are not in the folder yet, on `n_threads` threads (at least one), and writes them
+/// part by part. After each run `progress` receives the number of runs of the shard that are done, and of all. Once
+/// `interrupt` is true no further run begins; the same call continues later.
 ///
 /// # Errors
 ///
-/// The results cannot be kept, or a measured signal does not exist. What is done is kept.
+/// [`ShardError::Store`]: the folder cannot be read or written, or a part is damaged. [`ShardError::Run`]: a run could
+/// not be begun. Parts that are complete are kept.
 pub fn run_shard(
     campaign: &Campaign,
     store: &Store,

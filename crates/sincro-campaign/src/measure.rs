@@ -7,57 +7,58 @@ use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, Location};
 use sincro_scene::experiment::Experiment;
 use sincro_scene::experiment::check::{Check, Expected, Measure, Sense, Subject as CheckSubject};
 
-/// A number that is kept of each run, with the limits that a good run keeps.
+/// Measure of a campaign: one number that is kept of each run, with the limits of a good run; a `[[measure]]` of the
+/// plan.
 #[derive(Clone, Debug)]
 pub struct MeasurePlan {
-    /// Name of its column.
+    /// Name of its column in the results.
     pub name: String,
-    /// Series and measure.
+    /// Series and the measure that makes one number of it.
     pub source: Source,
-    /// Unit; may be empty.
+    /// Unit as text, for reports; may be empty.
     pub unit: String,
-    /// A good run is not above.
+    /// Upper limit of a good run, in the measure's unit, if there is one.
     pub at_most: Option<f64>,
-    /// A good run is not below.
+    /// Lower limit of a good run, in the measure's unit, if there is one.
     pub at_least: Option<f64>,
-    /// Its place, for messages.
+    /// Location in the plan file, for messages.
     pub location: Location,
 }
 
-/// A series and how one number is made of it.
+/// Origin of a measure: a series over the time of a run, and the rule by which one number is made of it.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The series.
+    /// Series: a signal or a formula.
     pub subject: Subject,
-    /// Its measure.
+    /// Rule, such as the maximum or the settling time.
     pub kind: Measure,
-    /// The one time `[s]` that is looked at, if given.
+    /// Time `[s]` at which the series is read, for a value at one time.
     pub at: Option<f64>,
-    /// First and last time `[s]` that are looked at.
+    /// First and last time `[s]` of the window that is looked at; `None`: the whole run.
     pub window: Option<(f64, f64)>,
-    /// Final value of a step response.
+    /// Final value of a step response, in the unit of the series; `None`: its last value.
     pub target: Option<f64>,
-    /// Band of the settling time, relative to the step's height.
+    /// Half width of the band of the settling time, relative to the step's height (0.02 is 2 %).
     pub band: f64,
 }
 
-/// A series: a signal or a formula of signals.
+/// Series that a measure is made of: a recorded signal or a formula of signals.
 #[derive(Clone, Debug)]
 pub enum Subject {
-    /// A signal by its name.
+    /// Recorded signal by its name, such as `/arm.position`.
     Signal(Located<String>),
-    /// A formula of aliases of signals, `t` and the parameters of the experiment.
+    /// Formula of aliases of signals, of the time `t` `[s]` and of the parameters of the experiment.
     Formula {
-        /// Its text.
+        /// Text of the formula.
         text: Located<String>,
-        /// Aliases and their signals.
+        /// Aliases with the names of their signals.
         signals: Vec<(String, Located<String>)>,
     },
 }
 
 impl Subject {
     /// The signals that it needs.
-    pub fn signals(&self) -> Vec<&Located<String>> {
+    pub(crate) fn signals(&self) -> Vec<&Located<String>> {
         match self {
             Self::Signal(signal) => vec![signal],
             Self::Formula { signals, .. } => signals.iter().map(|(_, signal)| signal).collect(),
@@ -84,13 +85,13 @@ const MEASURES: [Measure; 13] = [
 
 /// The measure of a word.
 #[must_use]
-pub fn measure_of_word(word: &str) -> Option<Measure> {
+pub(crate) fn measure_of_word(word: &str) -> Option<Measure> {
     MEASURES.into_iter().find(|measure| measure.word() == word)
 }
 
 /// All words of measures.
 #[must_use]
-pub fn words_of_measures() -> Vec<&'static str> {
+pub(crate) fn words_of_measures() -> Vec<&'static str> {
     MEASURES.iter().map(|measure| measure.word()).collect()
 }
 
@@ -100,7 +101,7 @@ impl MeasurePlan {
     /// # Errors
     ///
     /// The formula means nothing.
-    pub fn check(&self, experiment: &Experiment) -> Result<Check, Diagnostics> {
+    pub(crate) fn check(&self, experiment: &Experiment) -> Result<Check, Diagnostics> {
         let parameters: Arc<[(String, f64)]> = experiment.parameters.iter().map(|(n, x)| (n.clone(), *x)).collect();
         let (what, aliases) = match &self.source.subject {
             Subject::Signal(signal) => (CheckSubject::Signal(signal.clone()), Vec::new()),

@@ -2,18 +2,27 @@
 
 use crate::design::inverse_normal;
 
-/// Mean, spread and extremes of numbers that come one by one (Welford 1962).
+/// Running mean, standard deviation and extremes of numbers that come one by one (Welford 1962), all in the unit of the
+/// numbers; [`Moments::add`] takes the next one.
+///
+/// ```
+/// use sincro_campaign::statistics::Moments;
+///
+/// let mut moments = Moments::default();
+/// [1.0, 2.0, 3.0].into_iter().for_each(|x| moments.add(x));
+/// assert_eq!((moments.mean, moments.std(), moments.max), (2.0, 1.0, 3.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
-    /// Number of values.
+    /// Number of values added.
     pub n: u64,
-    /// Mean.
+    /// Mean; 0 before the first value.
     pub mean: f64,
     /// Sum of squares about the mean.
     squares: f64,
-    /// Least value.
+    /// Least value; ∞ before the first.
     pub min: f64,
-    /// Greatest value.
+    /// Greatest value; −∞ before the first.
     pub max: f64,
 }
 
@@ -24,7 +33,7 @@ impl Default for Moments {
 }
 
 impl Moments {
-    /// Adds a finite value.
+    /// Adds the finite value `x`, in the unit of all others.
     pub fn add(&mut self, x: f64) {
         self.n += 1;
         let before = x - self.mean;
@@ -34,13 +43,15 @@ impl Moments {
         self.max = self.max.max(x);
     }
 
-    /// Standard deviation, with n − 1; 0 of fewer than two values.
+    /// Returns the sample standard deviation, with the divisor n − 1, in the unit of the values; 0 of fewer than two
+    /// values.
     #[must_use]
     pub fn std(&self) -> f64 {
         if self.n < 2 { 0.0 } else { (self.squares / (self.n - 1) as f64).sqrt() }
     }
 
-    /// Half width of the confidence interval of the mean, by Student's distribution.
+    /// Returns the half width of the confidence interval of the mean by Student's distribution, in the unit of the
+    /// values, for the probability `confidence` in (0, 1); NaN of fewer than two values.
     #[must_use]
     pub fn mean_half_width(&self, confidence: f64) -> f64 {
         if self.n < 2 {
@@ -52,7 +63,7 @@ impl Moments {
 
 /// Interval of the share `successes / n` (Wilson 1927).
 #[must_use]
-pub fn wilson(successes: u64, n: u64, confidence: f64) -> (f64, f64) {
+pub(crate) fn wilson(successes: u64, n: u64, confidence: f64) -> (f64, f64) {
     if n == 0 {
         return (0.0, 1.0);
     }
@@ -68,7 +79,7 @@ pub fn wilson(successes: u64, n: u64, confidence: f64) -> (f64, f64) {
 /// Fisher in the normal quantile (Abramowitz and Stegun 26.7.5), and Newton's method from there on the distribution
 /// function where the expansion alone is not exact.
 #[must_use]
-pub fn student_quantile(u: f64, freedom: f64) -> f64 {
+pub(crate) fn student_quantile(u: f64, freedom: f64) -> f64 {
     if u < 0.5 {
         return -student_quantile(1.0 - u, freedom);
     }
@@ -140,7 +151,7 @@ fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> f64 {
 /// Quantile `share` (0 to 1; 0.5 is the median) of ascending values, in their unit: between neighbours on a straight
 /// line. NaN if there is no value.
 #[must_use]
-pub fn quantile(ascending: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(ascending: &[f64], share: f64) -> f64 {
     let Some(last) = ascending.len().checked_sub(1) else { return f64::NAN };
     let place = share * last as f64;
     let below = (place as usize).min(last);
@@ -151,7 +162,7 @@ pub fn quantile(ascending: &[f64], share: f64) -> f64 {
 /// Interval of a quantile by order statistics, without any assumption on the distribution: their ranks are those of the
 /// binomial distribution with equal tails. An end is none where no order statistic reaches the coverage.
 #[must_use]
-pub fn quantile_interval(ascending: &[f64], share: f64, confidence: f64) -> (Option<f64>, Option<f64>) {
+pub(crate) fn quantile_interval(ascending: &[f64], share: f64, confidence: f64) -> (Option<f64>, Option<f64>) {
     if ascending.is_empty() || share <= 0.0 || share >= 1.0 {
         return (None, None);
     }
@@ -178,7 +189,7 @@ pub fn quantile_interval(ascending: &[f64], share: f64, confidence: f64) -> (Opt
 
 /// Ranks from 1, equal values having their mean rank.
 #[must_use]
-pub fn ranks(values: &[f64]) -> Vec<f64> {
+pub(crate) fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
     let mut ranks = vec![0.0; values.len()];
@@ -194,7 +205,7 @@ pub fn ranks(values: &[f64]) -> Vec<f64> {
 
 /// Correlation of two series; NaN if one is constant.
 #[must_use]
-pub fn correlation(x: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn correlation(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len().min(y.len()) as f64;
     let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
     let (mut xy, mut xx, mut yy) = (0.0, 0.0, 0.0);
@@ -208,7 +219,7 @@ pub fn correlation(x: &[f64], y: &[f64]) -> f64 {
 
 /// Interval of a correlation of `n` pairs by Fisher's transformation.
 #[must_use]
-pub fn correlation_interval(r: f64, n: usize, confidence: f64) -> (f64, f64) {
+pub(crate) fn correlation_interval(r: f64, n: usize, confidence: f64) -> (f64, f64) {
     if n < 4 || r.is_nan() {
         return (f64::NAN, f64::NAN);
     }
@@ -219,7 +230,7 @@ pub fn correlation_interval(r: f64, n: usize, confidence: f64) -> (f64, f64) {
 
 /// Coefficients of the least-squares fit of `y` by the rows of `a`; none if the rows do not tell them.
 #[must_use]
-pub fn least_squares(a: &[Vec<f64>], y: &[f64]) -> Option<Vec<f64>> {
+pub(crate) fn least_squares(a: &[Vec<f64>], y: &[f64]) -> Option<Vec<f64>> {
     let n = a.first()?.len();
     let mut normal = vec![vec![0.0; n + 1]; n];
     for (row, y) in a.iter().zip(y) {

@@ -14,19 +14,20 @@ use crate::schema::{alternatives, property, property_names};
 use crate::suggest;
 use crate::tree;
 
-/// Which file a path reaches.
+/// File of a scene folder that a setting changes; see [`Override::target`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// The scene file.
+    /// Scene file, `scene.toml`.
     Scene,
-    /// The experiment file.
+    /// Experiment file, `experiment.toml`.
     Experiment,
-    /// The diagram file.
+    /// Diagram file, `diagram.toml`.
     Diagram,
 }
 
 impl Override {
-    /// Which file it is for; by its first key.
+    /// Returns the file that the setting is for, by the first key of its path: `/arm.mass` belongs to the scene,
+    /// `duration` to the experiment, `block.parameter` to the diagram. The path is not checked.
     pub fn target(&self) -> Target {
         let path = &self.path.value;
         let first = path.split(['.', '[']).next().unwrap_or("");
@@ -42,7 +43,7 @@ impl Override {
     }
 
     /// The finding about a setting for a diagram that is not there.
-    pub fn without_diagram(&self) -> Diagnostic {
+    pub(crate) fn without_diagram(&self) -> Diagnostic {
         let first = self.path.value.split(['.', '[']).next().unwrap_or("");
         let mut known: Vec<&str> = [scene_schema(), experiment_schema()]
             .into_iter()
@@ -139,11 +140,13 @@ impl Override {
         }
     }
 
-    /// Writes the value into its document.
+    /// Writes the value into the document of its file, `target` as [`Override::target`] returns it. A later value at
+    /// the same path replaces an earlier one.
     ///
     /// # Errors
     ///
-    /// The path reaches nothing in the document, or the value is no TOML.
+    /// A diagnostic at the setting, with the nearest known names: the path reaches nothing in the document, or the
+    /// value is no TOML.
     pub fn apply(&self, document: &mut Document, target: Target) -> Result<(), Diagnostic> {
         let (mut walk, keys) = match target {
             Target::Diagram => return self.apply_to_diagram(document),
@@ -228,7 +231,7 @@ impl Override {
 const OF_DIAGRAM: &str = "diagram.";
 
 /// Names of the blocks of a diagram file.
-pub fn names_of_blocks(document: &Document) -> Vec<String> {
+pub(crate) fn names_of_blocks(document: &Document) -> Vec<String> {
     let blocks = document.get("/block").and_then(Value::as_array).into_iter().flatten();
     blocks.map(|b| b.get("name").and_then(Value::as_str).unwrap_or("").to_owned()).collect()
 }
@@ -244,7 +247,7 @@ fn n_uses(document: &Document, kind: &str) -> usize {
 }
 
 /// The settings with short names and wildcards written out, each for one object or block.
-pub fn whole_paths(
+pub(crate) fn whole_paths(
     settings: &[Override],
     scene: Option<&Document>,
     objects: &[String],
@@ -452,7 +455,8 @@ fn last_key(pointer: &str) -> &str {
     pointer.rsplit('/').find(|step| step.parse::<usize>().is_err()).unwrap_or("")
 }
 
-/// Applies those settings that are for `target`, in order; later ones win.
+/// Applies those of `settings` that are for the file `target` to its document, in order; later ones win. Returns one
+/// diagnostic for each setting that cannot be applied, as [`Override::apply`]; empty if all were.
 pub fn apply_all(document: &mut Document, target: Target, settings: &[Override]) -> Diagnostics {
     let mut diagnostics = Diagnostics::new();
     for setting in settings.iter().filter(|s| s.target() == target) {

@@ -10,17 +10,18 @@ use std::sync::Arc;
 
 pub use sincro_dynamics::model::Severity;
 
-/// A text that positions refer to: a file, or what stood after `--set`.
+/// Text that diagnostics refer to: that of a file, or the argument of `--set`.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SourceText {
-    /// The file as it is shown to the user.
+    /// Path of the file as it is shown to the user; `--set` and the like for other texts.
     pub path: PathBuf,
-    /// Its whole text.
+    /// Whole text.
     pub text: String,
 }
 
 impl SourceText {
-    /// Line and column of a byte, both counted from 1, columns in characters. A byte beyond the end is the end.
+    /// Returns line and column of the byte with index `byte`, both counted from 1, columns in characters. A byte beyond
+    /// the end stands for the end.
     #[must_use]
     pub fn line_column(&self, byte: usize) -> (usize, usize) {
         let mut byte = byte.min(self.text.len());
@@ -33,7 +34,7 @@ impl SourceText {
     }
 }
 
-/// A stretch of a text.
+/// Location in a text: a range of its bytes, which a diagnostic points at.
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -46,20 +47,20 @@ impl SourceText {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Location {
-    /// The text.
+    /// Text that the range lies in.
     pub source: Arc<SourceText>,
-    /// Bytes of it.
+    /// Range of bytes of the text, from 0, the end excluded.
     pub span: Range<usize>,
 }
 
 impl Location {
-    /// Line and column of its first character, counted from 1.
+    /// Returns line and column of the first character, both counted from 1.
     #[must_use]
     pub fn line_column(&self) -> (usize, usize) {
         self.source.line_column(self.span.start)
     }
 
-    /// Text that the location covers.
+    /// Returns the text that the location covers; empty if the range lies outside of the text.
     #[must_use]
     pub fn text(&self) -> &str {
         self.source.text.get(self.span.clone()).unwrap_or("")
@@ -73,16 +74,17 @@ impl fmt::Display for Location {
     }
 }
 
-/// A value and where it was written.
+/// Value together with the location at which the user wrote it, so that messages can point there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located<T> {
-    /// The value.
+    /// Value as it was read.
     pub value: T,
-    /// Location at which it was written.
+    /// Location of the value in its file.
     pub at: Location,
 }
 
-/// A finding about the user's files: severity, message, place, and help where there is some.
+/// Error or warning about the user's files: severity, message, location, and a remedy where one is known. Its text
+/// (`Display`) is `path:line:column: error: message` with a line `help:`.
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -93,20 +95,21 @@ pub struct Located<T> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Error or warning.
+    /// Severity: error or warning.
     pub severity: Severity,
-    /// The text it is about, none where there is no text (a folder that does not exist).
+    /// Text that it is about; `None` where there is no text, as for a folder that does not exist.
     pub source: Option<Arc<SourceText>>,
-    /// The bytes it is about, none where the whole text is meant.
+    /// Range of bytes that it is about; `None` where the whole text is meant.
     pub span: Option<Range<usize>>,
-    /// Message: lower case, names in backticks, the value as it was found.
+    /// Message: in lower case, names in backticks, with the value as it was found.
     pub message: String,
-    /// Advice on a correction, if there is any.
+    /// Remedy in English, if one is known.
     pub help: Option<String>,
 }
 
 impl Diagnostic {
-    /// An error at a place.
+    /// Creates an error with the message `message` (lower case, names in backticks) at a location in a file, without a
+    /// remedy.
     #[must_use]
     pub fn error(at: &Location, message: impl Into<String>) -> Self {
         Self {
@@ -118,32 +121,32 @@ impl Diagnostic {
         }
     }
 
-    /// An error that no text can be shown for.
+    /// Creates an error with the message `message` that belongs to no text, such as for a folder that does not exist.
     #[must_use]
     pub fn without_location(message: impl Into<String>) -> Self {
         Self { severity: Severity::Error, source: None, span: None, message: message.into(), help: None }
     }
 
-    /// The same as a warning.
+    /// Returns the same diagnostic as a warning, which does not keep a scene from running.
     #[must_use]
     pub fn as_warning(self) -> Self {
         Self { severity: Severity::Warning, ..self }
     }
 
-    /// The same with a way to mend it.
+    /// Returns the diagnostic with the remedy `help`, in place of an earlier one; it is shown behind `help:`.
     #[must_use]
     pub fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// Line and column of the first character it is about, counted from 1.
+    /// Returns line and column of the first character it is about, both counted from 1; `None` if it has no location.
     #[must_use]
     pub fn line_column(&self) -> Option<(usize, usize)> {
         let source = self.source.as_ref()?;
         Some(source.line_column(self.span.as_ref()?.start))
     }
 
-    /// Returns true if it is an error.
+    /// Returns true if the severity is error, false if it is warning.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
@@ -168,7 +171,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// All findings about the files of a scene.
+/// List of all errors and warnings about the files of a scene, which a reader returns at once and not one by one.
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -182,18 +185,18 @@ impl fmt::Display for Diagnostic {
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// Nothing found.
+    /// Creates an empty list, to which a reader adds what it finds.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a finding.
+    /// Appends an error or warning at the end of the list.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.0.push(diagnostic);
     }
 
-    /// Adds all of another's that are not among these already.
+    /// Appends the diagnostics of `other` that are not in this list yet.
     pub fn merge(&mut self, other: Self) {
         for diagnostic in other.0 {
             if !self.0.contains(&diagnostic) {
@@ -202,13 +205,13 @@ impl Diagnostics {
         }
     }
 
-    /// Returns true if there is an error among them.
+    /// Returns true if the list contains an error; warnings alone do not count.
     #[must_use]
     pub fn any_error(&self) -> bool {
         self.0.iter().any(Diagnostic::is_error)
     }
 
-    /// In the order of the texts, file by file in the order in which they were first met.
+    /// Returns the list ordered by location: file by file in the order in which they first occur, in each by position.
     #[must_use]
     pub fn sorted(mut self) -> Self {
         let mut files: Vec<Option<PathBuf>> = Vec::new();

@@ -16,7 +16,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
 /// A value of TOML that JSON cannot hold.
 #[derive(Clone, Debug, PartialEq)]
-pub enum NonJson {
+pub(crate) enum NonJson {
     /// `inf`, `-inf`, or a number too large.
     Infinite {
         /// Greater than zero.
@@ -30,32 +30,33 @@ pub enum NonJson {
     TooLarge,
 }
 
-/// Position of an entry in the text.
+/// Locations of an entry of a [`Document`] in its text.
 #[derive(Clone, Debug)]
 pub struct Place {
-    /// The key, none for elements of lists.
+    /// Location of the key; `None` for elements of lists.
     pub key: Option<Location>,
-    /// The value.
+    /// Location of the value.
     pub value: Location,
 }
 
-/// A parsed TOML text that knows the place of every key and value.
+/// Parsed TOML text as a JSON tree that knows the location of every key and value, so that settings can be written into
+/// it and messages point at the text. Entries are named by JSON pointers, such as `/joint/0/spring/stiffness`.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// The text.
+    /// Text that was parsed.
     pub source: Arc<SourceText>,
-    /// Its content; always a table.
+    /// Content as JSON; always an object. Values that JSON cannot hold (infinite, not a number, dates) are null.
     pub root: Value,
     places: BTreeMap<String, Place>,
     odd: BTreeMap<String, NonJson>,
 }
 
 impl Document {
-    /// Reads a TOML text.
+    /// Parses a TOML text.
     ///
     /// # Errors
     ///
-    /// Everything that is not TOML, with positions.
+    /// One error with its location for each place at which the text is no TOML.
     pub fn parse(source: &Arc<SourceText>) -> Result<Self, Diagnostics> {
         let (root, errors) = DeTable::parse_recoverable(&source.text);
         if !errors.is_empty() {
@@ -68,25 +69,26 @@ impl Document {
         Ok(Self { source: source.clone(), root: content, places: reader.places, odd: reader.odd })
     }
 
-    /// The value at a JSON pointer.
+    /// Returns the value at a JSON pointer such as `/joint/0/name`; `None` if there is none.
     #[must_use]
     pub fn get(&self, pointer: &str) -> Option<&Value> {
         self.root.pointer(pointer)
     }
 
-    /// The string at a JSON pointer.
+    /// Returns the string at a JSON pointer; `None` if there is no value or it is no string.
     #[must_use]
     pub fn text(&self, pointer: &str) -> Option<&str> {
         self.get(pointer)?.as_str()
     }
 
-    /// The string at a JSON pointer with its place.
+    /// Returns the string at a JSON pointer with its location; `None` if there is no value or it is no string.
     #[must_use]
     pub fn located(&self, pointer: &str) -> Option<Located<String>> {
         Some(Located { value: self.text(pointer)?.to_owned(), at: self.at(pointer) })
     }
 
-    /// Location of the value at a pointer; if it is absent, of the nearest value around it.
+    /// Returns the location of the value at a JSON pointer; if it is absent, that of the nearest table or list around
+    /// it.
     #[must_use]
     pub fn at(&self, pointer: &str) -> Location {
         let mut pointer = pointer;
@@ -100,7 +102,7 @@ impl Document {
 
     /// Location of the key at a pointer; of its value if it has no key.
     #[must_use]
-    pub fn key_at(&self, pointer: &str) -> Location {
+    pub(crate) fn key_at(&self, pointer: &str) -> Location {
         match self.places.get(pointer) {
             Some(Place { key: Some(key), .. }) => key.clone(),
             _ => self.at(pointer),
@@ -109,13 +111,13 @@ impl Document {
 
     /// Location that stands for a table: the value of its `name`, or its first line.
     #[must_use]
-    pub fn title_at(&self, pointer: &str) -> Location {
+    pub(crate) fn title_at(&self, pointer: &str) -> Location {
         self.places.get(&format!("{pointer}/name")).map_or_else(|| self.at(pointer), |place| place.value.clone())
     }
 
     /// Part of the value at a pointer that JSON cannot hold.
     #[must_use]
-    pub fn non_json(&self, pointer: &str) -> Option<&NonJson> {
+    pub(crate) fn non_json(&self, pointer: &str) -> Option<&NonJson> {
         self.odd.get(pointer)
     }
 
@@ -242,7 +244,7 @@ fn moved<T>(all: BTreeMap<String, T>, from: &str, to: &str) -> BTreeMap<String, 
     all.into_iter().map(|(key, value)| (place(key), value)).collect()
 }
 
-/// A key as a step of a JSON pointer.
+/// Escapes a key as a step of a JSON pointer: `~` becomes `~0` and `/` becomes `~1`.
 #[must_use]
 pub fn escape(key: &str) -> String {
     key.replace('~', "~0").replace('/', "~1")
@@ -250,7 +252,7 @@ pub fn escape(key: &str) -> String {
 
 /// A step of a JSON pointer as a key.
 #[must_use]
-pub fn unescape(step: &str) -> String {
+pub(crate) fn unescape(step: &str) -> String {
     step.replace("~1", "/").replace("~0", "~")
 }
 

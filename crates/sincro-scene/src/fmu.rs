@@ -8,66 +8,69 @@ use std::sync::Arc;
 
 use crate::script::ScriptParser;
 
-/// Parts of the program that know what this crate does not: the language of scripts, FMUs.
+/// Loaders of foreign formats that a program gives to [`crate::open::open`]: scripts and FMUs, which this crate cannot
+/// read itself. The default has none; scenes that need one are then refused.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Loaders {
-    /// Parser of the language of scripts.
+    /// Parser of the scripting language.
     pub scripts: Option<&'static dyn ScriptParser>,
     /// Loader of FMUs.
     pub fmus: Option<&'static dyn FmuLoader>,
 }
 
-/// Loader of FMUs for blocks of diagrams, given to the scene from above.
+/// Loader of FMUs (functional mock-up units) for blocks of diagrams; implemented by an adapter such as `sincro-fmu`.
 pub trait FmuLoader: Send + Sync + fmt::Debug {
-    /// Reads an FMU; none of its code runs yet.
+    /// Reads an FMU from the bytes of its file (a zip archive); none of its code runs yet.
     ///
     /// # Errors
     ///
-    /// The reason for which it cannot be used, in words.
+    /// A message in English: the reason for which the FMU cannot be used.
     fn read(&self, bytes: &[u8]) -> Result<Arc<dyn FmuModel>, String>;
 }
 
-/// An FMU that was read.
+/// FMU that was read: its description, from which instances are made.
 pub trait FmuModel: Send + Sync + fmt::Debug {
-    /// Name of the model.
+    /// Returns the name of the model.
     fn name(&self) -> &str;
 
-    /// Variables that are numbers: name, causality (`input`, `output`, `parameter` …) and unit, if one is given.
+    /// Returns the variables that are numbers: name, causality (`input`, `output`, `parameter` …) and unit as text, if
+    /// one is given. Their indices in this list name them in all other calls.
     fn variables(&self) -> Vec<(&str, &str, Option<&str>)>;
 
-    /// True if an output may depend on an input at the same instant.
+    /// Returns true if an output may depend on an input at the same instant (direct feedthrough).
     fn has_feedthrough(&self) -> bool;
 
-    /// Makes an instance at time `t` `[s]` with values of parameters; variables go by their places among
-    /// [`FmuModel::variables`].
+    /// Creates an instance that starts at time `t` `[s]`; `parameters` holds pairs of a variable's index in
+    /// [`FmuModel::variables`] and its value, in the unit of the variable.
     ///
     /// # Errors
     ///
-    /// The FMU refuses, or its library cannot be loaded.
+    /// A message in English: the FMU refuses, or its library cannot be loaded.
     fn instantiate(&self, t: f64, parameters: &[(usize, f64)]) -> Result<Box<dyn FmuInstance>, String>;
 }
 
-/// An instance of an FMU.
+/// Instance of an FMU in co-simulation, with its own state; made by [`FmuModel::instantiate`].
 pub trait FmuInstance: Send + fmt::Debug {
-    /// Sets variables by their places in [`FmuModel::variables`], one value for each, in the units of the description.
+    /// Sets variables: `places` holds their indices in [`FmuModel::variables`], `values` one value for each, in the
+    /// units of the variables.
     ///
     /// # Errors
     ///
-    /// The call fails.
+    /// A message in English if the FMU reports a failure.
     fn set(&mut self, places: &[usize], values: &[f64]) -> Result<(), String>;
 
-    /// Reads variables by their places in [`FmuModel::variables`] into `values`, one for each, in the units of the
-    /// description.
+    /// Reads variables: `places` holds their indices in [`FmuModel::variables`]; `values`, of the same length, receives
+    /// the value of each, in the units of the variables.
     ///
     /// # Errors
     ///
-    /// The call fails.
+    /// A message in English if the FMU reports a failure.
     fn get(&mut self, places: &[usize], values: &mut [f64]) -> Result<(), String>;
 
-    /// Makes a communication step from `t` by `h` `[s]`.
+    /// Makes a communication step from time `t` `[s]` of length `h` `[s]`.
     ///
     /// # Errors
     ///
-    /// The call fails, or the FMU ended the simulation.
+    /// A message in English if the FMU reports a failure or ended the simulation.
     fn step(&mut self, t: f64, h: f64) -> Result<(), String>;
 }

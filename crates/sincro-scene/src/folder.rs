@@ -11,7 +11,8 @@ use crate::suggest;
 /// Largest file that is read [bytes]: whatever is larger is not a scene, and would be read into memory whole.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// A folder whose files are read once at most: variants and points of a sweep share what was read.
+/// Folder of a scene with a cache of its files: each is read once, and variants and points of a sweep share what was
+/// read. Shared between threads by `Arc`.
 #[derive(Debug, Default)]
 pub struct Folder {
     path: PathBuf,
@@ -48,22 +49,31 @@ impl<T> Cache<T> {
 }
 
 impl Folder {
-    /// The folder at `path`; nothing is read yet.
+    /// Creates the cache of the folder at `path`; nothing is read yet.
     pub fn new(path: &Path) -> Self {
         Self { path: path.to_owned(), ..Self::default() }
     }
 
-    /// Path of a file of the folder as it is shown.
+    /// Returns the path of the file `name` of the folder, as it is shown to the user; the file need not exist.
     pub fn path_of(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 
-    /// Text of a file of the folder that is named nowhere in a file.
+    /// Returns the text of the file `name` of the folder, read at the first call.
+    ///
+    /// # Errors
+    ///
+    /// A diagnostic without location: the file does not exist, cannot be read, is larger than 64 MiB or is not UTF-8.
     pub fn read(&self, name: &str) -> Result<Arc<SourceText>, Diagnostic> {
         self.text(name).map_err(Diagnostic::without_location)
     }
 
-    /// Text of a file that is named in a file, there where it is named.
+    /// Returns the text of a file whose name, relative to the folder, was written in another file.
+    ///
+    /// # Errors
+    ///
+    /// A diagnostic at the name, with similar files as remedy: the path is absolute, or the file cannot be read as in
+    /// [`Folder::read`].
     pub fn read_named(&self, name: &Located<String>) -> Result<Arc<SourceText>, Diagnostic> {
         self.named(name, |path| self.text(path))
     }
@@ -84,7 +94,7 @@ impl Folder {
     }
 
     /// Bytes of a file that is named in a file, whatever is in it.
-    pub fn bytes_named(&self, name: &Located<String>) -> Result<Arc<Vec<u8>>, Diagnostic> {
+    pub(crate) fn bytes_named(&self, name: &Located<String>) -> Result<Arc<Vec<u8>>, Diagnostic> {
         self.named(name, |path| self.bytes.get(&self.path_of(path), read_bytes))
     }
 
@@ -93,7 +103,7 @@ impl Folder {
         self.bytes.get(&self.path_of(name), read_bytes)
     }
 
-    /// Every file read so far, texts and others: its path and its bytes.
+    /// Returns every file read so far, its path and its bytes: texts, then other files, each ordered by path.
     pub fn files(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let texts = self.texts.all();
         let texts = texts.iter().map(|(path, source)| (path.clone(), source.text.clone().into_bytes()));
@@ -101,12 +111,12 @@ impl Folder {
         texts.chain(bytes.iter().map(|(path, bytes)| (path.clone(), (**bytes).clone()))).collect()
     }
 
-    /// Path of the folder itself.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Every text file read so far.
+    /// Returns every text file read so far, ordered by path.
     pub fn sources(&self) -> Vec<Arc<SourceText>> {
         self.texts.all().values().cloned().collect()
     }

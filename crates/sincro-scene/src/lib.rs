@@ -38,7 +38,7 @@
 //!
 //! | modules | hold |
 //! |---|---|
-//! | [`diagnostic`], [`document`], [`folder`], [`tree`], [`series`], [`suggest`] | findings with their place, parsed TOML with its spans, files of a folder, paths of objects, columns of CSV files, near names |
+//! | [`diagnostic`], [`document`], [`folder`], [`tree`], [`suggest`] | findings with their place, parsed TOML with its spans, files of a folder, paths of objects, near names |
 //! | [`schema`] | JSON Schemas from the types, and the checker that walks a file against them |
 //! | [`overrides`], [`apply_overrides`] | settings (`--set`, variants), and where they are written |
 //! | [`script`], [`fmu`], [`sensor`], [`scenery`], [`camera`] | parts of a scene: scripts, FMUs, sensors, visible pieces, rendered pictures |
@@ -66,7 +66,7 @@ pub mod scenery;
 pub mod schema;
 pub mod script;
 pub mod sensor;
-pub mod series;
+pub(crate) mod series;
 pub mod suggest;
 pub mod tree;
 mod vocabulary;

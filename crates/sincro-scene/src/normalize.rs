@@ -24,7 +24,7 @@ use crate::schema::{FORMAT, alternatives, property};
 use crate::suggest;
 use crate::vocabulary;
 
-/// Values of parameters by their names.
+/// Parameters of an experiment, for formulas in its files: name and value.
 pub type Parameters = BTreeMap<String, f64>;
 
 /// Units that a key can carry as a suffix: suffix, unit of the key without it, factor.
@@ -52,12 +52,13 @@ pub(crate) fn normalize(document: &mut Document, schema: &Value, parameters: &Pa
     walker.diagnostics
 }
 
-/// The text of a file in the present format: other names of keys and words replaced by those of the schema, `format`
-/// at its head. Comments, spaces and all else stay.
+/// Converts the text of a file to the present format: outdated names of keys and words are replaced by those of
+/// `schema`, and `format` stands at its head. Comments, spaces and all else stay. `schema` is the one of that kind of
+/// file, such as [`scene_schema`](crate::scene::scene_schema).
 ///
 /// # Errors
 ///
-/// The text is no TOML, or is of a newer format.
+/// Diagnostics at their places: the text is no TOML, or is of a newer format.
 pub fn convert(source: &Arc<SourceText>, schema: &Value) -> Result<String, Diagnostics> {
     let mut document = Document::parse(source)?;
     if let Some(newer) = newer_format(&document) {

@@ -19,28 +19,29 @@ use crate::open::read_documents;
 use crate::overrides::Override;
 use crate::tree::{KINDS, raw_objects};
 
-/// A number that a setting reaches.
+/// Number in the files of a scene that a setting can change, for sensitivity studies and mutation tests; found by
+/// [`numbers`].
 #[derive(Clone, Debug)]
 pub struct Quantity {
-    /// Path, as for `--set`.
+    /// Path of the number, as for `--set`.
     pub path: String,
-    /// Value as it stands in the file: a number, or a formula in a diagram.
+    /// Value as it stands in the file, in the unit of its key.
     pub value: Value,
-    /// Its place; of a default that of the definition.
+    /// Location of the value; for the default of a block that of the block.
     pub at: Location,
 }
 
-/// Value of a [`Quantity`].
+/// Value of a [`Quantity`] as it is written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A number.
+    /// Plain number.
     Number(f64),
-    /// A formula with a number in it.
+    /// Formula of the parameters, in a diagram.
     Formula(String),
 }
 
 impl Quantity {
-    /// The setting that multiplies the number by `factor` (dimensionless).
+    /// Returns the setting that multiplies the number by `factor` (dimensionless).
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Override {
         let value = match &self.value {
@@ -54,11 +55,12 @@ impl Quantity {
 /// Keys of a scene file that are no quantities of the scene.
 const NO_QUANTITIES: [&str; 6] = ["format", "parameters", "instance", "default", "include", "script"];
 
-/// All numbers of a scene folder under `overrides`, in the order of scene, diagram, parameters.
+/// Returns all numbers of a scene folder with the settings `overrides` applied, in the order of scene, diagram,
+/// parameters. Sizes, sample times, settings of the method, checks, plots and cameras are left out.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the files and the settings.
+/// All findings about the files and the settings, each at its place.
 pub fn numbers(folder: &Arc<Folder>, overrides: &[Override]) -> Result<Vec<Quantity>, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let documents = read_documents(folder, overrides, &mut diagnostics)?;

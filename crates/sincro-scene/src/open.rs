@@ -28,7 +28,7 @@ const EXPERIMENT: &str = "experiment.toml";
 /// Numbers that a recording may have: 800 MB.
 const MAX_NUMBERS: u64 = 100_000_000;
 
-/// A scene folder that was opened: its experiment and its scene, ready to run.
+/// Scene folder that was opened: experiment, scene and diagram, ready to run; result of [`open`].
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -44,27 +44,27 @@ const MAX_NUMBERS: u64 = 100_000_000;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// The experiment: signals, checks, settings.
+    /// Experiment: times, recorded signals, checks, variants.
     pub experiment: Experiment,
-    /// The compiled scene.
+    /// Compiled scene with its model.
     pub scene: Scene,
-    /// The diagram that controls it, if there is one.
+    /// Block diagram that controls the scene, if there is one.
     pub controller: Option<ControlDiagram>,
-    /// Warnings for the user.
+    /// Warnings about the files, in their order; errors would have been refused.
     pub warnings: Vec<Diagnostic>,
-    /// Every text file that was read: what a hash of the inputs covers.
+    /// Every text file that was read, for a hash of the inputs.
     pub sources: Vec<Arc<SourceText>>,
-    /// The folder with what was read of it, to be opened again by [`open_in`].
+    /// Cache of the folder's files, for [`open_in`].
     pub folder: Arc<Folder>,
 }
 
-/// Opens a scene folder, or its `experiment.toml`, with settings that win over the files; `with_others` opens its
-/// variants and sweep, too, so that what is wrong with their settings is known before anything runs. `loaders`
-/// know the language of its scripts and FMUs.
+/// Opens a scene folder, or its `experiment.toml`, with the settings `overrides`, which win over the files (later ones
+/// over earlier ones). `loaders` read scripts and FMUs. With `with_others` its variants and the first and last point of
+/// its sweep are opened on trial, too, so that errors in their settings show before anything runs.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
+/// All findings about the files and the settings, warnings included, in the order of the files.
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -84,7 +84,7 @@ pub fn open(folder: &Path, overrides: &[Override], loaders: Loaders, with_others
     open_in(&Arc::new(Folder::new(&find_folder(folder)?)), overrides, loaders, with_others)
 }
 
-/// As [`open`], of a folder whose files are not read again if they were read before.
+/// As [`open`], of a folder whose files are cached: those that were read before are not read again.
 ///
 /// # Errors
 ///
@@ -114,7 +114,8 @@ pub fn open_in(
     Ok(Opened { warnings: diagnostics.sorted().0, sources: folder.sources(), ..loaded })
 }
 
-/// Name of a scene: that of its folder.
+/// Returns the name of a scene, that of its folder; `path` is the folder or its `experiment.toml`. `scene` if the path
+/// has no name.
 #[must_use]
 pub fn folder_name(path: &Path) -> String {
     let folder =
@@ -123,8 +124,8 @@ pub fn folder_name(path: &Path) -> String {
     whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Settings from outside with those of a variant, which win. What is set in blocks belongs to the diagram that it was
-/// said for: a variant that exchanges the diagram does not take it.
+/// Returns the settings `overrides` followed by those of a variant, which win. Settings of blocks belong to the diagram
+/// that they were given for: they are left out if the variant replaces the diagram.
 ///
 /// ```
 /// use sincro_scene::prelude::*;

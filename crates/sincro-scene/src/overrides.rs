@@ -14,17 +14,18 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Located, Location, SourceText};
 
-/// A setting `PATH=VALUE` that changes a value of the scene's files before they are read.
+/// Setting `PATH=VALUE` that changes a value of the scene's files before they are read, as `--set` takes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Override {
-    /// Path of the number that is set.
+    /// Path of the value, such as `/arm.mass` (scene), `duration` (experiment) or `controller.gain` (diagram).
     pub path: Located<String>,
-    /// To what: TOML, or a bare word.
+    /// New value as text: TOML, or a bare word that stands for a string; numbers in the unit of the key.
     pub value: Located<String>,
 }
 
 impl Override {
-    /// `value` (TOML, or a bare word as a string) at `path`.
+    /// Creates the setting of `value` (TOML, or a bare word as a string) at `path`; neither is checked before it is
+    /// applied.
     #[must_use]
     pub fn new(path: &str, value: &str) -> Self {
         let text = format!("{path}={value}");
@@ -36,11 +37,11 @@ impl Override {
         Self { path: part(0, path), value: part(path.len() + 1, value) }
     }
 
-    /// From what stands after `--set`.
+    /// Parses an argument of `--set`, `PATH=VALUE`.
     ///
     /// # Errors
     ///
-    /// If there is no `=`, or nothing before or after it.
+    /// A diagnostic if there is no `=`, or nothing before or after it.
     ///
     /// ```
     /// use sincro_scene::overrides::Override;

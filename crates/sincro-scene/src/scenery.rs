@@ -8,27 +8,29 @@ use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::Pose;
 
-/// A solid or surface where it hangs.
+/// Piece of the visible geometry of a scene: one solid or surface with its frame and colour, for images, distances and
+/// the viewer.
 #[derive(Clone, Debug)]
 pub struct Piece {
-    /// Index of its body among the objects of the scene.
+    /// Index of its object among the objects of the scene.
     pub object: usize,
-    /// Link or world frame to which its frame is fixed.
+    /// Link (or the world) that carries the piece, and its pose there `[m]`.
     pub at: Attached<f64>,
-    /// Its kind.
+    /// Geometry in the piece's own frame `[m]`.
     pub geometry: Arc<Geometry>,
-    /// Red, green, blue.
+    /// Colour: red, green, blue, 0 to 255.
     pub color: [u8; 3],
 }
 
-/// All pieces of a scene.
+/// Visible geometry of a scene; see [`Scene::scenery`](crate::scene::Scene::scenery).
 #[derive(Clone, Debug, Default)]
 pub struct Scenery {
-    /// In the order of the objects.
+    /// Pieces, in the order of the objects that they belong to.
     pub pieces: Vec<Piece>,
 }
 
-/// Pieces with their poses in the world `[m]`, after `scratch` has the poses of the links.
+/// Returns each piece with its pose in the world `[m]`, in the order of `pieces`. `scratch` must hold the poses of the
+/// links ([`kinematics::poses`]).
 pub fn placed<'a>(
     pieces: impl Iterator<Item = &'a Piece>,
     scratch: &Scratch<f64>,

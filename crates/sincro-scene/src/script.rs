@@ -8,45 +8,46 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Location, SourceText};
 
-/// A script as a scene has it.
+/// Script of a scene: its text, its settings and the object that it belongs to; run by a script engine such as
+/// `sincro-lua`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Script {
-    /// Index among the scene's objects.
+    /// Index of the object that it belongs to among the scene's objects.
     pub object: usize,
     /// Path of that object.
     pub path: String,
-    /// The text that positions refer to: the script's own file, or the scene file that it stands in.
+    /// Text that locations refer to: the script's own file, or the scene file that contains it.
     pub source: Arc<SourceText>,
-    /// The script's text: all of the source, or the text of its key.
+    /// Text of the script: the whole source, or the text of its key in the scene file.
     pub text: String,
-    /// Lines of the source before the text.
+    /// Number of lines of the source before the script's text.
     pub lines_before: usize,
-    /// Numbers and texts that are stored with it.
+    /// Parameters stored with it: name and value.
     pub parameters: Vec<(String, Parameter)>,
-    /// Files that it may read, by their names in the scene; their texts as they were when it was loaded.
+    /// Files that it may read: name in the scene, and text as it was when the scene was loaded.
     pub files: Vec<(String, Arc<SourceText>)>,
-    /// Calling convention.
+    /// Calling convention of its text.
     pub style: Style,
-    /// Order among the scripts of one object.
+    /// Kind, which gives the order among the scripts of one object.
     pub kind: Kind,
-    /// True if an old script is a thread of its own.
+    /// True if a script of the old style runs as a thread of its own.
     pub is_threaded: bool,
-    /// Memory that it may take `[bytes]`.
+    /// Upper limit of its memory, in bytes.
     pub max_memory: usize,
-    /// Instructions that one call may take.
+    /// Upper limit of the instructions of one call.
     pub max_instructions: u64,
-    /// Its entry in the scene file.
+    /// Location of its entry in the scene file.
     pub at: Location,
 }
 
-/// Parameter stored with a script.
+/// Value of a parameter that is stored with a script.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Parameter {
-    /// A number.
+    /// Number, without a unit of its own.
     Number(f64),
-    /// True or false.
+    /// Truth value.
     Flag(bool),
-    /// A text.
+    /// String.
     Text(String),
 }
 
@@ -61,41 +62,41 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// Calling convention of a script.
+/// Calling convention of a script, of two generations of CoppeliaSim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// As its text tells: `New` if it has a function `sysCall_…` after its first run, else `Old`.
+    /// Detected by its text: `New` if it has a function `sysCall_…` after its first run, else `Old`.
     Detect,
-    /// The whole text is run again for every call, with `sim_call_type` set.
+    /// The whole text runs again for every call, with `sim_call_type` set.
     Old,
-    /// Functions `sysCall_init`, `sysCall_actuation` …
+    /// Callback functions `sysCall_init`, `sysCall_actuation` and so on.
     New,
 }
 
-/// Kinds of scripts, in the order in which those of one place are called.
+/// Kind of a script; scripts of one object are called in the order of the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// Belongs to the simulation.
+    /// Child script, part of the simulation: it runs while a simulation runs.
     Child,
-    /// Belongs to the model.
+    /// Customization script, part of the model: it also runs outside of simulations.
     Customization,
 }
 
-/// Error of a script: it cannot go on.
+/// Error of a script or controller that ends its run: where and why. Its text (`Display`) is a message for the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptError {
-    /// Path of its object.
+    /// Path of the object that the script belongs to, or name of the controller.
     pub object: String,
-    /// The line of its text.
+    /// Location of the line in the script's text, if it is known.
     pub at: Option<Location>,
-    /// Message.
+    /// Message in English.
     pub message: String,
-    /// Advice on a correction, if there is any.
+    /// Remedy in English, if one is known.
     pub help: Option<String>,
 }
 
 impl ScriptError {
-    /// The error as a finding in the script's text.
+    /// Returns the error as a diagnostic: at its line if that is known, with the path of the object in the message.
     #[must_use]
     pub fn diagnostic(&self) -> Diagnostic {
         let message = format!("script of `{}`: {}", self.object, self.message);
@@ -121,38 +122,42 @@ impl fmt::Display for ScriptError {
     }
 }
 
-/// A law in a script's language, for a block of a diagram.
+/// Specification of a control law written in a scripting language, for a block of a diagram; [`ScriptParser::law`]
+/// compiles it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScriptedLawSpec {
-    /// Its text.
+    /// Text with the function `output` and, with memory, `update`.
     pub code: String,
-    /// Names of its inputs.
+    /// Names of the inputs, in the order of the block's ports.
     pub inputs: Vec<String>,
-    /// Names and widths of its outputs.
+    /// Names and widths (numbers of components) of the outputs, in the order of the block's ports.
     pub outputs: Vec<(String, usize)>,
-    /// Names of the numbers that it keeps.
+    /// Names of the memory's numbers, in their order.
     pub memory: Vec<String>,
-    /// Numbers that it knows by name.
+    /// Constants: name and value.
     pub parameters: Vec<(String, f64)>,
 }
 
-/// A law in memory. It keeps nothing between calls but what it is given.
+/// Compiled control law in a scripting language. It is a function of time, inputs and memory, and keeps nothing between
+/// calls; the diagram keeps the memory.
 pub trait ScriptedLaw: Send + Sync + fmt::Debug {
-    /// Outputs, one after the other, at time `t` `[s]`.
+    /// Computes the outputs at time `t` `[s]`: `inputs` holds the components of each input, `memory` one number per
+    /// name, `y` receives the components of all outputs one after the other, all in the order of the
+    /// [`ScriptedLawSpec`].
     ///
     /// # Errors
     ///
-    /// The law failed: where and why.
+    /// A message in English with line and cause, if the law fails or a result has another width.
     fn output(&mut self, t: f64, inputs: &[Vec<f64>], memory: &[f64], y: &mut [f64]) -> Result<(), String>;
 
-    /// Computes the memory for the next tick at time `t` `[s]`; `inputs` holds the components of each input.
+    /// Replaces `memory` by that of the next tick, at time `t` `[s]`; arguments as in [`ScriptedLaw::output`].
     ///
     /// # Errors
     ///
-    /// The law failed: where and why.
+    /// A message in English with line and cause, if the law fails.
     fn update(&mut self, t: f64, inputs: &[Vec<f64>], memory: &mut [f64]) -> Result<(), String>;
 
-    /// Another one of the same.
+    /// Returns an independent copy of the law, for another run.
     fn boxed_clone(&self) -> Box<dyn ScriptedLaw>;
 }
 
@@ -162,7 +167,8 @@ impl Clone for Box<dyn ScriptedLaw> {
     }
 }
 
-/// Parser of the language of scripts: looks texts over when a scene is loaded.
+/// Parser of the scripting language, which checks scripts and compiles laws when a scene is loaded; given to it as
+/// [`Loaders::scripts`](crate::fmu::Loaders::scripts).
 ///
 /// ```
 /// use sincro_scene::fmu::Loaders;
@@ -192,17 +198,17 @@ impl Clone for Box<dyn ScriptedLaw> {
 /// # }
 /// ```
 pub trait ScriptParser: Send + Sync + fmt::Debug {
-    /// Checks the syntax of a script before anything runs.
+    /// Checks the syntax of a script; nothing runs.
     ///
     /// # Errors
     ///
-    /// The first fault of the text.
+    /// The first syntax error with its location.
     fn check(&self, script: &Script) -> Result<(), ScriptError>;
 
-    /// Compiles the text of a law for a block of a diagram.
+    /// Compiles a control law for a block of a diagram.
     ///
     /// # Errors
     ///
-    /// The first fault of the text, in words.
+    /// A message in English with the first error of the text.
     fn law(&self, spec: &ScriptedLawSpec) -> Result<Box<dyn ScriptedLaw>, String>;
 }

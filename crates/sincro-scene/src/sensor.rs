@@ -23,7 +23,7 @@ use sincro_dynamics::model::{Model, SensorInfo};
 
 use crate::diagnostic::Located;
 
-/// A sensor as the scene has it.
+/// Sensor of a scene: kind of measurement, errors, sample time.
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -40,15 +40,16 @@ use crate::diagnostic::Located;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SensorSpec {
-    /// Its path; a frame of the model has the same.
+    /// Path of the sensor; the frame of the model with the same name is its pose.
     pub path: String,
-    /// Kind of measurement.
+    /// Kind of measurement, with its errors.
     pub kind: SensorKind,
-    /// Time between two samples `[s]`; none: every base step.
+    /// Sample time `[s]`; `None`: it samples at every base step.
     pub sample_time: Option<Located<f64>>,
-    /// Path of the body whose contacts a contact sensor feels, or of what carries a proximity sensor; empty for others.
+    /// Path of the body whose contacts a contact sensor measures, or of the object that carries a proximity sensor;
+    /// empty for others.
     pub of: String,
-    /// Paths of the bodies whose touch it feels, or that it sees; empty: of all.
+    /// Paths of the bodies that a contact sensor feels or a proximity sensor sees; empty: all.
     pub with: Vec<Located<String>>,
 }
 
@@ -64,65 +65,67 @@ pub struct SensorSpec {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensorKind {
-    /// Specific force and angular velocity, own axes.
+    /// Inertial measurement unit: specific force and angular velocity in the sensor's axes.
     Imu {
-        /// [m/s²]; its noise is a density [m/s²/√Hz].
+        /// Errors of the specific force: bias `[m/s²]`, noise density `[m/s²/√Hz]`.
         accelerometer: Errors,
-        /// [rad/s]; its noise is a density [rad/s/√Hz].
+        /// Errors of the angular velocity: bias `[rad/s]`, noise density `[rad/s/√Hz]`.
         gyro: Errors,
     },
-    /// Position and attitude in the world.
+    /// Position and orientation of the sensor's frame in the world.
     Pose {
-        /// Standard deviation of each coordinate `[m]`.
+        /// Standard deviation of the noise of each coordinate `[m]`.
         position_noise: f64,
-        /// Standard deviation of a small turn about each axis `[rad]`.
+        /// Standard deviation of the noise, a small rotation about each axis `[rad]`.
         angle_noise: f64,
     },
-    /// Velocity of its origin, world axes.
+    /// Velocity of the sensor's origin in world axes.
     Velocity {
-        /// Standard deviation of each component [m/s].
+        /// Standard deviation of the noise of each component `[m/s]`.
         noise: f64,
     },
-    /// Height over z = 0.
+    /// Height of the sensor's origin above the world's plane z = 0.
     Height {
-        /// Added `[m]`.
+        /// Constant error `[m]`.
         bias: f64,
-        /// Standard deviation `[m]`.
+        /// Standard deviation of the noise `[m]`.
         noise: f64,
     },
-    /// Force and torque of what touches its body, own axes, about its origin.
+    /// Sum of the contact forces on its body and their torque about the sensor's origin, in the sensor's axes.
     Contact {
-        /// Standard deviation of each component of the force `[N]`.
+        /// Standard deviation of the noise of each component of the force `[N]`.
         force_noise: f64,
-        /// Standard deviation of each component of the torque [N·m].
+        /// Standard deviation of the noise of each component of the torque `[N·m]`.
         torque_noise: f64,
         /// Normal force of a point below which it does not count as touching `[N]`.
         threshold: f64,
     },
-    /// The closest point of other bodies inside a volume.
+    /// Proximity sensor: the nearest point of other bodies inside a volume along the sensor's z.
     Proximity {
-        /// Volume of detection.
+        /// Shape of the volume of detection.
         volume: Volume,
-        /// Offset of the volume along z `[m]`.
+        /// Distance from the sensor's origin along z at which the volume begins `[m]`.
         offset: f64,
         /// Length of the volume from there `[m]`.
         range: f64,
-        /// Standard deviation of the distance `[m]`.
+        /// Standard deviation of the noise of the distance `[m]`.
         noise: f64,
     },
 }
 
-/// Errors of three components.
+/// Errors of a measured vector of three components, constant bias and noise, in its unit: of an IMU `[m/s²]` or
+/// `[rad/s]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Added to every sample.
+    /// Constant error of each component, x, y, z in the sensor's axes, in the unit of the vector.
     pub bias: [f64; 3],
-    /// Standard deviation of their noise.
+    /// Noise of each component: of an IMU density in the unit of the vector per `√Hz`, else standard deviation in that
+    /// unit.
     pub noise: f64,
 }
 
 impl SensorKind {
-    /// Field of view of a proximity sensor; none for others.
+    /// Returns the field of view of a proximity sensor; `None` for other kinds.
     #[must_use]
     pub fn field(self) -> Option<FieldOfView> {
         match self {
@@ -131,7 +134,8 @@ impl SensorKind {
         }
     }
 
-    /// Names of its values after its path, each with its unit, in the order in which they are kept.
+    /// Returns names and units of the sensor's values, in the order in which they are kept; the recorded signal is the
+    /// sensor's path, `.` and the name.
     #[must_use]
     pub fn values(self) -> Vec<(&'static str, &'static str)> {
         match self {
@@ -192,7 +196,8 @@ pub(crate) fn register(model: &mut Model<f64>, specs: &[SensorSpec]) {
     model.set_sensors(specs.iter().map(info).collect());
 }
 
-/// Base steps between two samples; none if the sample time is no whole number of steps of `step` `[s]`.
+/// Returns the number of base steps between two samples of a sensor; `step` is the base step `[s]`. `None` if the
+/// sample time is no whole number of steps.
 #[must_use]
 pub fn every(spec: &SensorSpec, step: f64) -> Option<u64> {
     let Some(sample_time) = &spec.sample_time else { return Some(1) };

@@ -5,9 +5,8 @@ pub use sincro_blocks::suggest::nearest;
 /// Number of known names that are listed.
 const LISTED: usize = 8;
 
-/// A help line: the nearest name if there is one, and a few known ones, nearest first.
-///
-/// `what` names the whole set, such as `keys here` or `columns`.
+/// Returns the help line of a message about the unknown name `name`: the nearest of the names `known` if one is
+/// similar, and up to eight of them, nearest first. `what` names the whole set, such as `keys here` or `columns`.
 #[must_use]
 pub fn help(name: &str, known: &[&str], what: &str) -> String {
     let list = listing(name, known);

@@ -4,20 +4,20 @@ use serde_json::Value;
 
 use crate::document::Document;
 
-/// The lists of a scene file that hold objects.
+/// Keys of the lists of a scene file that hold objects, in the order in which they are read.
 pub const KINDS: [&str; 11] =
     ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera", "closure", "coupling", "spring_damper"];
 
-/// An object as the file has it.
+/// Object of a scene file by path and place, before it is validated; found by [`raw_objects`].
 #[derive(Clone, Debug)]
 pub struct RawObject {
-    /// Parent's path, `/` and name.
+    /// Path: that of the parent, `/`, and the name.
     pub path: String,
-    /// Its table, such as `/joint/0`.
+    /// JSON pointer of its table in the document, such as `/joint/0`.
     pub pointer: String,
 }
 
-/// Every object that has a name, in the order of the lists.
+/// Returns every object of a scene file that has a name, in the order of [`KINDS`] and of the lists.
 pub fn raw_objects(document: &Document) -> Vec<RawObject> {
     let mut found = Vec::new();
     for kind in KINDS {
@@ -32,6 +32,6 @@ pub fn raw_objects(document: &Document) -> Vec<RawObject> {
 }
 
 /// Path of the child `name` of `parent`.
-pub fn join(parent: &str, name: &str) -> String {
+pub(crate) fn join(parent: &str, name: &str) -> String {
     format!("{}/{name}", parent.trim_end_matches('/'))
 }

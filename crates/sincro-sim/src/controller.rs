@@ -15,7 +15,7 @@ use crate::proximity::Detection;
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::ScriptError;
 
-/// Instant of a step, with the world at that instant.
+/// Instant of a step at which a controller is called, with the world at that instant.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -37,52 +37,53 @@ use sincro_scene::script::ScriptError;
 /// ```
 #[derive(Debug)]
 pub struct Instant<'a> {
-    /// The world.
+    /// World that is controlled; its state is that of time `t`.
     pub world: &'a mut World,
-    /// Base steps done.
+    /// Number of base steps done since the start.
     pub tick: u64,
-    /// Time `[s]`.
+    /// Simulated time `[s]`, `tick` times the base step.
     pub t: f64,
 }
 
-/// A message of a controller, kept with the run.
+/// Message of a controller or script to the user, kept with the results of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Message {
-    /// Time of the message `[s]`.
+    /// Simulated time of the message `[s]`.
     pub t: f64,
-    /// Path of the object that speaks, or the name of the controller.
+    /// Path of the object whose script speaks, or name of the controller.
     pub object: String,
     /// Text of the message.
     pub text: String,
 }
 
-/// A number of the model that a controller has changed.
+/// Change of a number of the model by a controller or client during a run, recorded with the results so that they can
+/// be interpreted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// From when on `[s]`; 0 also for what was changed before the run.
+    /// Simulated time from which the change holds `[s]`; 0 also for changes before the run.
     pub t: f64,
     /// Path of the object; `/` for the world.
     pub object: String,
-    /// Which number: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits` (lower, upper), `coupling`
-    /// (ratio, offset), `respondable`, `gravity`.
+    /// Name of the quantity, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz),
+    /// `limits` (lower, upper), `coupling` (ratio, offset), `respondable`, `gravity`.
     pub quantity: &'static str,
-    /// The new numbers, in the units of the scene file.
+    /// New numbers, as many as the quantity has, in the units of the scene file.
     pub value: Vec<f64>,
 }
 
-/// Source of a command. A stronger one wins: the scene's signals are the weakest, then the diagram, then controllers in
-/// the order in which they were attached.
+/// Source of a command. Of several that set the same command the strongest wins: signals of the scene are the weakest,
+/// then the diagram, then controllers in the order in which they were attached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// A signal of the scene file.
+    /// Signal of the scene file.
     Scene,
-    /// The block diagram.
+    /// Block diagram of the scene.
     Diagram,
-    /// A controller, by its place among those that were attached.
+    /// Controller, by its index among those attached, from 0.
     Controller(usize),
 }
 
-/// The commands of one instant, each with its source.
+/// Commands of all actuators at one instant, each with its source, which a controller sets in [`Controller::latch`].
 ///
 /// ```
 /// use sincro_sim::controller::Source;
@@ -103,20 +104,24 @@ pub struct Commands<'a> {
 }
 
 impl<'a> Commands<'a> {
-    /// Commands of a world in the units of their actuators, as the scene's signals give them at an instant; `sources`
-    /// has one place for each.
+    /// Creates the commands of one instant: `values` holds the value of each command in the unit of its actuator,
+    /// `sources`, of the same length, receives the source of each, at first [`Source::Scene`].
     pub fn of_scene(values: &'a mut [f64], sources: &'a mut [Source]) -> Self {
         sources.fill(Source::Scene);
         Self { values, sources, source: Source::Scene }
     }
 
-    /// The same commands, to be set by another source.
+    /// Returns the same commands, to be set by `source` from now on; [`Commands::set`] compares its strength.
     pub fn by(&mut self, source: Source) -> Commands<'_> {
         Commands { values: self.values, sources: self.sources, source }
     }
 
-    /// Sets the command of that index, in the unit of its actuator, unless a stronger source has set it at this
-    /// instant.
+    /// Sets the command with the index `command` in the model's command vector to `value`, in the unit of its actuator,
+    /// unless a stronger source has set it at this instant.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such command.
     pub fn set(&mut self, command: usize, value: f64) {
         let wins = match (self.sources[command], self.source) {
             (Source::Scene, _) => true,
@@ -130,33 +135,34 @@ impl<'a> Commands<'a> {
     }
 }
 
-/// A block whose output is not a finite number.
+/// Block of a diagram whose output is not a finite number: the error that ends a run there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotFinite {
-    /// Its path.
+    /// Path of the block in the diagram.
     pub block: String,
-    /// Its kind.
+    /// Name of its kind, such as `gain`.
     pub kind: &'static str,
-    /// Its outputs.
+    /// Values of its outputs, one after the other, in the order of its ports.
     pub outputs: Vec<f64>,
-    /// Its inputs.
+    /// Values of its inputs, one after the other, in the order of its ports.
     pub inputs: Vec<f64>,
-    /// Diagnostic of the block itself.
+    /// Error message of the block itself, such as of a script in it, if there is one.
     pub fault: Option<Box<str>>,
 }
 
-/// A copy of a controller, as far as it can be copied.
+/// Copy of a controller for a look ahead, as far as it can be copied; result of [`Controller::fork`].
 #[derive(Debug)]
 pub enum Forked {
-    /// All of it.
+    /// Complete copy.
     Whole(Box<dyn Controller>),
-    /// The copy, and the name of what it goes on without.
+    /// Incomplete copy, and the name of the part that is missing.
     Part(Box<dyn Controller>, String),
-    /// Nothing can be copied.
+    /// The controller cannot be copied.
     Nothing,
 }
 
-/// A controller in lock-step.
+/// Controller in lock-step with the world: it is called at fixed instants of each base step, reads the state and gives
+/// commands. [`LockStep::attach`](crate::run::LockStep::attach) adds one to a run.
 ///
 /// | call | instant | may write | if it fails |
 /// |---|---|---|---|
@@ -172,9 +178,9 @@ pub enum Forked {
 /// | [`write_outputs`](Controller::write_outputs) | once, after the first `measure` | its continuous commands | cannot fail |
 /// | [`finish`](Controller::finish) | once, after the last tick | its own memory | the end of the run is reported as a stop |
 ///
-/// It decides by the tick at which it is called whether a step of its own begins. All methods but [`Controller::name`]
-/// do nothing unless they are implemented. Nothing in it may depend on a clock or on the order of threads: the same
-/// calls give the same bits.
+/// A controller decides by the tick at which it is called whether a step of its own begins. All methods but
+/// [`Controller::name`] do nothing unless they are implemented. Nothing in it may depend on a clock or on the order of
+/// threads: the same calls give the same bits.
 ///
 /// ```
 /// use sincro_scene::script::ScriptError;
@@ -214,130 +220,139 @@ pub enum Forked {
 /// # }
 /// ```
 pub trait Controller: Any + Send + fmt::Debug {
-    /// Name of the controller in messages.
+    /// Returns the name of the controller, by which messages and reports call it.
     fn name(&self) -> &str;
 
     /// Prepares the controller for a run: called before the first tick, and again where a snapshot was restored.
     ///
     /// # Errors
     ///
-    /// It cannot control this run.
+    /// A [`ScriptError`] if it cannot control this run; the run stops before anything is advanced.
     fn start(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
-    /// Gives the commands and forces of the base step that begins.
+    /// Computes commands and forces of the base step that begins; the commands are passed on in [`Controller::latch`],
+    /// forces are applied to the world directly.
     ///
     /// # Errors
     ///
-    /// It cannot go on.
+    /// A [`ScriptError`] if it cannot go on; the run stops at this instant.
     fn actuate(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
-    /// Sets the commands that it determines.
+    /// Sets the commands that the controller determines, through [`Commands::set`].
     fn latch(&self, _: &mut Commands<'_>) {}
 
-    /// Called when the commands of the step at tick `tick`, time `t` `[s]`, are latched: its memory becomes that of the
-    /// next tick.
+    /// Called at tick `_tick` and time `_t` `[s]` when the commands of the step are latched: the controller's memory
+    /// becomes that of the next tick.
     fn latched(&mut self, _tick: u64, _t: f64) {}
 
-    /// Its continuous part, integrated with the world; none if nothing happens between ticks. The world must have been
-    /// made with room for its states, as it is for the diagram: a controller that is attached later has none.
+    /// Returns the continuous part of the controller, which is integrated with the world; `None` if nothing happens
+    /// between ticks. Only the diagram has one: the world is created with room for its states, and a controller that is
+    /// attached later must return `None`.
     fn continuous(&mut self) -> Option<&mut dyn CoupledSystem<f64>> {
         None
     }
 
-    /// Updates its own proximity sensors after the step, once those of the scene are up to date; at the start, too.
+    /// Updates the controller's own proximity sensors after the step and at the start, once those of the scene are up
+    /// to date.
     fn update_proximity_sensors(&mut self, _: Instant<'_>) {}
 
-    /// Measurements of the step that ends, and forces of the next one.
+    /// Takes measurements at the end of the step and applies forces for the next one.
     ///
     /// # Errors
     ///
-    /// It cannot go on.
+    /// A [`ScriptError`] if it cannot go on; the step has been made and is recorded, and the run stops.
     fn sense(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
-    /// Evaluates its continuous outputs at the end of the step, before any measurement.
+    /// Evaluates the continuous outputs at the end of the step, before any measurement.
     fn evaluate_outputs(&mut self, _: Instant<'_>) {}
 
-    /// Measurements at a tick, with the values that all sensors gave last; at the start, too. The next commands follow
-    /// from them.
+    /// Takes measurements at a tick and at the start, from which the next commands follow. `_sensors` holds the last
+    /// values of all sensors, in the order of the scene's sensors and of
+    /// [`SensorKind::values`](sincro_scene::sensor::SensorKind::values), in their units.
     ///
     /// # Errors
     ///
-    /// An output is not a finite number.
+    /// [`NotFinite`] with the block whose output is not a finite number; the run stops.
     fn measure(&mut self, _: Instant<'_>, _sensors: &[f64]) -> Result<(), NotFinite> {
         Ok(())
     }
 
-    /// Writes its continuous outputs, in the units of the commands, as they were last evaluated, so that they are
-    /// observed at the start, before they act; sampled ones are not written.
+    /// Writes the continuous outputs as they were last evaluated into `_commands`, the command vector in the units of
+    /// the actuators, so that they are observed at the start, before they act. Sampled outputs are not written.
     fn write_outputs(&self, _commands: &mut [f64]) {}
 
-    /// After the last tick, if it was started.
+    /// Cleans up after the last tick, if the controller was started.
     ///
     /// # Errors
     ///
-    /// It could not clean up.
+    /// A [`ScriptError`] if that fails; the end of the run is then reported as a stop.
     fn finish(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
 
-    /// Its state, as a snapshot holds it. None: a snapshot goes on without its memory.
+    /// Returns the controller's state for a snapshot; `None`: snapshots do not contain its memory.
     fn save(&self) -> Option<State<f64>> {
         None
     }
 
-    /// Goes back to a state that it has saved, in a world that has gone back to `world`.
+    /// Restores the state `_saved` that [`Controller::save`] returned, in a world that has gone back to the state
+    /// `_world`.
     fn restore(&mut self, _saved: &State<f64>, _world: &WorldState<f64>) {}
 
-    /// A copy to look ahead with.
+    /// Returns a copy of the controller to look ahead with; by default it cannot be copied.
     fn fork(&self) -> Forked {
         Forked::Nothing
     }
 
-    /// Surfaces that it has added to the scene, for sensors to see.
+    /// Returns the surfaces that the controller has added to the scene, for sensors to see; empty by default.
     fn pieces(&self) -> &[Piece] {
         &[]
     }
 
-    /// Result of the proximity sensor that is object `sensor` of the scene.
+    /// Receives the result of the proximity sensor that is object `_sensor` of the scene: the detection, `None` if
+    /// nothing is in its volume.
     fn detected(&mut self, _sensor: usize, _found: Option<Detection>) {}
 
-    /// Value of a float signal that it has set, to be recorded; it carries no unit.
+    /// Returns the value of the float signal `_name` that the controller has set, without a unit, to be recorded;
+    /// `None` if it has not set it.
     fn float_signal(&self, _name: &str) -> Option<f64> {
         None
     }
 
-    /// Calls `visit` with name, unit and present value of each stream that it records, always in the same order; new
-    /// ones come last.
+    /// Calls `_visit` with name, unit and present value of each data stream that the controller records, always in the
+    /// same order; new ones come last.
     fn streams(&self, _visit: &mut dyn FnMut(&str, &str, f64)) {}
 
-    /// Takes the places of streams whose past is to be forgotten.
+    /// Returns the indices (in the order of [`Controller::streams`]) of the streams whose recorded past is to be
+    /// deleted, and forgets the request.
     fn take_cleared_streams(&mut self) -> Vec<usize> {
         Vec::new()
     }
 
-    /// Messages in the order of time, and the number of those that were too many to keep.
+    /// Returns the messages so far in the order of time, and the number of those that were too many to keep.
     fn messages(&self) -> (Vec<Message>, usize) {
         (Vec::new(), 0)
     }
 
-    /// Changes of the model that the controller has made, for the results.
+    /// Returns the changes of the model that the controller has made, in the order of time, for the results.
     fn changes(&self) -> &[Change] {
         &[]
     }
 
-    /// Takes requests about the run as a whole; true if one of them is to stop it.
+    /// Returns true if the controller has asked to stop the run since the last call, and forgets the request.
     fn take_stop_request(&mut self) -> bool {
         false
     }
 }
 
-/// A control law as a closure: it sees the world at each tick and holds commands.
+/// Controller made of a closure, which sees the world at each base step and holds commands; the simplest way to write a
+/// control law in Rust.
 pub struct ClosureController<F> {
     name: String,
     law: F,
@@ -345,7 +360,9 @@ pub struct ClosureController<F> {
 }
 
 impl<F: FnMut(Instant<'_>, &mut [Option<f64>]) + Send + 'static> ClosureController<F> {
-    /// A law that is called at every base step with the commands that it holds; none gives a command back.
+    /// Creates a controller named `name` whose closure `law` is called at every base step with the instant and with the
+    /// commands that it holds: one entry for each command of the model, in the unit of its actuator, `None` where the
+    /// controller sets none.
     ///
     /// ```
     /// use sincro_sim::controller::{Instant, ClosureController};

@@ -21,11 +21,12 @@ use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{self, View};
 
-/// A diagram that controls a world.
+/// Block diagram that controls a world, with its state, in any number type: plain numbers in a run, dual numbers for
+/// linearisation.
 #[derive(Clone, Debug)]
 pub struct DiagramController<R: Number> {
     wiring: Arc<Wiring>,
-    /// The diagram with its state.
+    /// Diagram with its signals, continuous states and memory.
     pub runner: Runner<R>,
     tick: u64,
     time_event: f64,
@@ -41,7 +42,8 @@ pub struct DiagramController<R: Number> {
 }
 
 impl<R: Number> DiagramController<R> {
-    /// Creates the controller of a compiled diagram, at the start of a run of `model`.
+    /// Creates the controller of a compiled diagram at the start of a run of `model`, the model that the diagram was
+    /// compiled for.
     #[must_use]
     pub fn new(wiring: &Arc<Wiring>, model: &Model<f64>) -> Self {
         let zeros = |n: usize| vec![R::zero(); n];
@@ -60,13 +62,13 @@ impl<R: Number> DiagramController<R> {
         }
     }
 
-    /// Connection of the diagram to the measurements and commands of the world.
+    /// Returns the connection of the diagram to the measurements and commands of the world.
     #[must_use]
     pub fn wiring(&self) -> &Arc<Wiring> {
         &self.wiring
     }
 
-    /// Returns true if anything happens between ticks, so that the world must take it along.
+    /// Returns true if the diagram acts between ticks, so that it must be integrated with the world.
     #[must_use]
     pub fn is_continuous(&self) -> bool {
         self.wiring.program().is_continuous()
@@ -102,7 +104,7 @@ impl<R: Number> DiagramController<R> {
     }
 
     /// Notes the sources of the commands of a step: continuous blocks leave those of controllers alone.
-    pub fn note_sources(&mut self, sources: &[Source]) {
+    pub(crate) fn note_sources(&mut self, sources: &[Source]) {
         for (is_overridden, source) in self.is_overridden.iter_mut().zip(sources) {
             *is_overridden = matches!(source, Source::Controller(_));
         }
@@ -119,7 +121,8 @@ impl<R: Number> DiagramController<R> {
 
 /// Access for linearisation: everything continuous is evaluated, whether or not the integrator needs it.
 impl<R: Number> DiagramController<R> {
-    /// The same diagram in the same state on other numbers, without derivatives.
+    /// Creates the same diagram in the same state in another number type, without derivatives; `model` is that of the
+    /// diagram.
     pub fn cast_from(other: &DiagramController<f64>, model: &Model<f64>) -> Self {
         let mut new = Self::new(&other.wiring, model);
         let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<_>>();
@@ -131,7 +134,13 @@ impl<R: Number> DiagramController<R> {
         new
     }
 
-    /// As [`CoupledSystem::find_commands`]; `perturbed` is a signal and its change.
+    /// Computes all commands of the continuous diagram into `commands`, in the order and units of the command vector,
+    /// as [`CoupledSystem::find_commands`] does in a run: `seen` is the state of the world, `z` holds the diagram's
+    /// continuous states. `perturbed` is the index of a signal and a number that is added to it, for derivatives.
+    ///
+    /// # Panics
+    ///
+    /// If `z` has another length than the diagram has continuous states.
     pub fn find_all_commands(
         &mut self,
         seen: &mut StateView<'_, R>,
@@ -145,8 +154,10 @@ impl<R: Number> DiagramController<R> {
         self.write_commands(commands, true);
     }
 
-    /// As [`CoupledSystem::slope`]: derivatives of all continuous states of the diagram `[unit of the state / s]`;
-    /// `perturbed` is a signal and its change.
+    /// Computes the derivatives of all continuous states of the diagram into `slope`, in their order
+    /// `[unit of the state / s]`, as [`CoupledSystem::slope`] does in a run: `seen` is the state of the world,
+    /// `response` its accelerations and motor torques. `perturbed` as in [`DiagramController::find_all_commands`],
+    /// which must be called before.
     pub fn all_derivatives(
         &mut self,
         seen: &mut StateView<'_, R>,
@@ -163,11 +174,11 @@ impl<R: Number> DiagramController<R> {
 }
 
 impl DiagramController<f64> {
-    /// Measures and evaluates every block that is due at a tick, at time `t` `[s]`.
+    /// Reads the measurements of the world and evaluates every block that is due at tick `tick`, time `t` `[s]`.
     ///
     /// # Errors
     ///
-    /// The first block, in the order of evaluation, whose output is not finite.
+    /// [`NotFinite`] with the first block, in the order of evaluation, whose output is not finite.
     pub fn evaluate(&mut self, world: &mut World, tick: u64, t: f64) -> Result<(), NotFinite> {
         self.tick = tick;
         if self.feels_contact() {
@@ -183,7 +194,8 @@ impl DiagramController<f64> {
         self.not_finite().map_or(Ok(()), Err)
     }
 
-    /// The first block, in the order of evaluation, whose output is not finite as it was last evaluated.
+    /// Returns the first block, in the order of evaluation, whose output was not finite when it was last evaluated;
+    /// `None` if all are.
     #[must_use]
     pub fn not_finite(&self) -> Option<NotFinite> {
         let (step, _) = self.runner.not_finite()?;
@@ -245,7 +257,9 @@ impl DiagramController<f64> {
         self.impulse.copy_from_slice(&totals[2..]);
     }
 
-    /// Signals of the diagram one after the other, each in its unit, as they were last evaluated at a tick.
+    /// Returns the diagram's signals as they were last evaluated at a tick: all components one after the other, in the
+    /// order of the program and in their units.
+    /// [`ControlDiagram::entries`](sincro_scene::diagram::ControlDiagram::entries) has their names.
     #[must_use]
     pub fn signals(&self) -> &[f64] {
         self.runner.signals()

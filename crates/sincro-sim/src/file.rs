@@ -5,19 +5,19 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// A file or folder that could not be written or read.
+/// Error of writing or reading a file or folder, with its path. Its text (`Display`) is a message for the user.
 #[derive(Debug)]
 pub struct FileError {
-    /// The file or folder.
+    /// Path of the file or folder.
     pub path: PathBuf,
-    /// Attempted action: `write`, `create the folder`.
+    /// Attempted action, such as `write` or `create the folder`: the message is `cannot ACTION PATH`.
     pub action: &'static str,
     /// Error of the operating system.
     pub cause: io::Error,
 }
 
 impl FileError {
-    /// The error of doing `action` with `path`.
+    /// Creates the error of doing `action` with `path`.
     pub fn new(action: &'static str, path: &Path, cause: impl Into<io::Error>) -> Self {
         Self { path: path.to_path_buf(), action, cause: cause.into() }
     }
@@ -35,14 +35,12 @@ impl std::error::Error for FileError {
     }
 }
 
-/// Makes sure that results can be written to a folder: it is created if it is absent, and a file is written into it on
-/// trial.
-///
-/// To be called before the simulation starts. Files that are there stay until a new one of the same name replaces them.
+/// Prepares a folder for results: creates it if it is absent, and tries out that it takes a file. To be called before a
+/// simulation starts, so that the results are not lost at its end. Files in it stay.
 ///
 /// # Errors
 ///
-/// The folder cannot be created, is a file, or takes no files.
+/// [`FileError`] with the folder, if it cannot be created, is a file, or takes no files.
 pub fn prepare(out_dir: &Path) -> Result<(), FileError> {
     fs::create_dir_all(out_dir).map_err(|e| FileError::new("create the results folder", out_dir, e))?;
     let trial = out_dir.join(".sincro-trial");
@@ -57,11 +55,12 @@ pub(crate) fn partial(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Writes a whole file beside its place and moves it there: a reader sees the old file or the new one, never a part.
+/// Writes a whole file atomically: beside its place, then moved there. A reader sees the old file or the new one, never
+/// a part.
 ///
 /// # Errors
 ///
-/// The disk is full, the folder does not exist or takes no files.
+/// [`FileError`] with the path: the disk is full, the folder does not exist or takes no files.
 pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let partial = partial(path);
     let file = File::create(&partial).and_then(|mut file| file.write_all(content).map(|()| file));

@@ -17,7 +17,7 @@ use sincro_scene::overrides::Override;
 use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptParser;
 
-/// An experiment and its scene, ready to run.
+/// Experiment with its scene, loaded and ready to run; result of [`load`].
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -34,35 +34,39 @@ use sincro_scene::script::ScriptParser;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// The experiment: signals, checks, settings.
+    /// Experiment: times, recorded signals, checks, variants.
     pub experiment: Experiment,
-    /// The compiled scene.
+    /// Compiled scene with its model.
     pub scene: Scene,
-    /// The diagram that controls it, if there is one.
+    /// Block diagram that controls the scene, if there is one.
     pub controller: Option<ControlDiagram>,
-    /// Warnings for the user.
+    /// Warnings about the files, in their order.
     pub warnings: Vec<Diagnostic>,
-    /// Every text file that was read: what a hash of the inputs covers.
+    /// Every text file that was read, for a hash of the inputs.
     pub sources: Vec<Arc<SourceText>>,
-    /// The folder with what was read of it.
+    /// Cache of the folder's files.
     pub folder: Arc<Folder>,
-    /// Extensions that it was loaded with: variants and sweeps are loaded with the same.
+    /// Extensions that it was loaded with; variants and sweeps are loaded with the same.
     pub extensions: Extensions,
-    /// Controllers of a program, attached to each run of the scene after its own: variants and sweeps have the same.
+    /// Factories of the program's own controllers, which are attached to each run of the scene after those of its
+    /// files, in this order.
     pub controllers: Vec<Arc<dyn ControllerFactory>>,
 }
 
-/// Maker of a controller for each run of a scene: the main run, its finer run, the variants.
+/// Factory of a controller for each run of a scene: the main run, its finer run, the variants. Added to
+/// [`Loaded::controllers`].
 pub trait ControllerFactory: Send + Sync + fmt::Debug {
-    /// The controller of one run, in the state before its first tick.
+    /// Creates the controller of one run of `loaded`, in its state before the first tick.
     fn controller(&self, loaded: &Loaded) -> Box<dyn Controller>;
 }
 
-/// Moduli [1/s] of the fastest poles at the start of a run, with the diagram's continuous blocks in the loop and
-/// without; none if there is no operating point.
+/// Function that computes the greatest moduli `[1/s]` of the poles at the start of a run with the given method: with
+/// the diagram's continuous blocks in the loop, and without; `None` if there is no operating point. `sincro-analysis`
+/// has it.
 pub type FastestPoles = fn(&Loaded, MethodKind) -> Option<(f64, f64)>;
 
-/// Language of scripts: parses them when a scene is loaded, and runs them as a controller.
+/// Engine of a scripting language: parses scripts when a scene is loaded, and runs them as a controller; implemented by
+/// `sincro-lua` and given to [`load`] in [`Extensions`].
 ///
 /// ```
 /// use sincro_scene::script::{Script, ScriptError, ScriptParser, ScriptedLaw, ScriptedLawSpec};
@@ -96,12 +100,11 @@ pub type FastestPoles = fn(&Loaded, MethodKind) -> Option<(f64, f64)>;
 /// # }
 /// ```
 pub trait ScriptEngine: ScriptParser {
-    /// The controller that runs the scripts of a scene, none of them called yet.
+    /// Creates the controller that runs the scripts of a scene; none of them has been called yet.
     fn controller(&self, loaded: &Loaded) -> Box<dyn Controller>;
 }
 
-/// Parts of the program above the lock-step that a scene may need: whoever puts the program together gives them to
-/// [`load`].
+/// Extensions that a program gives to [`load`]: parts above this crate that a scene may need. The default has none.
 ///
 /// ```
 /// use sincro_analysis::linearize::fastest_poles;
@@ -118,12 +121,12 @@ pub trait ScriptEngine: ScriptParser {
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extensions {
-    /// Language of scripts; without one, a scene that has scripts is refused.
+    /// Engine of the scripting language; without one, a scene with scripts is refused.
     pub scripts: Option<&'static dyn ScriptEngine>,
-    /// Loader of FMUs; without one, a scene that has FMUs is refused.
+    /// Loader of FMUs; without one, a scene with FMUs is refused.
     pub fmus: Option<&'static dyn FmuLoader>,
-    /// Linearisation of the loop that a diagram closes; without it, nobody warns of poles that are too fast for a fixed
-    /// step.
+    /// Linearisation of the loop that a diagram closes; without it, there is no warning about poles that are too fast
+    /// for a fixed step.
     pub fastest_poles: Option<FastestPoles>,
 }
 
@@ -133,14 +136,15 @@ impl Extensions {
     }
 }
 
-/// Opens a scene folder, or its `experiment.toml`, with settings that win over the files.
+/// Loads a scene folder, or its `experiment.toml`, with the settings `overrides`, which win over the files (later ones
+/// over earlier ones). `extensions` run its scripts and FMUs.
 ///
-/// Variants and sweeps are opened too, so that what is wrong with their settings is known before anything runs. To run
-/// a variant, see [`Loaded::with_overrides`].
+/// Variants and sweeps are opened on trial, so that errors in their settings show before anything runs. To run a
+/// variant, see [`Loaded::with_overrides`].
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the files and the settings, warnings included, in the order of the files.
+/// All findings about the files and the settings, warnings included, in the order of the files.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -161,7 +165,8 @@ pub fn load(folder: &Path, overrides: &[Override], extensions: Extensions) -> Re
     with(folder, overrides, extensions, true)
 }
 
-/// As [`load`], without opening variants and sweep: for a live run, whose settings need not fit the others' scenes.
+/// As [`load`], without opening variants and sweep: for a live run, whose settings need not fit the scenes of the
+/// others.
 ///
 /// # Errors
 ///
@@ -211,10 +216,8 @@ impl Loaded {
         Ok(Self { controllers: self.controllers.clone(), ..Self::new(opened, self.extensions) })
     }
 
-    /// The same experiment with other settings, from the files as they were read: nothing is read twice. `overrides`
-    /// stand in place of those that it was loaded with.
-    ///
-    /// For a variant they are those of [`settings_with`](sincro_scene::open::settings_with).
+    /// Loads the same experiment with other settings from the cached files. `overrides` replace those that it was
+    /// loaded with; for a variant they are those of [`settings_with`](sincro_scene::open::settings_with).
     ///
     /// # Errors
     ///

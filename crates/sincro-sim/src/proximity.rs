@@ -9,19 +9,19 @@ use sincro_scene::scene::Scene;
 use sincro_scene::scenery::Piece;
 use sincro_scene::sensor::SensorSpec;
 
-/// Proximity sensor: its field of view and the objects that it detects.
+/// Proximity sensor: its field of view and the choice of objects that it detects.
 #[derive(Clone, Debug)]
 pub struct ProximitySensor {
-    /// Its volume.
+    /// Volume of detection, in the sensor's axes `[m]`.
     pub field: FieldOfView,
-    /// Objects that it sees, by index; empty: all that it is not fixed to.
+    /// Indices of the objects that it detects; empty: all but those that [`ProximitySensor::admits`] leaves out.
     pub with: Vec<usize>,
-    /// Object that carries it.
+    /// Index of the object that carries it; `None`: it stands in the world.
     pub carrier: Option<usize>,
 }
 
 impl ProximitySensor {
-    /// Proximity sensor of a sensor of a scene; none for other kinds.
+    /// Creates the proximity sensor of a sensor specification of `scene`; `None` for other kinds of sensors.
     #[must_use]
     pub fn of(spec: &SensorSpec, scene: &Scene) -> Option<Self> {
         let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
@@ -30,31 +30,31 @@ impl ProximitySensor {
     }
 }
 
-/// Detection of a proximity sensor, in its own axes.
+/// Detection of a proximity sensor: the nearest point in its volume, in the sensor's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detection {
-    /// Index of the object, the scene's first, then those that were made later.
+    /// Index of the detected object: those of the scene first, then those that were made later, by scripts or clients.
     pub object: usize,
-    /// From the sensor's origin `[m]`.
+    /// Distance of the point from the sensor's origin `[m]`.
     pub distance: f64,
-    /// The point `[m]`.
+    /// Coordinates of the point in the sensor's axes `[m]`.
     pub point: Vec3<f64>,
-    /// Out of the surface there, length one.
+    /// Outward unit normal of the surface there, in the sensor's axes.
     pub normal: Vec3<f64>,
 }
 
 impl Detection {
     /// The same detection at another distance `[m]`, in the same direction.
     #[must_use]
-    pub fn at_distance(self, distance: f64) -> Self {
+    pub(crate) fn at_distance(self, distance: f64) -> Self {
         let k = if self.distance > 0.0 { distance / self.distance } else { 0.0 };
         Self { distance, point: self.point.scale(k), ..self }
     }
 }
 
 impl ProximitySensor {
-    /// Returns true if a sensor that is fixed at `at` detects a piece: of those that it names any; if it names none,
-    /// all but what moves with it, and in the world all but what carries it.
+    /// Returns true if a sensor that is fixed to the link or world frame `at` may detect `piece`. A sensor with a list
+    /// detects the objects in it; without one all but what moves with its link, or, in the world, all but its carrier.
     #[must_use]
     pub fn admits(&self, at: &Attached<f64>, piece: &Piece) -> bool {
         if !self.with.is_empty() {
@@ -66,8 +66,9 @@ impl ProximitySensor {
         }
     }
 
-    /// The closest point within `most` `[m]` of the pieces that the sensor admits, for a sensor at `x_we` in the world;
-    /// after the kinematics.
+    /// Returns the nearest point of `pieces` inside the volume of a sensor with the pose `x_we` in the world, within
+    /// the distance `most` `[m]`; `None` if there is none. [`ProximitySensor::admits`] is not asked. `scratch` must
+    /// hold the poses of the links.
     pub fn detect<'a>(
         &self,
         x_we: &Pose<f64>,

@@ -46,19 +46,20 @@ const IGNORED: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];
 /// Numbers that are tried before giving up: so many runs may start at once.
 const MAX_STARTS: u32 = 10_000;
 
-/// Reason why a folder takes no results.
+/// Error of a folder that takes no results. Its text (`Display`) is a message for the user, [`FolderError::help`] the
+/// remedy.
 #[derive(Debug)]
 pub enum FolderError {
     /// A file or folder cannot be written.
     File(FileError),
-    /// It holds something that no run has written.
+    /// The folder holds something that no run has written, and is left as it is.
     Foreign {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
-        /// Entry that no run has written, relative to the folder.
+        /// Path of that entry, relative to the folder.
         entry: String,
     },
-    /// Another run is writing it.
+    /// Another process is writing results there; the folder.
     Locked(PathBuf),
 }
 
@@ -83,7 +84,7 @@ impl From<FileError> for FolderError {
 }
 
 impl FolderError {
-    /// Advice on a correction.
+    /// Returns the remedy in English, such as to choose another folder.
     #[must_use]
     pub fn help(&self) -> &'static str {
         match self {
@@ -96,7 +97,8 @@ impl FolderError {
     }
 }
 
-/// A folder of results that is being written.
+/// Result folder that is being written: files go into a folder beside its place, and [`ResultFolder::publish`] moves it
+/// there as a whole. Dropped without that, it leaves nothing behind.
 #[derive(Debug)]
 pub struct ResultFolder {
     /// Its place once it is published.
@@ -113,11 +115,13 @@ pub struct ResultFolder {
 }
 
 impl ResultFolder {
-    /// Begins a result at exactly `target`, which must be absent, empty, or an earlier result.
+    /// Begins a result at exactly `target`, which must be absent, empty, or an earlier result, which the new one
+    /// replaces.
     ///
     /// # Errors
     ///
-    /// The folder holds something else, another run is writing it, or it takes no files. Then nothing was changed.
+    /// [`FolderError::Foreign`]: the folder holds something else. [`FolderError::Locked`]: another run is writing it.
+    /// [`FolderError::File`]: it takes no files. Nothing was changed then.
     pub fn replace(target: &Path) -> Result<Self, FolderError> {
         let target = resolved(target)?;
         refuse_foreign(&target)?;
@@ -135,20 +139,23 @@ impl ResultFolder {
         }
     }
 
-    /// Begins a result in the next numbered folder below `parent`: `0001`, `0002` ….
+    /// Begins a result in the next numbered folder below `parent`: `0001`, `0002` …; when published, the link `latest`
+    /// leads to it.
     ///
     /// # Errors
     ///
-    /// The folder takes no files.
+    /// [`FolderError::File`]: the folder takes no files. [`FolderError::Locked`]: other processes hold all numbers that
+    /// were tried.
     pub fn numbered(parent: &Path) -> Result<Self, FolderError> {
         Self::next(parent, last_number(parent) + 1, |number| format!("{number:04}"), true)
     }
 
-    /// Begins a result in the first free of the folders `name(first)`, `name(first + 1)` … below `parent`.
+    /// Begins a result in the first free one of the folders `name(first)`, `name(first + 1)` … below `parent`; with
+    /// `is_numbered` the link `latest` leads to it once it is published.
     ///
     /// # Errors
     ///
-    /// The folder takes no files.
+    /// As [`ResultFolder::numbered`].
     pub fn next(
         parent: &Path,
         first: u32,
@@ -195,23 +202,23 @@ impl ResultFolder {
         Ok(Some(folder))
     }
 
-    /// Folder to write the files into.
+    /// Returns the path of the folder to write the files into until the result is published.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.running
     }
 
-    /// Place of the result once it is published.
+    /// Returns the path of the result once it is published.
     #[must_use]
     pub fn target(&self) -> &Path {
         &self.target
     }
 
-    /// Gives the result its name, in the place of an earlier one. Returns the path.
+    /// Publishes the result at its target, in the place of an earlier one, and returns its path.
     ///
     /// # Errors
     ///
-    /// A folder cannot be renamed; an earlier result is then still there.
+    /// [`FileError`] with the folder that cannot be renamed; an earlier result is then still there.
     pub fn publish(mut self) -> Result<PathBuf, FileError> {
         self.made.clear();
         if self.is_inside {
@@ -329,18 +336,19 @@ fn refuse_foreign(folder: &Path) -> Result<(), FolderError> {
     }
 }
 
-/// Returns true if a folder is a finished run: it has a `run.json` of this program.
+/// Returns true if a folder is the result of a finished run: it has a `run.json` of this program.
 #[must_use]
 pub fn is_result(folder: &Path) -> bool {
     let text = fs::read_to_string(folder.join("run.json")).unwrap_or_default();
     serde_json::from_str::<Value>(&text).is_ok_and(|json| json.get("trace_hash").is_some())
 }
 
-/// The first entry of a folder that no run writes; none if it is empty or a result.
+/// Returns the first entry, by path relative to the folder, that no run writes; `None` if the folder is empty or a
+/// result.
 ///
 /// # Errors
 ///
-/// The folder cannot be read.
+/// The error of the operating system, if the folder cannot be read.
 pub fn foreign_entry(folder: &Path) -> std::io::Result<Option<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -400,7 +408,8 @@ fn foreign_variant(folder: &Path) -> std::io::Result<Option<String>> {
     Ok(None)
 }
 
-/// Folders in a folder in the order of their names, without hidden ones and links (`latest` is one of the others).
+/// Returns the paths of the folders in `parent`, ordered by name, without hidden ones and links such as `latest`; empty
+/// if it cannot be read.
 #[must_use]
 pub fn folders_in(parent: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(parent).into_iter().flatten().flatten();
@@ -411,7 +420,7 @@ pub fn folders_in(parent: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Numbers of the numbered folders below a folder, the smallest first.
+/// Returns the numbers of the numbered result folders below `parent`, ascending.
 #[must_use]
 pub fn numbers(parent: &Path) -> Vec<u32> {
     let number = |path: &PathBuf| {
@@ -522,7 +531,8 @@ fn link(_: &Path, _: &Path) -> std::io::Result<()> {
     Err(ErrorKind::Unsupported.into())
 }
 
-/// The finished run that is meant by a folder: itself, or the latest one in it.
+/// Returns the path of the finished run that a folder stands for: the folder itself, the one that `latest` leads to, or
+/// the last numbered one in it; the folder itself if there is none.
 #[must_use]
 pub fn find_result(folder: &Path) -> PathBuf {
     if folder.join("run.json").is_file() || folder.join("replay.json").is_file() {

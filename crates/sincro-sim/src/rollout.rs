@@ -5,8 +5,9 @@
 use sincro_dynamics::batch::{self, BatchSettings, BatchWorld};
 use sincro_dynamics::model::PackError;
 
-/// Advances all worlds on `threads` threads (0: one a processor). Each world's [`BatchWorld::record`] and final state
-/// are filled in.
+/// Advances all worlds by [`BatchSettings::n_steps`] steps, several in SIMD lanes and on `threads` threads (0: one per
+/// processor). Each world's [`BatchWorld::record`] and final state are filled in; they do not depend on the number of
+/// threads.
 ///
 /// ```
 /// use sincro_dynamics::batch::{BatchSettings, BatchWorld};
@@ -38,7 +39,7 @@ use sincro_dynamics::model::PackError;
 ///
 /// # Errors
 ///
-/// If the worlds differ in more than their numbers.
+/// [`PackError`] if the worlds differ in more than their numbers: they must have the same structure.
 pub fn rollout(worlds: &mut [BatchWorld], settings: &BatchSettings, threads: usize) -> Result<(), PackError> {
     let available = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if threads == 0 { available } else { threads };

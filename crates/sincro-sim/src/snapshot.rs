@@ -18,7 +18,8 @@ use crate::trace::{Trace, plant_hash};
 
 const MAGIC: &[u8; 8] = b"sincro06";
 
-/// A moment of a run.
+/// Snapshot of a run: everything needed to go on from there bit for bit. Made by
+/// [`LockStep::snapshot`](crate::run::LockStep::snapshot).
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -42,26 +43,26 @@ const MAGIC: &[u8; 8] = b"sincro06";
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// The state.
+    /// State of the world.
     pub state: State<f64>,
     /// Parameters of the model, which clients and scripts may have changed.
     pub params: ModelParams<f64>,
-    /// Hash of all states so far.
+    /// Hash of all states up to here.
     pub trace: Trace,
-    /// Error control of the integrator, none for fixed steps.
+    /// State of the integrator's error control; `None` for fixed steps.
     pub control: Option<Control>,
-    /// Last samples of the sensors.
+    /// Last values of all sensors, in their order and units.
     pub sensors: Vec<f64>,
-    /// State of the diagram, if there is one.
+    /// State of the diagram: signals, continuous states, memory; `None` without a diagram.
     pub diagram: Option<sincro_blocks::runner::State<f64>>,
 }
 
-/// Error of reading a snapshot of a model.
+/// Error of reading a snapshot by [`Snapshot::from_bytes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SnapshotError {
-    /// Not a snapshot, or of another version.
+    /// The bytes are no snapshot, or one of another version of the format.
     NotASnapshot,
-    /// Cut short or altered.
+    /// The bytes are cut short or altered.
     Damaged,
     /// The snapshot is of another model.
     OtherModel,
@@ -82,7 +83,7 @@ impl fmt::Display for SnapshotError {
 impl std::error::Error for SnapshotError {}
 
 impl Snapshot {
-    /// Bytes of the snapshot, with the hash of the scene that it belongs to.
+    /// Returns the snapshot as bytes for a file, with the hash of the scene `loaded` that it belongs to.
     #[must_use]
     pub fn to_bytes(&self, loaded: &Loaded) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -109,11 +110,12 @@ impl Snapshot {
         bytes
     }
 
-    /// Reads a snapshot of a scene from the bytes of [`Snapshot::to_bytes`].
+    /// Reads a snapshot of the scene `loaded` from the bytes of [`Snapshot::to_bytes`].
     ///
     /// # Errors
     ///
-    /// If they are no snapshot, damaged, or of another scene.
+    /// [`SnapshotError::NotASnapshot`], [`SnapshotError::Damaged`], or [`SnapshotError::OtherModel`] if it belongs to
+    /// another scene or other settings.
     pub fn from_bytes(bytes: &[u8], loaded: &Loaded) -> Result<Self, SnapshotError> {
         let (body, sum) = bytes.split_last_chunk::<8>().ok_or(SnapshotError::NotASnapshot)?;
         let mut reader = Reader(body);

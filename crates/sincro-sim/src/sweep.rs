@@ -6,37 +6,38 @@ use crate::audit::AuditReport;
 use crate::file::FileError;
 use crate::table::{Column, Table};
 
-/// Final values of the recorded signals over the values of a parameter.
+/// Result of a parameter sweep: final values of the recorded signals over the values of a parameter (static
+/// characteristic).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     /// Path of the parameter, as after `--set`: `/shoulder.spring.stiffness`.
     pub parameter: String,
-    /// Its unit; may be empty.
+    /// Unit of the parameter; may be empty.
     pub unit: String,
-    /// Its values, one a run, in the order in which they were run.
+    /// Value of the parameter in each run, in the order in which they were run.
     pub values: Vec<f64>,
-    /// A column a recorded signal: its final value in each run. NaN for a run that stopped.
+    /// Final value of each recorded signal in each run, in the order of `values`; NaN for a run that stopped.
     pub columns: Vec<Column>,
-    /// The runs that stopped.
+    /// Runs that stopped, in the order in which they were run.
     pub stops: Vec<SweepStop>,
-    /// Audit of the runs: of each law the worst value.
+    /// Audit of all runs: of each law the worst value.
     pub audit: AuditReport,
 }
 
-/// A run of a sweep that ended before its time.
+/// Run of a sweep that stopped before its time, an entry of [`Sweep::stops`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepStop {
-    /// Which of the runs, counted from 0.
+    /// Index of the run, from 0, in the order of [`Sweep::values`].
     pub run_idx: usize,
-    /// When `[s]`.
+    /// Simulated time at which it stopped `[s]`.
     pub time: f64,
-    /// Reason.
+    /// Reason in English.
     pub reason: String,
 }
 
 impl Sweep {
     /// A sweep without runs yet; `signals` are names and units, without `t`.
-    pub fn new<'a>(
+    pub(crate) fn new<'a>(
         parameter: &str,
         unit: &str,
         signals: impl IntoIterator<Item = (&'a str, &'a str)>,
@@ -63,7 +64,7 @@ impl Sweep {
     /// # Panics
     ///
     /// If there are more or fewer values than signals.
-    pub fn push(&mut self, value: f64, finals: &[f64]) {
+    pub(crate) fn push(&mut self, value: f64, finals: &[f64]) {
         assert_eq!(finals.len(), self.columns.len(), "one final value a signal");
         self.values.push(value);
         for (column, value) in self.columns.iter_mut().zip(finals) {
@@ -72,19 +73,19 @@ impl Sweep {
     }
 
     /// Adds a run that stopped at `time` `[s]`: it has no final values.
-    pub fn push_stopped(&mut self, value: f64, time: f64, reason: &str) {
+    pub(crate) fn push_stopped(&mut self, value: f64, time: f64, reason: &str) {
         self.stops.push(SweepStop { run_idx: self.values.len(), time, reason: reason.to_owned() });
         let missing = vec![f64::NAN; self.columns.len()];
         self.push(value, &missing);
     }
 
-    /// The run that stopped, if this one did.
+    /// Returns the stop of run `run_idx` (from 0); `None` if it came to its end.
     #[must_use]
     pub fn stop(&self, run_idx: usize) -> Option<&SweepStop> {
         self.stops.iter().find(|stop| stop.run_idx == run_idx)
     }
 
-    /// The runs in the order of the parameter's values.
+    /// Returns the indices of the runs, from 0, ordered by ascending value of the parameter.
     #[must_use]
     pub fn ascending(&self) -> Vec<usize> {
         let mut runs: Vec<usize> = (0..self.values.len()).collect();
@@ -92,8 +93,8 @@ impl Sweep {
         runs
     }
 
-    /// Table of the runs `run_idxs`, one row each in that order: the parameter, then the recorded values, each in its
-    /// unit.
+    /// Returns a table of the runs with the indices `run_idxs`, one row each in that order: the value of the parameter,
+    /// then the final values of the signals, each in its unit.
     ///
     /// # Panics
     ///
@@ -106,11 +107,12 @@ impl Sweep {
         Table { columns: std::iter::once(parameter).chain(self.columns.iter().map(signal)).collect() }
     }
 
-    /// Writes `sweep.csv` into a folder: first column the parameter, one row a run in the order in which they were run.
+    /// Writes `sweep.csv` into the folder `out_dir`: first the parameter, then the signals; one row per run in the
+    /// order in which they were run.
     ///
     /// # Errors
     ///
-    /// The file cannot be written.
+    /// [`FileError`] with the path of the file that cannot be written.
     pub fn write(&self, out_dir: &Path) -> Result<(), FileError> {
         let runs: Vec<usize> = (0..self.values.len()).collect();
         self.table(&runs).write_csv(&out_dir.join("sweep.csv"))

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use crate::file::{FileError, partial, put_in_place};
 
-/// A recorded signal: its name, its unit, one value a row.
+/// Recorded signal: name, unit, and one value per row; part of a [`Table`].
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -25,15 +25,15 @@ use crate::file::{FileError, partial, put_in_place};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Its path: `/shoulder.position`.
+    /// Name of the signal, such as `/shoulder.position`.
     pub name: String,
-    /// Its unit: `rad`; may be empty.
+    /// Unit as text, such as `rad`; may be empty.
     pub unit: String,
-    /// Its values, row by row.
+    /// Values, one per row, in `unit`.
     pub values: Vec<f64>,
 }
 
-/// Recorded signals, all of the same length. The first column is `t` `[s]`, strictly increasing.
+/// Table of recorded signals, all of the same length. The first column is the time `t` `[s]`, strictly increasing.
 ///
 /// ```
 /// use sincro_sim::table::Table;
@@ -46,13 +46,13 @@ pub struct Column {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// The columns; at least one.
+    /// Columns, at least one.
     pub columns: Vec<Column>,
 }
 
 impl Table {
-    /// An empty table of the given names and units, with room for `row_capacity` rows: filling it up to there allocates
-    /// nothing.
+    /// Creates an empty table of columns with these names and units, with room for `row_capacity` rows: filling it up
+    /// to there allocates nothing.
     ///
     /// # Panics
     ///
@@ -68,7 +68,7 @@ impl Table {
         Self { columns }
     }
 
-    /// Adds a row: one value a column, in the order and the units of the columns.
+    /// Appends a row: one value per column, in the order and units of the columns.
     ///
     /// # Panics
     ///
@@ -80,7 +80,8 @@ impl Table {
         }
     }
 
-    /// This table with the columns of other runs beside its own, as `name:column`, where they have all its times.
+    /// Returns this table with the columns of other runs beside its own, named `NAME:COLUMN` with the name given for
+    /// each table. Tables that lack one of its times (within 1 ns) are left out.
     #[must_use]
     pub fn with_columns_of(&self, others: &[(&str, &Self)]) -> Self {
         let mut joined = self.clone();
@@ -105,35 +106,35 @@ impl Table {
         self.times().iter().map(find).collect()
     }
 
-    /// Number of rows so far.
+    /// Returns the number of rows, the length of every column.
     #[must_use]
     pub fn n_rows(&self) -> usize {
         self.times().len()
     }
 
-    /// The first column: times `[s]`; in a table of a sweep, values of the parameter.
+    /// Returns the first column, one value per row: times `[s]`, in a table of a sweep values of the parameter.
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.columns[0].values
     }
 
-    /// The column of that name.
+    /// Returns the column of this name; `None` if there is none.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&Column> {
         self.columns.iter().find(|column| column.name == name)
     }
 
     /// Copies a row, one value a column in its unit, to `row`, whose memory is used again.
-    pub fn copy_row(&self, row_idx: usize, row: &mut Vec<f64>) {
+    fn copy_row(&self, row_idx: usize, row: &mut Vec<f64>) {
         row.clear();
         row.extend(self.columns.iter().map(|column| column.values[row_idx]));
     }
 
-    /// Writes all rows to a CSV file; see [`CsvWriter`].
+    /// Writes all rows to a CSV file in the format of [`CsvWriter`], without units.
     ///
     /// # Errors
     ///
-    /// As [`CsvWriter`].
+    /// [`FileError`]: the file cannot be written.
     ///
     /// ```
     /// use sincro_sim::prelude::*;
@@ -160,11 +161,12 @@ impl Table {
         writer.finish()
     }
 
-    /// Reads a file that [`CsvWriter`] wrote. Units are not in it and stay empty.
+    /// Reads a CSV file with a line of names and rows of numbers, as [`CsvWriter`] writes it; units are not in it and
+    /// stay empty.
     ///
     /// # Errors
     ///
-    /// The file cannot be read, is not CSV, has no column, or a field is not a number.
+    /// [`FileError`]: the file cannot be read, is not CSV, has no column, or a field is not a number.
     pub fn read_csv(path: &Path) -> Result<Self, FileError> {
         let failed = |cause: io::Error| FileError::new("read", path, cause);
         let mut reader = csv::Reader::from_path(path).map_err(|e| failed(e.into()))?;
@@ -188,11 +190,11 @@ fn number(field: &str) -> Result<f64, String> {
     field.trim().parse().map_err(|_| format!("`{field}` is not a number"))
 }
 
-/// Writes rows to a CSV file as they come.
+/// Writer of a CSV file, row by row as a run goes on.
 ///
-/// They go to `<path>.partial`, which [`CsvWriter::finish`] renames to `path`; call it after a stopped run too, so that
-/// what was recorded is kept. A file that was never finished keeps its telling name, and one of an earlier run at
-/// `path` stays.
+/// Rows go to `<path>.partial`, which [`CsvWriter::finish`] renames to `path`; call it after a stopped run too, so that
+/// what was recorded is kept. A file that was never finished keeps the name with `.partial`, and one of an earlier run
+/// at `path` stays.
 pub struct CsvWriter {
     csv: csv::Writer<File>,
     path: PathBuf,
@@ -204,11 +206,11 @@ impl CsvWriter {
     /// Bytes gathered before they go to the system.
     const BUFFER: usize = 1 << 16;
 
-    /// Starts the file with a line of the columns' names.
+    /// Creates the file with a first line of the columns' names.
     ///
     /// # Errors
     ///
-    /// The file cannot be written.
+    /// [`FileError`]: the file cannot be written.
     pub fn create(path: &Path, names: &[&str]) -> Result<Self, FileError> {
         let partial = partial(path);
         let file = File::create(&partial).map_err(|e| FileError::new("create", &partial, e))?;
@@ -217,11 +219,11 @@ impl CsvWriter {
         Ok(Self { csv, path: path.to_path_buf(), n_columns: names.len(), field: Vec::with_capacity(32) })
     }
 
-    /// Adds a row: one value a column.
+    /// Appends a row: one value per column, in their order.
     ///
     /// # Errors
     ///
-    /// The disk is full or gone; reported when the gathered rows go out, which may be some rows later.
+    /// [`FileError`]: the disk is full or gone; reported when buffered rows are written, which may be some rows later.
     ///
     /// # Panics
     ///
@@ -236,12 +238,12 @@ impl CsvWriter {
         self.csv.write_record(None::<&[u8]>).map_err(|e| FileError::new("write", &partial(&self.path), e))
     }
 
-    /// Writes what is left and gives the file its name.
+    /// Writes buffered rows and renames the file to its final name.
     ///
     /// # Errors
     ///
-    /// The disk is full or gone, or a folder stands in the file's place; then the rows that did get written are in
-    /// `<path>.partial`.
+    /// [`FileError`]: the disk is full or gone, or a folder stands in the file's place; then the rows that did get
+    /// written are in `<path>.partial`.
     pub fn finish(self) -> Result<(), FileError> {
         let partial = partial(&self.path);
         let file = self.csv.into_inner().map_err(|e| FileError::new("write", &partial, e.into_error()))?;

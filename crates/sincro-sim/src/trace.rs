@@ -9,8 +9,8 @@ use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
 
-/// Hash of all states of a run so far, in their order. Each state is hashed together with the hash before it, so that
-/// these eight bytes are all that a snapshot must hold of the past.
+/// Hash of all states of a run so far, in their order; equal hashes mean identical runs. Each state is hashed together
+/// with the hash before it, so that these eight bytes are all that a snapshot must hold of the past.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -37,7 +37,7 @@ impl Trace {
         trace
     }
 
-    /// Adds the state after one more tick to the hash.
+    /// Adds the state after one more tick to the hash, bit by bit.
     pub fn add(&mut self, state: &State<f64>) {
         let mut hasher = XxHash3_64::with_seed(self.0);
         let parts = [&state.q, &state.v, &state.commands, &state.drives, &state.contacts, &state.totals, &state.rotors];
@@ -50,7 +50,7 @@ impl Trace {
 
     /// Adds states that are integrated together with the world; nothing if there are none. What a controller remembers
     /// from tick to tick is not hashed: the same motion has the same hash, whoever commands it.
-    pub fn add_continuous(&mut self, states: &[f64]) {
+    pub(crate) fn add_continuous(&mut self, states: &[f64]) {
         if states.is_empty() {
             return;
         }
@@ -68,7 +68,7 @@ impl fmt::Display for Trace {
     }
 }
 
-/// Hash of a compiled model, 16 hexadecimal digits: every number and name in it.
+/// Returns the hash of a compiled model, 16 hexadecimal digits: every number and name in it counts.
 #[must_use]
 pub fn model_hash(model: &Model<f64>) -> String {
     let mut hasher = XxHash3_64::with_seed(0);
@@ -77,7 +77,8 @@ pub fn model_hash(model: &Model<f64>) -> String {
     format!("{:016x}", hasher.finish())
 }
 
-/// Hash of a scene's model and diagram: what the numbers of a snapshot belong to.
+/// Returns the hash of a scene's model and diagram, 16 hexadecimal digits: snapshots can be restored where it is the
+/// same.
 #[must_use]
 pub fn plant_hash(loaded: &Loaded) -> String {
     let Some(controller) = &loaded.controller else { return model_hash(&loaded.scene.model) };

@@ -5,20 +5,21 @@ use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::world::World;
 
-/// One rotor outside its theory for one reason.
+/// Rotor that ran outside the validity of its theory, for one reason, with the times; an entry of
+/// [`Simulated::outside`](crate::run::Simulated::outside).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ValidityViolation {
-    /// Its path.
+    /// Path of the rotor.
     pub rotor: String,
-    /// Reason.
+    /// Condition of the theory that was violated.
     pub reason: Validity,
-    /// Base steps that ended so.
+    /// Number of base steps that ended outside.
     pub steps: u64,
-    /// Their time in all `[s]`.
+    /// Total duration of these steps `[s]`.
     pub duration: f64,
-    /// End of the first such step `[s]`.
+    /// Time at the end of the first such step `[s]`.
     pub first: f64,
-    /// End of the last `[s]`.
+    /// Time at the end of the last such step `[s]`.
     pub last: f64,
 }
 

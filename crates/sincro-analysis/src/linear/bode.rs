@@ -20,7 +20,9 @@ const NOTHING: f64 = 1e-8;
 /// Halvings of a bracket around a crossover.
 const HALVINGS: usize = 60;
 
-/// The frequency response of one channel.
+/// Frequency response of one channel, one input to one output, over a grid of frequencies, with its stability margins:
+/// the data of a Bode plot. Made by [`StateSpace::bode`] and [`StateSpace::bode_at`]; the first three lists have one
+/// entry per frequency.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -39,18 +41,21 @@ const HALVINGS: usize = 60;
 pub struct Bode {
     /// Angular frequencies, ascending `[rad/s]`.
     pub omega: Vec<f64>,
-    /// `20 log₁₀ |G|` `[dB]`.
+    /// Magnitude `20 log₁₀ |G|` at each frequency `[dB]`, `G` in unit of the output per unit of the input; −∞ at a
+    /// zero.
     pub magnitude_db: Vec<f64>,
-    /// `arg G` without jumps of whole turns `[°]`.
+    /// Phase `arg G` at each frequency, unwrapped (without jumps of whole turns) `[°]`.
     pub phase_deg: Vec<f64>,
-    /// Gain margins `[dB]`, at phase −180° (mod 360°): the factor by which `|G|` may grow until the loop closed by −1
-    /// oscillates.
+    /// Gain margins `−20 log₁₀ |G|` `[dB]` at all frequencies of the grid's range with phase −180° (mod 360°),
+    /// ascending in frequency: the factor by which `|G|` may grow until the loop closed by −1 oscillates. Empty if
+    /// there is none.
     pub gain_margins: Vec<Margin>,
-    /// Phase margins `[°]`, at `|G| = 1`: the angle by which the phase may fall until the loop closed by −1 oscillates.
+    /// Phase margins `180° + arg G`, in (−180°, 180°] `[°]`, at all frequencies with `|G| = 1`, ascending in frequency:
+    /// the angle by which the phase may fall until the loop closed by −1 oscillates. Empty if there is none.
     pub phase_margins: Vec<Margin>,
 }
 
-/// A crossover and the distance from instability there.
+/// Gain or phase margin at one crossover frequency, an entry of [`Bode::gain_margins`] or [`Bode::phase_margins`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -68,20 +73,22 @@ pub struct Bode {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margin {
-    /// Frequency `[rad/s]`.
+    /// Crossover frequency `[rad/s]`.
     pub omega: f64,
-    /// Margin `[dB]` or `[°]`.
+    /// Gain margin `[dB]` or phase margin `[°]`; negative where the limit of stability is passed already.
     pub value: f64,
 }
 
 impl Bode {
-    /// The gain margin nearest to zero.
+    /// Returns the gain margin of least magnitude `[dB]`, usually quoted as *the* gain margin; `None` if the phase
+    /// crosses −180° nowhere in the range of frequencies.
     #[must_use]
     pub fn gain_margin(&self) -> Option<Margin> {
         tightest(&self.gain_margins)
     }
 
-    /// The phase margin nearest to zero.
+    /// Returns the phase margin of least magnitude `[°]`, usually quoted as *the* phase margin; `None` if `|G|` crosses
+    /// 1 nowhere in the range of frequencies.
     #[must_use]
     pub fn phase_margin(&self) -> Option<Margin> {
         tightest(&self.phase_margins)
@@ -93,18 +100,28 @@ fn tightest(margins: &[Margin]) -> Option<Margin> {
 }
 
 impl StateSpace {
-    /// `G(jω)` of one channel at each frequency `[rad/s]`; not a number exactly at a pole.
+    /// Returns `G(jω)` from one input to one output at each of `omegas` `[rad/s]`, in their order, in unit of the
+    /// output per unit of the input; of a sampled system `G(exp(jω T))`. Both parts are NaN exactly at a pole.
+    ///
+    /// # Panics
+    ///
+    /// If `input` is not below [`StateSpace::n_inputs`] or `output` not below [`StateSpace::n_outputs`].
     #[must_use]
     pub fn frequency_response(&self, input: usize, output: usize, omegas: &[f64]) -> Vec<Complex<f64>> {
         let channel = Channel::new(self, input, output);
         omegas.iter().map(|&omega| channel.at(omega)).collect()
     }
 
-    /// The frequency response of one channel, from a decade below its poles and zeros to a decade above.
+    /// Returns the frequency response from input `input` to output `output` (indices from 0), from a decade below its
+    /// poles and zeros to a decade above; of a sampled system up to the Nyquist frequency.
     ///
     /// # Errors
     ///
     /// [`LinearError::NoPath`]: the output does not depend on the input.
+    ///
+    /// # Panics
+    ///
+    /// If `input` or `output` is no index of an input or output.
     ///
     /// ```
     /// use sincro_analysis::prelude::*;
@@ -126,19 +143,24 @@ impl StateSpace {
         Ok(corners.bode(&Channel::new(self, input, output), corners.grid()))
     }
 
-    /// The frequency response of one channel at these frequencies, ascending `[rad/s]`. Crossovers are looked for
-    /// between neighbours.
+    /// Returns the frequency response from input `input` to output `output` (indices from 0) at the frequencies
+    /// `omega`, ascending `[rad/s]`. Crossovers, and so margins, are searched between neighbours of `omega` only.
     ///
     /// # Errors
     ///
     /// [`LinearError::NoPath`]: the output does not depend on the input.
+    ///
+    /// # Panics
+    ///
+    /// If `input` or `output` is no index of an input or output.
     pub fn bode_at(&self, input: usize, output: usize, omega: &[f64]) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
         Ok(corners.bode(&Channel::new(self, input, output), omega.to_vec()))
     }
 
-    /// Frequencies that show every pole and the zeros of every channel `[rad/s]`: even in the logarithm, more about
-    /// resonances.
+    /// Returns a grid of angular frequencies that shows every pole and the zeros of every channel, ascending `[rad/s]`:
+    /// evenly spaced in the logarithm, 60 per decade, denser near resonances. For [`StateSpace::frequency_response`]
+    /// and [`StateSpace::bode_at`].
     #[must_use]
     pub fn frequencies(&self) -> Vec<f64> {
         let channels = (0..self.n_inputs()).flat_map(|i| (0..self.n_outputs()).map(move |o| (i, o)));

@@ -4,7 +4,8 @@ use std::fmt;
 
 use super::DMatrix;
 
-/// Error of an analysis of a linear system.
+/// Error of an analysis of a linear system: matrices that do not fit, weights of the wrong sign, or a problem without a
+/// solution. Its text (`Display`) is a message for the user.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -18,50 +19,50 @@ use super::DMatrix;
 pub enum LinearError {
     /// A matrix has the wrong size.
     Size {
-        /// Its name.
+        /// Name of the matrix, such as `A`.
         what: &'static str,
-        /// Rows and columns it should have.
+        /// Expected numbers of rows and columns.
         expected: (usize, usize),
-        /// Rows and columns it has.
+        /// Actual numbers of rows and columns.
         found: (usize, usize),
     },
-    /// There is no state or no input.
+    /// The system has no state or no input, so that there is nothing to regulate.
     Empty,
     /// A matrix has an entry that is not finite.
     NotFinite {
-        /// Its name.
+        /// Name of the matrix, such as `A`.
         what: &'static str,
-        /// Row and column, counted from 0.
+        /// Row and column of the first such entry, counted from 0.
         at: (usize, usize),
     },
-    /// A weight is not symmetric.
+    /// A weight matrix is not symmetric.
     NotSymmetric {
-        /// Its name.
+        /// Name of the matrix, `Q` or `R`.
         what: &'static str,
     },
-    /// R is not positive definite.
+    /// The weight R of the inputs is not positive definite.
     NotPositiveDefinite {
-        /// Its name.
+        /// Name of the matrix, `R`.
         what: &'static str,
     },
-    /// Q has a negative eigenvalue.
+    /// The weight Q of the states has a negative eigenvalue.
     NotPositiveSemidefinite {
-        /// Its name.
+        /// Name of the matrix, `Q`.
         what: &'static str,
-        /// The eigenvalue.
+        /// Its least eigenvalue, in the unit of the entries.
         eigenvalue: f64,
     },
     /// No input reaches a mode that does not decay by itself.
     NotStabilisable {
-        /// Real and imaginary part of its eigenvalue.
+        /// Real and imaginary part of its eigenvalue: `[1/s]` of a continuous system, dimensionless of a sampled one.
         mode: (f64, f64),
     },
-    /// No stabilising solution of the Riccati equation was found: a mode that does not decay costs nothing, or rounding
-    /// wins.
+    /// No stabilising solution of the Riccati equation was found: a mode that does not decay has no weight in Q, or the
+    /// matrices are too badly scaled.
     NotDetectable,
     /// The output does not depend on the input.
     NoPath {
-        /// Name of the input.
+        /// Name of the input, [`Axis::name`](super::Axis::name).
         input: String,
         /// Name of the output.
         output: String,

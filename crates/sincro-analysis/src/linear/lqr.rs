@@ -20,7 +20,8 @@ const MAX_REFINEMENTS: usize = 4;
 /// Doublings: 2⁶⁰ ticks are for ever.
 const MAX_DOUBLINGS: usize = 60;
 
-/// A feedback `u = −K x` and what it does.
+/// Linear-quadratic regulator: the state feedback `u = −K x` of least cost for a system of `n` states and `m` inputs,
+/// with its closed-loop poles. Result of [`lqr`] and [`dlqr`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -37,17 +38,22 @@ const MAX_DOUBLINGS: usize = 60;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regulator {
-    /// `m×n`: the feedback.
+    /// Feedback gain K, `m×n` `[unit of the input / unit of the state]`.
     pub k: DMatrix<f64>,
-    /// `n×n`, symmetric: what it costs to come back from `x` is `xᵀ P x`.
+    /// Solution P of the Riccati equation, `n×n`, symmetric: `xᵀ P x` is the cost of the return from the state `x` to
+    /// 0.
     pub p: DMatrix<f64>,
-    /// Eigenvalues of `A − B K`.
+    /// Closed-loop poles, the `n` eigenvalues of `A − B K`, ascending in modulus: `[1/s]` from [`lqr`], dimensionless
+    /// from [`dlqr`].
     pub poles: Vec<Complex<f64>>,
-    /// Norm of what is left of the Riccati equation, beside the norm of its greatest term.
+    /// Norm of the residual of the Riccati equation relative to the norm of its greatest term (dimensionless).
     pub residual: f64,
 }
 
-/// The regulator of `ẋ = A x + B u` that makes `∫ xᵀQx + uᵀRu dt` least.
+/// Returns the regulator of `ẋ = A x + B u` that minimises `∫ xᵀQx + uᵀRu dt`, time in `[s]`.
+///
+/// `a` is `n×n`, `b` is `n×m`, the weight `q` of the states `n×n`, symmetric and positive semidefinite, the weight `r`
+/// of the inputs `m×m`, symmetric and positive definite.
 ///
 /// ```
 /// use sincro_analysis::linear::{DMatrix, lqr};
@@ -61,7 +67,10 @@ pub struct Regulator {
 ///
 /// # Errors
 ///
-/// Sizes do not fit, a weight is not symmetric or has the wrong sign, or no feedback stabilises.
+/// [`LinearError::Size`], [`LinearError::NotFinite`], [`LinearError::Empty`]: matrices that do not fit or have no
+/// finite entries. [`LinearError::NotSymmetric`], [`LinearError::NotPositiveSemidefinite`],
+/// [`LinearError::NotPositiveDefinite`]: an invalid weight. [`LinearError::NotStabilisable`],
+/// [`LinearError::NotDetectable`]: no feedback stabilises, or the cost does not see a mode that does not decay.
 pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64>) -> Result<Regulator, LinearError> {
     check(a, b, q, r)?;
     check_stabilisable(a, b, |pole| pole.re >= -NOTHING * a.norm())?;
@@ -81,7 +90,8 @@ pub fn lqr(a: &DMatrix<f64>, b: &DMatrix<f64>, q: &DMatrix<f64>, r: &DMatrix<f64
     })
 }
 
-/// The regulator of `x⁺ = A x + B u` that makes `Σ xᵀQx + uᵀRu` least.
+/// Returns the regulator of the sampled system `x⁺ = A x + B u` that minimises `Σ xᵀQx + uᵀRu` over all samples. Shapes
+/// are those of [`lqr`].
 ///
 /// # Errors
 ///

@@ -36,10 +36,22 @@ pub(super) fn sign(z: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     None
 }
 
-/// The symmetric `X` with `Aᵀ X + X A + Q = 0`, for symmetric `Q` and an `A` whose eigenvalues all decay.
+/// Solves the Lyapunov equation `Aᵀ X + X A + Q = 0` for the symmetric `X`, `n×n`; `a` is `n×n` with eigenvalues of
+/// negative real part, `q` is `n×n` and symmetric. `xᵀ X x` is then `∫ xᵀ Q x dt` along `ẋ = A x`.
 ///
-/// The sign iteration on `[A 0; Q −Aᵀ]`, block by block: `A ← ½ (A/c + c A⁻¹)`, `Q ← ½ (Q/c + c A⁻ᵀ Q A⁻¹)`; A tends to
-/// −I and Q to 2 X (key `roberts1980`). `None`: A has an eigenvalue on the imaginary axis.
+/// Sign iteration on `[A 0; Q −Aᵀ]`, block by block: `A ← ½ (A/c + c A⁻¹)`, `Q ← ½ (Q/c + c A⁻ᵀ Q A⁻¹)`; A tends to −I
+/// and Q to 2 X (key `roberts1980`). `None` if A has an eigenvalue on the imaginary axis; for one of positive real part
+/// the result has no meaning. Panics if the shapes do not fit.
+///
+/// ```
+/// use sincro_analysis::linear::{DMatrix, lyapunov::lyapunov};
+///
+/// // ẍ + 2ẋ + 5x = 0 with Q = diag(0, 4): the energy 5x² + ẋ² falls by 4ẋ²
+/// let a = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -5.0, -2.0]);
+/// let q = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 0.0, 4.0]);
+/// let x = lyapunov(&a, &q).unwrap();
+/// assert!((x - DMatrix::from_row_slice(2, 2, &[5.0, 0.0, 0.0, 1.0])).amax() < 1e-13);
+/// ```
 #[must_use]
 pub fn lyapunov(a: &DMatrix<f64>, q: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let (mut a, mut q) = (a.clone(), q.clone());

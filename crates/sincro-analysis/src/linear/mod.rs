@@ -24,7 +24,7 @@ pub use nalgebra::{Complex, DMatrix, DVector};
 pub use step::{StepInfo, StepResponse};
 pub use structure::SubspaceRank;
 
-/// Name and unit of a state, an input or an output.
+/// Name and unit of one state, input or output: the label of a row or column of the matrices of a [`StateSpace`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -40,21 +40,26 @@ pub use structure::SubspaceRank;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Axis {
-    /// Its path: `/cart/rail.position`.
+    /// Name, the path of a signal such as `/cart/rail.position`, or `x1`, `u1`, `y1` where none was given.
     pub name: String,
-    /// Its unit: `m`; may be empty.
+    /// Unit as text, such as `m`; empty if dimensionless or unknown.
     pub unit: String,
 }
 
 impl Axis {
-    /// An axis of that name and unit.
+    /// Creates an axis of this name and unit (empty: dimensionless or unknown).
     #[must_use]
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { name: name.into(), unit: unit.into() }
     }
 }
 
-/// A linear system: `ẋ = A x + B u`, `y = C x + D u`, all quantities as differences from the operating point.
+/// Linear system of `n` states, `m` inputs and `p` outputs: `ẋ = A x + B u`, `y = C x + D u`, all quantities as
+/// differences from the operating point. Its methods compute poles, zeros, frequency and step responses;
+/// [`crate::linearize::linearize`] makes one of a scene, [`StateSpace::from_matrices`] one of plain matrices.
+///
+/// Entry (i, k) of a matrix has the unit of its row (the rate of state i, or output i) per unit of its column (state or
+/// input k).
 ///
 /// ```
 /// use sincro_analysis::linear::{DMatrix, StateSpace};
@@ -69,32 +74,33 @@ impl Axis {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateSpace {
-    /// `n×n`: how the states drive one another.
+    /// System matrix A, `n×n`: row i is the rate of state i, column k its derivative by state k.
     pub a: DMatrix<f64>,
-    /// `n×m`: how the inputs drive the states.
+    /// Input matrix B, `n×m`: derivatives of the rates by the inputs.
     pub b: DMatrix<f64>,
-    /// `p×n`: how the outputs see the states.
+    /// Output matrix C, `p×n`: derivatives of the outputs by the states.
     pub c: DMatrix<f64>,
-    /// `p×m`: how the outputs see the inputs without delay.
+    /// Feedthrough matrix D, `p×m`: derivatives of the outputs by the inputs.
     pub d: DMatrix<f64>,
-    /// The `n` states.
+    /// Names and units of the `n` states, in the order of the rows of A.
     pub states: Vec<Axis>,
-    /// The `m` inputs.
+    /// Names and units of the `m` inputs, in the order of the columns of B.
     pub inputs: Vec<Axis>,
-    /// The `p` outputs.
+    /// Names and units of the `p` outputs, in the order of the rows of C.
     pub outputs: Vec<Axis>,
     /// Time of the operating point `[s]`.
     pub t: f64,
-    /// `None`: continuous. Otherwise the system is `x⁺ = A x + B u` from tick to tick of that length `[s]`.
+    /// Sample time `[s]` of a discrete system `x⁺ = A x + B u`; `None`: the system is continuous.
     pub sample_time: Option<f64>,
 }
 
 impl StateSpace {
-    /// A continuous system of these matrices, with axes named `x1`, `u1`, `y1` and so on.
+    /// Creates a continuous system of A (`n×n`), B (`n×m`), C (`p×n`) and D (`p×m`), with axes named `x1`, `u1`, `y1`
+    /// and so on, without units, at `t` = 0.
     ///
     /// # Errors
     ///
-    /// The matrices do not fit one another.
+    /// As [`StateSpace::check`].
     ///
     /// ```
     /// use sincro_analysis::prelude::*;
@@ -120,11 +126,12 @@ impl StateSpace {
         system.check().map(|()| system)
     }
 
-    /// Checks that the sizes of matrices and names fit, and that all entries are finite.
+    /// Checks that the shapes of the matrices fit the numbers of states, inputs and outputs, and that all entries are
+    /// finite; for systems whose public fields were changed.
     ///
     /// # Errors
     ///
-    /// The first thing that does not.
+    /// [`LinearError::Size`] or [`LinearError::NotFinite`] for the first matrix, in the order A, B, C, D, that fails.
     pub fn check(&self) -> Result<(), LinearError> {
         let (n, m, p) = (self.n_states(), self.n_inputs(), self.n_outputs());
         error::expect_size("A", &self.a, (n, n))?;
@@ -137,28 +144,31 @@ impl StateSpace {
         Ok(())
     }
 
-    /// Number of states.
+    /// Returns the number of states, `n`.
     #[must_use]
     pub fn n_states(&self) -> usize {
         self.states.len()
     }
 
-    /// Number of inputs.
+    /// Returns the number of inputs, `m`.
     #[must_use]
     pub fn n_inputs(&self) -> usize {
         self.inputs.len()
     }
 
-    /// Number of outputs.
+    /// Returns the number of outputs, `p`.
     #[must_use]
     pub fn n_outputs(&self) -> usize {
         self.outputs.len()
     }
 
-    /// Static gain from an input to an output `[unit of the output / unit of the input]`: `D − C A⁻¹ B`, or `D + C (I −
-    /// A)⁻¹ B` if it is sampled; modes that the channel does not show do not count.
+    /// Returns the static gain from an input to an output `[unit of the output / unit of the input]`: `D − C A⁻¹ B`, or
+    /// `D + C (I − A)⁻¹ B` of a sampled system. Modes that the input does not reach or the output does not see are left
+    /// out. Meaningful for stable channels only; `None` if the channel integrates (has a pole at `s = 0`, or `z = 1`).
     ///
-    /// `None`: the channel integrates.
+    /// # Panics
+    ///
+    /// If `input` or `output` is no index of an input or output.
     #[must_use]
     pub fn gain(&self, input: usize, output: usize) -> Option<f64> {
         let channel = self.minimal(input, output);

@@ -15,7 +15,7 @@ const MAX_SWEEPS: usize = 3000;
 /// zero.
 const ZERO: f64 = 3e-8;
 
-/// A pole and what it means for the motion `e^{λ t}`.
+/// Pole λ of a linear system and the motion `e^{λ t}` that belongs to it; an entry of [`StateSpace::poles`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -33,17 +33,19 @@ const ZERO: f64 = 3e-8;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
-    /// The eigenvalue `[1/s]`; of a sampled system the eigenvalue of one tick.
+    /// Eigenvalue of A: λ `[1/s]` of a continuous system, dimensionless (`e^{λ T}` over one sample time T) of a sampled
+    /// one. The other fields are those of λ in both cases.
     pub pole: Complex<f64>,
-    /// Damping ratio `ζ = −Re λ / |λ|`; negative if it grows, 1 for a pole at zero.
+    /// Damping ratio `ζ = −Re λ / |λ|` (dimensionless); negative if the motion grows, 1 for a pole at zero.
     pub damping_ratio: f64,
-    /// `ω_n = |λ|` `[rad/s]`.
+    /// Natural frequency `ω_n = |λ|` `[rad/s]`.
     pub natural_frequency: f64,
-    /// Time to decay to 1/e `[s]`: `−1 / Re λ`. Negative if it grows, infinite if it does neither.
+    /// Time constant `−1 / Re λ`, in which the motion decays to 1/e `[s]`; negative if it grows, infinite if it does
+    /// neither.
     pub time_constant: f64,
 }
 
-/// Stability: behaviour of a small disturbance.
+/// Stability of a linear system, by the motion after a small disturbance; result of [`StateSpace::stability`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -63,11 +65,14 @@ pub struct Mode {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
-    /// It decays.
+    /// Asymptotically stable: every disturbance decays; all poles have negative real parts (sampled: lie inside the
+    /// unit circle).
     Stable,
-    /// It stays: poles on the imaginary axis, or so near to it that rounding decides.
+    /// Marginally stable: no disturbance grows, but some stay; poles on the imaginary axis (sampled: unit circle), or
+    /// so near to it that rounding decides. A multiple pole at zero, whose motion grows linearly, counts as marginal,
+    /// too.
     Marginal,
-    /// It grows.
+    /// Unstable: some disturbance grows exponentially.
     Unstable,
 }
 
@@ -94,7 +99,8 @@ impl Mode {
 }
 
 impl StateSpace {
-    /// The poles, slowest first; of a pair the one with positive imaginary part first.
+    /// Returns the `n` poles with their motions, slowest first (ascending natural frequency); of a complex pair the one
+    /// with positive imaginary part first. Poles at zero that follow from cyclic coordinates are exactly zero.
     ///
     /// ```
     /// use sincro_analysis::prelude::*;
@@ -124,7 +130,7 @@ impl StateSpace {
         modes
     }
 
-    /// Stability, from the decay of a small disturbance.
+    /// Returns the stability of the system, from the pole with the greatest real part (sampled: modulus).
     #[must_use]
     pub fn stability(&self) -> Stability {
         let excess = |mode: &Mode| match self.sample_time {
@@ -140,7 +146,7 @@ impl StateSpace {
         }
     }
 
-    /// Returns true if every small disturbance decays.
+    /// Returns true if every small disturbance decays: [`StateSpace::stability`] is [`Stability::Stable`].
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.stability() == Stability::Stable
@@ -148,8 +154,8 @@ impl StateSpace {
 }
 
 impl StateSpace {
-    /// States that span, with others of them, motions at constant rates: cyclic coordinates and their speeds. Each has
-    /// a pole at zero.
+    /// Returns the indices of the states, ascending, on which no rate depends but those of others in the list: cyclic
+    /// coordinates and their speeds, which move at constant rates. Each has a pole at zero. Empty for a sampled system.
     #[must_use]
     pub fn cyclic_states(&self) -> Vec<usize> {
         let mut left: Vec<usize> = (0..self.n_states()).collect();
@@ -205,8 +211,8 @@ fn deflated_eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
     found
 }
 
-/// Eigenvalues of a real square matrix, in its units (`[1/s]` for that of a continuous system), ordered by modulus,
-/// then real part, then imaginary part from above.
+/// Returns the `n` eigenvalues of a real `n×n` matrix, in the unit of its entries (`[1/s]` for A of a continuous
+/// system), ordered by modulus, then real part, then imaginary part from above. All are NaN if an entry is not finite.
 ///
 /// # Panics
 ///

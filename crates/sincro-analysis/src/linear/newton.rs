@@ -19,42 +19,44 @@ const MAX_HALVINGS: usize = 40;
 /// A gradient `|Jᵀr|` below this share of `|J| |r|` leads nowhere.
 const LEVEL: f64 = 1e-7;
 
-/// Unknowns that solve the equations.
+/// Solution of the nonlinear equations `r(x) = 0`, as [`solve`] returns it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The unknowns.
+    /// Unknowns x, in the order and units of `x0`.
     pub x: Vec<f64>,
-    /// Greatest magnitude among the residuals.
+    /// Greatest magnitude among the residuals, in their units; at most the tolerance.
     pub residual: f64,
-    /// Steps taken.
+    /// Number of Newton steps taken.
     pub iterations: usize,
 }
 
-/// Failure of the iteration, with the best iterate.
+/// Failure of [`solve`], with the last iterate, which has the smallest norm of the residuals found. Its text
+/// (`Display`) is a message for the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// Reason.
+    /// Reason for the end of the iteration.
     pub reason: Reason,
-    /// The best unknowns.
+    /// Unknowns of the last iterate, in the order and units of `x0`.
     pub x: Vec<f64>,
-    /// Greatest magnitude among their residuals.
+    /// Greatest magnitude among the residuals there, in their units; NaN if one is not a number.
     pub residual: f64,
-    /// Which residual that is.
+    /// Index of that residual, from 0.
     pub worst: usize,
-    /// Steps taken.
+    /// Number of Newton steps taken.
     pub iterations: usize,
 }
 
-/// Reason for the end of the iteration.
+/// Reason why [`solve`] ended without a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// No step makes the residual smaller: there is no solution nearby.
+    /// No step makes the residuals smaller: there is no solution nearby. Start elsewhere.
     LocalMinimum,
-    /// Some unknowns change nothing here, and without them the residual does not get smaller.
+    /// The Jacobian is rank-deficient: some unknowns change nothing here, and without them the residuals do not get
+    /// smaller.
     Singular,
-    /// A residual or the Jacobian is not finite.
+    /// A residual or an entry of the Jacobian is not finite.
     NotFinite,
-    /// The steps ran out while the residual was still getting smaller.
+    /// The limit `max_steps` was reached while the residuals were still getting smaller.
     TooManySteps,
 }
 
@@ -78,10 +80,11 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Solves `r(x) = 0` from `x0`: `residual(x, r)` fills `n_residuals` values, `jacobian(x, J)` the matrix `∂r/∂x` of
-/// that many rows.
+/// Solves `r(x) = 0` from the start `x0` by the damped Gauss–Newton method, until no residual is greater in magnitude
+/// than `tolerance` (in the units of the residuals), in `max_steps` steps at most.
 ///
-/// Solved is what has no residual greater than `tolerance`.
+/// `residual(x, r)` fills the `n_residuals` values of r; `jacobian(x, J)` adds to the zeroed matrix `∂r/∂x`,
+/// `n_residuals` rows by `x0.len()` columns. Fewer residuals than unknowns give the solution near the start.
 ///
 /// ```
 /// use sincro_analysis::linear::newton::solve;
@@ -100,7 +103,7 @@ impl std::error::Error for Failure {}
 ///
 /// # Errors
 ///
-/// [`Failure`] says why, and keeps the best unknowns.
+/// [`Failure`] with the reason and the last iterate.
 pub fn solve(
     n_residuals: usize,
     mut residual: impl FnMut(&[f64], &mut [f64]),

@@ -16,7 +16,8 @@ const N_POINTS: usize = 1201;
 /// Norm below which the approximant is exact to rounding.
 const PADE_RADIUS: f64 = 5.37;
 
-/// The answer of an output to a unit step of an input at time 0, from rest.
+/// Response of one output to a unit step of one input at time 0, from rest at the operating point; made by
+/// [`StateSpace::step_response`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -34,31 +35,34 @@ const PADE_RADIUS: f64 = 5.37;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepResponse {
-    /// Times from the step `[s]`.
+    /// Times since the step, ascending and evenly spaced from 0 `[s]`.
     pub times: Vec<f64>,
-    /// The output at each, per unit of the input.
+    /// Output at each time, as difference from the operating point `[unit of the output / unit of the input]`.
     pub values: Vec<f64>,
-    /// Final value; `None` if it does not settle.
+    /// Final value, in the unit of `values`; `None` if the channel is not stable.
     pub final_value: Option<f64>,
-    /// Characteristics of the response; `None` if it does not settle, or settles at zero.
+    /// Characteristics of the response; `None` if it has no final value, settles at zero, or does not settle within
+    /// `times`.
     pub info: Option<StepInfo>,
 }
 
-/// Characteristics of a step response that settles.
+/// Characteristics of a step response that settles, relative to its final value; see [`StepResponse::info`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepInfo {
-    /// From 10 % to 90 % of the final value `[s]`.
+    /// Rise time from 10 % to 90 % of the final value `[s]`.
     pub rise_time: f64,
-    /// After this it stays within 2 % of the final value `[s]`.
+    /// Settling time, after which the response stays within 2 % of the final value `[s]`.
     pub settling_time: f64,
-    /// Overshoot relative to the final value.
+    /// Overshoot beyond the final value, relative to it (0.1 is 10 %); 0 if there is none.
     pub overshoot: f64,
-    /// When it is farthest beyond `[s]`; the end, if it never is.
+    /// Time of the response's peak, the largest value in the direction of the final one `[s]`.
     pub peak_time: f64,
 }
 
 impl StateSpace {
-    /// A duration that shows what happens `[s]`: the slowest decay, some swings, or the beginning of a growth.
+    /// Returns a duration that shows the step response `[s]`, rounded up: six time constants of the slowest decaying
+    /// mode (40 periods of an oscillation at most), or three of the fastest growing one; 10 s if nothing moves. Of a
+    /// sampled system a multiple of its sample time.
     #[must_use]
     pub fn step_duration(&self) -> f64 {
         let poles = self.poles();
@@ -77,9 +81,13 @@ impl StateSpace {
         }
     }
 
-    /// The step response of one channel over `duration`; `None`: over [`StateSpace::step_duration`].
+    /// Returns the response of output `output` to a unit step of input `input` (indices from 0) over `duration` `[s]`;
+    /// `None`: over [`StateSpace::step_duration`]. A continuous system is evaluated at 1201 times, exactly at each; a
+    /// sampled one at its samples, at most 100 000 of them.
     ///
-    /// A sampled system answers at its ticks, at most 100 000 of them.
+    /// # Panics
+    ///
+    /// If `input` or `output` is no index of an input or output.
     ///
     /// ```
     /// use sincro_analysis::prelude::*;
@@ -184,7 +192,12 @@ fn info(response: &StepResponse, end: f64) -> Option<StepInfo> {
     })
 }
 
-/// Matrix exponential `exp(M)` of a square, dimensionless `M`: the approximant `D⁻¹ N` of `M / 2ˢ`, squared s times.
+/// Returns the matrix exponential `exp(M)`, `n×n`, of a square, dimensionless `M` with finite entries: `exp(A t)` maps
+/// the state of `ẋ = A x` over the time `t`. Padé approximant of degree 13 of `M / 2ˢ`, squared s times.
+///
+/// # Panics
+///
+/// If the matrix is not square.
 #[must_use]
 pub fn exponential(m: &DMatrix<f64>) -> DMatrix<f64> {
     const B: [f64; 14] = [

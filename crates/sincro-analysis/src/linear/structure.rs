@@ -9,19 +9,21 @@ use super::{Axis, DMatrix, DVector, StateSpace};
 /// Norm below which the remainder of a unit vector, after removal of its components along others, is rounding.
 const NOTHING: f64 = 1e-11;
 
-/// Dimension of the controllable or observable subspace.
+/// Dimension of the controllable or observable subspace of a system; result of [`StateSpace::controllability`] and
+/// [`StateSpace::observability`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubspaceRank {
-    /// Dimension of the subspace.
+    /// Dimension of the subspace, 0 to `n_states`.
     pub rank: usize,
     /// Number of states; the system is controllable (or observable) if `rank` is the same.
     pub n_states: usize,
-    /// States that lie wholly outside the subspace, by index.
+    /// Indices of the states (from 0, ascending) that lie wholly outside the subspace: that no input moves, or no
+    /// output shows.
     pub outside: Vec<usize>,
 }
 
 impl SubspaceRank {
-    /// Returns true if it is the whole space.
+    /// Returns true if the subspace is the whole state space: the system is controllable, or observable.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.rank == self.n_states
@@ -29,20 +31,40 @@ impl SubspaceRank {
 }
 
 impl StateSpace {
-    /// Dimension of the controllable subspace, and the states outside of it.
+    /// Returns the dimension of the controllable subspace, which all inputs together reach, and the states outside of
+    /// it.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// // two separate lags, of which the input drives the first
+    /// let a = DMatrix::from_row_slice(2, 2, &[-1.0, 0.0, 0.0, -2.0]);
+    /// let (b, c) = (DMatrix::from_row_slice(2, 1, &[1.0, 0.0]), DMatrix::from_row_slice(1, 2, &[1.0, 1.0]));
+    /// let system = StateSpace::from_matrices(a, b, c, DMatrix::zeros(1, 1))?;
+    /// assert_eq!((system.controllability().rank, system.controllability().outside), (1, vec![1]));
+    /// assert!(system.observability().is_full());
+    /// # Ok(())
+    /// # }
+    /// ```
     #[must_use]
     pub fn controllability(&self) -> SubspaceRank {
         krylov_rank(&self.a, &self.b)
     }
 
-    /// Dimension of the observable subspace, and the states outside of it.
+    /// Returns the dimension of the observable subspace, which all outputs together see, and the states outside of it.
     #[must_use]
     pub fn observability(&self) -> SubspaceRank {
         krylov_rank(&self.a.transpose(), &self.c.transpose())
     }
 
-    /// One channel without the modes that its input does not reach or its output does not see: the same transfer
-    /// function by the fewest states, which have no names.
+    /// Returns the minimal realisation of one channel, a system with one input, one output and the same transfer
+    /// function: modes that the input does not reach or the output does not see are left out. Its states are
+    /// combinations of the original ones, named `x1`, `x2`, … without units.
+    ///
+    /// # Panics
+    ///
+    /// If `input` or `output` is no index of an input or output.
     #[must_use]
     pub fn minimal(&self, input: usize, output: usize) -> Self {
         let (b, c) = (self.b.columns(input, 1).into_owned(), self.c.rows(output, 1).into_owned());

@@ -13,12 +13,17 @@ use super::{Complex, DMatrix, DVector, LinearError, StateSpace};
 const NOTHING: f64 = 1e-12;
 
 impl StateSpace {
-    /// The zeros from an input to an output, ordered by modulus; those at infinity are left out. Of a mode that the
-    /// input does not reach or the output does not see, the pole is a zero as well.
+    /// Returns the invariant zeros from input `input` to output `output` (indices from 0), ascending in modulus,
+    /// without those at infinity: `[1/s]`, dimensionless of a sampled system. Of a mode that the input does not reach
+    /// or the output does not see, the pole is a zero as well.
     ///
     /// # Errors
     ///
     /// [`LinearError::NoPath`]: the output does not depend on the input.
+    ///
+    /// # Panics
+    ///
+    /// If `input` or `output` is no index of an input or output.
     pub fn zeros(&self, input: usize, output: usize) -> Result<Vec<Complex<f64>>, LinearError> {
         let no_path = || LinearError::NoPath {
             input: self.inputs[input].name.clone(),

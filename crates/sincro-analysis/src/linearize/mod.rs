@@ -39,7 +39,8 @@ use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
 
-/// A linear system, and the point at which it holds.
+/// Linear system of a scene about an operating point, with the values there and a record of how it was reduced; result
+/// of [`linearize`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -59,19 +60,20 @@ use sincro_sim::run::LockStep;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearization {
-    /// The matrices with the names of their rows and columns.
+    /// Linear system, with names and units of its states, inputs and outputs.
     pub system: StateSpace,
-    /// Values of the states at the operating point: coordinates themselves, not displacements.
+    /// Values of the states at the operating point, in the order and units of `system.states`: coordinates themselves,
+    /// not displacements.
     pub state: Vec<f64>,
-    /// Values of the inputs.
+    /// Values of the inputs there, in the order and units of `system.inputs`.
     pub input: Vec<f64>,
-    /// Values of the outputs.
+    /// Values of the outputs there, in the order and units of `system.outputs`.
     pub output: Vec<f64>,
-    /// Rates of the states there: zero at an equilibrium.
+    /// Rates of the states there, in the order of `system.states` `[unit of the state / s]`; zero at an equilibrium.
     pub rate: Vec<f64>,
-    /// Equations that were eliminated.
+    /// Record of the equations and states that were eliminated.
     pub reduction: Reduction,
-    /// Warnings about the accuracy of the numbers.
+    /// Warnings about the validity of the numbers, one sentence each; may be empty.
     pub notes: Vec<String>,
 }
 
@@ -91,11 +93,14 @@ impl Linearization {
     }
 }
 
-/// Linearises a scene at the state that a run is in.
+/// Linearises a scene at the state that a run is in, with exact derivatives. `at` comes from [`operating_point`] or
+/// [`trim`] and is not changed; `request` chooses inputs, outputs, and open or closed loop.
 ///
 /// # Errors
 ///
-/// Inputs and outputs that mean nothing or cannot be linearised.
+/// One diagnostic for each name of `request` that is no input or output, or has no derivative by the state; further for
+/// an output that contains the rate of a motor's velocity, and for loops whose equations are dependent at this
+/// position.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -246,8 +251,10 @@ fn axis(name: impl Into<String>, unit: impl Into<String>) -> Axis {
     Axis { name: name.into(), unit: unit.into() }
 }
 
-/// Moduli [1/s] of the fastest poles at the start, with the diagram's continuous blocks in the loop and without; none
-/// if there is no operating point. The experiment is loaded with it: [`sincro_sim::Extensions::fastest_poles`].
+/// Returns the greatest moduli `[1/s]` of the poles at the start of a scene: with the diagram's continuous blocks in
+/// the loop, then without. `None` if there is no operating point or a pole is not finite. They tell whether the step of
+/// an integrator is short enough; an experiment is loaded with this function as
+/// [`sincro_sim::Extensions::fastest_poles`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -282,8 +289,13 @@ pub fn fastest_poles(loaded: &Loaded, method: MethodKind) -> Option<(f64, f64)> 
     fastest(true).zip(fastest(false)).filter(|(closed, open)| closed.is_finite() && open.is_finite())
 }
 
-/// Rates of all states `[unit of the state / s]` with state `k` changed by `by` `[its unit]` about the state of a run,
-/// to check derivatives by differences. The diagram is not in the loop.
+/// Returns the rates `[unit of the state / s]` of the full state with entry `k` changed by `by` `[unit of the state]`
+/// about the state of a run, to check derivatives by differences. The full state is: displacements of all `n_v` degrees
+/// of freedom, their velocities, states of rotors. The diagram is not in the loop.
+///
+/// # Panics
+///
+/// If `k` is not below the length of the full state.
 #[must_use]
 pub fn perturbed_rates(loaded: &Loaded, at: &LockStep, k: usize, by: f64) -> Vec<f64> {
     let names = Names::default();

@@ -6,7 +6,8 @@ use sincro_scene::diagnostic::{Diagnostic, Located};
 use sincro_sim::load::Loaded;
 use sincro_sim::run::{LockStep, method_for};
 
-/// Request for a linearisation.
+/// Choice of inputs, outputs and loop for [`linearize`](super::linearize); the default is the open loop from all motor
+/// commands to all coordinates.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -24,19 +25,22 @@ use sincro_sim::run::{LockStep, method_for};
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Request {
-    /// Inputs; empty: all commands of motors that are not ideal.
+    /// Names of the inputs in their order: commands of motors (`/joint.command`, or the joint's path) or signals of the
+    /// diagram, to which the input is added. Empty: all motor commands that have a unit and that the diagram does not
+    /// give.
     pub inputs: Vec<Located<String>>,
-    /// Outputs; empty: all coordinates.
+    /// Names of the outputs in their order, recorded signals such as `/joint.position`. Empty: all coordinates.
     pub outputs: Vec<Located<String>>,
-    /// With the diagram in the loop.
+    /// True: the continuous blocks of the diagram are in the loop. False: commands are held.
     pub is_closed: bool,
 }
 
-/// Runs a scene to the tick nearest to `t` `[s]` and latches the commands that hold from there on.
+/// Runs a scene from its start to the tick nearest to `t` `[s]` and latches the commands that hold from there on: the
+/// point for [`linearize`](super::linearize) and [`trim`](super::trim).
 ///
 /// # Errors
 ///
-/// If the run stops before, or `t` is negative or not finite.
+/// A message that the run stops before `t`, or that `t` is negative, not finite or beyond 10¹² steps.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;

@@ -33,22 +33,26 @@ const NO_EFFECT: f64 = 1e-9;
 /// Base steps in a period that is still lifted.
 const MAX_PERIOD: u64 = 100_000;
 
-/// A sampled loop, lifted to its period.
+/// Linear map of a scene with its sampled controller over one period, the least common multiple of all sample times
+/// (lifting). Its poles tell the stability of the sampled loop; result of [`linearize_sampled`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledLoop {
-    /// x⁺ = A x from one period to the next; no inputs or outputs.
+    /// Discrete system x⁺ = A x from one period to the next, without inputs and outputs. Its sample time is the period
+    /// `[s]`.
     pub system: StateSpace,
-    /// Base steps of a period.
+    /// Length of the period in base steps of the experiment.
     pub period: u64,
-    /// Largest change of a state over a period: zero at an equilibrium.
+    /// Largest magnitude among the changes of the states over one period `[unit of the state]`; zero at an equilibrium.
     pub drift: f64,
 }
 
-/// Linearises the whole of a scene with its sampled controller at the state that a run is in.
+/// Linearises a scene together with its sampled controller at the state that a run is in, by central differences over
+/// one period of the lock-step. States are those of the world, of the diagram, and the last samples of sensors.
 ///
 /// # Errors
 ///
-/// The run stops within a period, or its sample times have no common multiple of a length that can be run.
+/// A message that the run stops within the period, that a block gives a number that is not finite, or that the sample
+/// times have no common multiple of 100 000 base steps or less.
 pub fn linearize_sampled(loaded: &Loaded, at: &LockStep) -> Result<SampledLoop, Diagnostic> {
     let period = period(loaded, at)?;
     let mut map = PeriodMap::new(loaded, at, period)?;

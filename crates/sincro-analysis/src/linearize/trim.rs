@@ -41,7 +41,8 @@ const NEARLY_CLOSED: f64 = 1e-10;
 /// Depth beyond a limit or of an overlap at which a step ends `[m]` or `[rad]`.
 const TOUCHES: f64 = 5e-10;
 
-/// Request for a trim.
+/// Choice of free commands and wanted signals for [`trim`]; the default holds all commands and searches an equilibrium
+/// of the position alone.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -63,15 +64,16 @@ const TOUCHES: f64 = 5e-10;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct TrimRequest {
-    /// Commands that may be changed; the others are as the scene gives them.
+    /// Names of motor commands that the search may change (`/joint.command`, or the joint's path); the others are held
+    /// as they are at the start.
     pub free: Vec<Located<String>>,
-    /// Signals and the values that they must have.
+    /// Signals and the values that they must have in the equilibrium, in the units of the signals.
     pub wanted: Vec<(Located<String>, f64)>,
-    /// With the diagram in the loop.
+    /// True: the continuous blocks of the diagram are in the loop, and their states are unknowns, too.
     pub is_closed: bool,
 }
 
-/// An equilibrium, in numbers.
+/// Equilibrium in numbers, each value with its name and unit; part of [`Trimmed`].
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -90,19 +92,20 @@ pub struct TrimRequest {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trim {
-    /// States: coordinates, velocities (zero), states of the diagram.
+    /// States with their values: coordinates, velocities (zero), states of rotors and of the diagram.
     pub states: Vec<(Axis, f64)>,
-    /// All commands that can be linearised by, whether they were free or not.
+    /// Motor commands with their values, free ones and held ones; those that the diagram gives are left out.
     pub inputs: Vec<(Axis, f64)>,
-    /// The wanted signals as they came out.
+    /// Wanted signals with the values reached, in the order of [`TrimRequest::wanted`].
     pub outputs: Vec<(Axis, f64)>,
-    /// Greatest rate that is left.
+    /// Greatest magnitude among the rates of the states that is left `[unit of the state / s]`.
     pub residual: f64,
-    /// Steps of Newton's method.
+    /// Number of Newton steps taken.
     pub iterations: usize,
 }
 
-/// An equilibrium: its numbers, and the scene in it.
+/// Equilibrium of a scene as [`trim`] found it: the numbers, and a run that stands in it, for
+/// [`linearize`](super::linearize).
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -121,17 +124,19 @@ pub struct Trim {
 /// ```
 #[derive(Debug)]
 pub struct Trimmed {
-    /// The numbers.
+    /// Values of states, inputs and outputs in the equilibrium.
     pub trim: Trim,
-    /// The scene there.
+    /// Run at rest in the equilibrium; it can be advanced or linearised.
     pub at: LockStep,
 }
 
-/// Finds an equilibrium near the state that a run is in.
+/// Finds an equilibrium near the state that a run is in: velocities are zero and all rates vanish, with loops closed,
+/// contacts and limits respected, and the wanted signals at their values. `from` is not changed.
 ///
 /// # Errors
 ///
-/// Names that mean nothing, or that there is no equilibrium nearby: what is left over, and of what.
+/// One diagnostic for each name that is no free command or recorded signal; or one that there is no equilibrium nearby,
+/// with the greatest residual that is left, its name and the reason.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;

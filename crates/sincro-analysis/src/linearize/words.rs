@@ -7,35 +7,36 @@ use sincro_dynamics::model::Model;
 use super::lens::EquationSource;
 use super::reduction::{Equations, Tangent};
 
-/// Element whose equations were eliminated.
+/// Element of the scene whose constraint equations [`linearize`](super::linearize) eliminated; an entry of
+/// [`Reduction::elements`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReducedElement {
-    /// Name: of the loop joint, gear or joint, or of the two bodies in contact.
+    /// Name of the loop joint, gear or joint; of a contact the two bodies as `A–B`.
     pub name: String,
-    /// Kind.
+    /// Reason why its equations hold at the operating point.
     pub kind: ReducedKind,
-    /// Number of equations, redundant ones included.
+    /// Number of scalar equations, redundant ones included.
     pub equations: usize,
 }
 
-/// Kind of an element whose equations were eliminated.
+/// Kind of an element whose equations were eliminated, by the reason why they hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ReducedKind {
     /// Closed loop or gear.
     Loop,
-    /// Velocity motor whose velocity is an input.
+    /// Velocity motor whose command is an input: the joint's velocity is given.
     MotorInput,
-    /// Velocity motor that is no input: its joint is held.
+    /// Velocity motor whose command is no input: its joint is held.
     HeldMotor,
-    /// Position motor: the velocity follows from the position.
+    /// Position motor: the joint's velocity follows from its position.
     PositionMotor,
-    /// Joint stuck in friction.
+    /// Joint stuck in Coulomb friction, which no small force moves.
     Stuck,
-    /// Joint pressed against a limit.
+    /// Joint pressed against a position limit.
     AtLimit,
-    /// Closed contact, normal direction.
+    /// Closed contact, in its normal direction.
     Contact,
-    /// Contact that sticks or rolls without slipping.
+    /// Contact that sticks or rolls without slipping, in its tangential directions.
     Sticking,
 }
 
@@ -69,20 +70,22 @@ impl ReducedKind {
     }
 }
 
-/// Reduction of the states of the tree to independent ones.
+/// Record of the elimination that leads from the states of the tree to independent ones, part of a
+/// [`Linearization`](super::Linearization); lists name states as `system.states` would.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reduction {
-    /// Elements whose equations were eliminated.
+    /// Elements whose equations were eliminated, ordered by kind.
     pub elements: Vec<ReducedElement>,
-    /// Equations of velocities that are independent.
+    /// Number of independent velocity equations: so many speeds are no states.
     pub rank: usize,
-    /// Those of them that hold for coordinates, too.
+    /// Number of those equations that hold for coordinates, too: so many coordinates are no states.
     pub holonomic_rank: usize,
-    /// Coordinates that follow from the others.
+    /// Names of the coordinates that follow from the states.
     pub dependent_coordinates: Vec<String>,
-    /// Speeds that follow from the others.
+    /// Names of the speeds that follow from the states.
     pub dependent_speeds: Vec<String>,
-    /// Coordinates and speeds that the others do not depend on: each has a pole at zero.
+    /// Names of the states on which no other rate depends, in the order of the states; each has a pole at zero. They
+    /// are not eliminated.
     pub cyclic: Vec<String>,
 }
 
@@ -157,13 +160,14 @@ impl Reduction {
         }
     }
 
-    /// Returns true if nothing was eliminated.
+    /// Returns true if no element was eliminated and no state is cyclic.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.elements.is_empty() && self.cyclic.is_empty()
     }
 
-    /// The reduction in sentences; none if nothing was reduced.
+    /// Describes the reduction in English for a report, one sentence per kind of element and list of names; empty if
+    /// nothing was reduced.
     #[must_use]
     pub fn words(&self) -> Vec<String> {
         let mut lines = Vec::new();

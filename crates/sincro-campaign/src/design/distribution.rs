@@ -4,54 +4,57 @@ use std::sync::Arc;
 
 use sincro_math::elementary::{exp, ln};
 
-/// Distribution of a parameter.
+/// Distribution of a parameter over the runs of a campaign, in the parameter's unit; a key of a `[[parameter]]` of the
+/// plan each.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Evenly between two bounds.
+    /// Uniform between two bounds.
     Uniform {
         /// Lower bound.
         from: f64,
         /// Upper bound.
         to: f64,
     },
-    /// Evenly in the logarithm between two positive bounds.
+    /// Uniform in the logarithm between two positive bounds.
     LogUniform {
         /// Lower bound.
         from: f64,
         /// Upper bound.
         to: f64,
     },
-    /// Normal, cut off at bounds that may be infinite.
+    /// Normal, truncated at two bounds, which may be infinite.
     Normal {
-        /// Mean before it is cut off.
+        /// Mean before the truncation.
         mean: f64,
-        /// Standard deviation before it is cut off.
+        /// Standard deviation before the truncation, positive.
         std: f64,
-        /// Lower bound.
+        /// Lower bound; −∞ if there is none.
         min: f64,
-        /// Upper bound.
+        /// Upper bound; ∞ if there is none.
         max: f64,
     },
-    /// The logarithm is normal.
+    /// Log-normal: the logarithm is normally distributed.
     LogNormal {
-        /// Median.
+        /// Median, positive.
         median: f64,
-        /// Standard deviation of the natural logarithm.
+        /// Standard deviation of the natural logarithm, positive (dimensionless).
         sigma: f64,
     },
-    /// Values that were measured, each as likely as the others.
+    /// Empirical: the values of a table's column, each as likely as the others.
     Table {
-        /// Key of the file: parameters of the same file take their values from the same row.
+        /// Index of the file among those that the plan names, from 0: parameters of the same file take their values
+        /// from the same row.
         file: usize,
-        /// Values of the column.
+        /// Values of the column in the order of the rows, at least one.
         values: Arc<[f64]>,
     },
-    /// Each of some values in turn: a factor of a grid.
+    /// Values that are taken in turn, in this order, at least one: a factor of a full-factorial grid.
     Grid(Arc<[f64]>),
 }
 
 impl Distribution {
-    /// Value below which the share `u` of all lies; `u` in (0, 1).
+    /// Returns the quantile of the probability `u` in (0, 1), in the parameter's unit: the inverse distribution
+    /// function. Of a table or grid, the value of the interval of `u` among as many equal ones as there are values.
     #[must_use]
     pub fn quantile(&self, u: f64) -> f64 {
         match self {
@@ -67,13 +70,13 @@ impl Distribution {
         }
     }
 
-    /// Returns true if the values are taken in turn and not drawn.
+    /// Returns true for [`Distribution::Grid`], whose values are taken in turn and not drawn.
     #[must_use]
     pub fn is_grid(&self) -> bool {
         matches!(self, Self::Grid(_))
     }
 
-    /// Description for a person.
+    /// Describes the distribution in English for a report, such as `normal 2 ± 0.1, at least 0`.
     #[must_use]
     pub fn words(&self) -> String {
         let short = |x: f64| sincro_figures::plot::number::short(x, 6);
@@ -103,13 +106,13 @@ impl Distribution {
 
 /// Index of the one of `n` equal intervals that `u` lies in.
 #[must_use]
-pub fn index(u: f64, n: usize) -> usize {
+fn index(u: f64, n: usize) -> usize {
     ((u * n as f64) as usize).min(n - 1)
 }
 
 /// Standard normal distribution function.
 #[must_use]
-pub fn normal_cdf(x: f64) -> f64 {
+pub(crate) fn normal_cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x * std::f64::consts::FRAC_1_SQRT_2)
 }
 
@@ -118,8 +121,9 @@ fn normal_density(x: f64) -> f64 {
     exp(-0.5 * x * x).0 / (2.0 * std::f64::consts::PI).sqrt()
 }
 
-/// Quantile of the standard normal distribution: a rational approximation (Abramowitz and Stegun 26.2.23), improved by
-/// Halley's method; −∞ at 0 and ∞ at 1.
+/// Returns the quantile of the standard normal distribution for the probability `u` (dimensionless); −∞ from 0
+/// downwards, ∞ from 1 upwards, NaN of NaN. Rational approximation (Abramowitz and Stegun 26.2.23), improved by
+/// Halley's method.
 #[must_use]
 pub fn inverse_normal(u: f64) -> f64 {
     if u <= 0.0 || u >= 1.0 || u.is_nan() {

@@ -2,6 +2,7 @@
 
 pub mod distribution;
 pub mod random;
-pub mod sobol;
+pub(crate) mod sobol;
 
-pub use distribution::{Distribution, inverse_normal, normal_cdf};
+pub(crate) use distribution::normal_cdf;
+pub use distribution::{Distribution, inverse_normal};

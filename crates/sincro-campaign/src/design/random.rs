@@ -11,7 +11,7 @@ const ROUNDS: usize = 10;
 
 /// The block of four words of a counter under a key.
 #[must_use]
-pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
+fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     for _ in 0..ROUNDS {
         let products = [FACTORS[0] * u64::from(counter[0]), FACTORS[1] * u64::from(counter[2])];
         counter = [
@@ -25,38 +25,46 @@ pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// Purpose of a draw: draws of different purposes are independent.
+/// Purpose of a draw, an argument of [`uniform`]: draws of different purposes are independent of one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// A value of a parameter.
+    /// Value of a parameter in a run.
     Value,
-    /// A key of a permutation.
+    /// Key of a permutation in a Latin hypercube.
     Permutation,
-    /// A digital shift.
+    /// Digital shift of a Sobol' sequence.
     Shift,
-    /// The seed of a run.
+    /// Seed of a run.
     Seed,
-    /// A resampling of results.
+    /// Resampling of results.
     Bootstrap,
-    /// A mutation of an optimiser.
+    /// Mutation of a candidate by the optimiser.
     Mutation,
     /// Noise added to data.
     Noise,
-    /// A choice of the runs that are shown.
+    /// Choice of the runs that a report shows.
     Sample,
 }
 
 /// 64 random bits: a function of the seed, the purpose, a stream and an index.
 #[must_use]
-pub fn bits(seed: u64, purpose: Purpose, stream: u32, index: u64) -> u64 {
+pub(crate) fn bits(seed: u64, purpose: Purpose, stream: u32, index: u64) -> u64 {
     // the stream holds 28 bits beside the purpose
     let lane = (stream << 4) | purpose as u32;
     let block = philox([index as u32, (index >> 32) as u32, lane, 0], [seed as u32, (seed >> 32) as u32]);
     u64::from(block[0]) | u64::from(block[1]) << 32
 }
 
-/// Random number in (0, 1), never 0 or 1: the middle of one of 2⁵² equal intervals. A function of the arguments of
-/// [`bits`].
+/// Returns a random number in the open interval (0, 1), uniformly distributed: the middle of one of 2⁵² equal
+/// intervals. It is a function of the arguments alone: the seed, the purpose, a stream (such as the index of a
+/// parameter, below 2²⁸) and an index in the stream (such as the number of the run).
+///
+/// ```
+/// use sincro_campaign::design::random::{Purpose, uniform};
+///
+/// let draw = |run: u64| uniform(42, Purpose::Value, 0, run);
+/// assert!(draw(7) > 0.0 && draw(7) < 1.0 && draw(7) == draw(7) && draw(7) != draw(8));
+/// ```
 #[must_use]
 pub fn uniform(seed: u64, purpose: Purpose, stream: u32, index: u64) -> f64 {
     unit(bits(seed, purpose, stream, index))
@@ -64,7 +72,7 @@ pub fn uniform(seed: u64, purpose: Purpose, stream: u32, index: u64) -> f64 {
 
 /// The number in (0, 1) of 64 bits, of which the 52 highest count.
 #[must_use]
-pub fn unit(bits: u64) -> f64 {
+pub(crate) fn unit(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) * 2.0_f64.powi(-52)
 }
 
@@ -75,7 +83,7 @@ pub fn unit(bits: u64) -> f64 {
 ///
 /// If `index` is not below `n`.
 #[must_use]
-pub fn permuted(seed: u64, stream: u32, index: u64, n: u64) -> u64 {
+pub(crate) fn permuted(seed: u64, stream: u32, index: u64, n: u64) -> u64 {
     assert!(index < n, "a place among the {n}");
     if n == 1 {
         return 0;

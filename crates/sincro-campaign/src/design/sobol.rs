@@ -41,7 +41,7 @@ const BITS: u32 = 32;
 ///
 /// If there is no such dimension.
 #[must_use]
-pub fn point_bits(index: u64, dimension: usize) -> u32 {
+fn point_bits(index: u64, dimension: usize) -> u32 {
     let directions = directions(dimension);
     (0..BITS).filter(|k| index >> k & 1 == 1).fold(0, |x, k| x ^ directions[k as usize])
 }

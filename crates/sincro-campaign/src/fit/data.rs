@@ -6,47 +6,56 @@ use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 use sincro_scene::suggest;
 use sincro_sim::table::Table;
 
-/// A column of data and the signal that it measures.
+/// Column of measured data with the signal that predicts it; an entry of [`DataSet::columns`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataColumn {
-    /// Name of the column.
+    /// Name of the column in the file.
     pub column: String,
-    /// Name of the signal.
+    /// Name of the recorded signal, such as `/arm.position`.
     pub signal: String,
-    /// Weight of its residuals: 1/σ of its noise, in the inverse of its unit; 1 unless given.
+    /// Weight of its residuals: 1/σ of its noise `[1 / unit of the signal]`; 1 unless given.
     pub weight: f64,
-    /// Values, one for each time; NaN where nothing was measured.
+    /// Measured values, one for each of [`DataSet::times`], in the unit of the signal; NaN where nothing was measured.
     pub values: Vec<f64>,
 }
 
-/// A file of measured data.
+/// Measured data of one experiment, read from a CSV file; what a [`Model`](super::Model) is fitted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataSet {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Times `[s]`, ascending.
+    /// Times `[s]`, ascending, on the clock of the simulation.
     pub times: Vec<f64>,
-    /// Its columns.
+    /// Columns that are fitted.
     pub columns: Vec<DataColumn>,
 }
 
-/// A signal that is fitted, from `--signal`: `SIGNAL`, `SIGNAL=COLUMN`, with `@SIGMA` behind it.
+/// Choice of a signal and its column of data, an argument of `--signal`: `SIGNAL` or `SIGNAL=COLUMN`, with `@SIGMA`
+/// behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalChoice {
-    /// The signal.
+    /// Name of the recorded signal.
     pub signal: String,
-    /// Its column.
+    /// Name of its column in the file; that of the signal unless given.
     pub column: String,
-    /// Standard deviation of its noise, if given.
+    /// Standard deviation of its noise, in the unit of the signal; `None`: unknown, weight 1.
     pub sigma: Option<f64>,
 }
 
 impl SignalChoice {
-    /// Reads what stands after `--signal`.
+    /// Reads an argument of `--signal`, such as `/arm.position=angle@0.002`.
     ///
     /// # Errors
     ///
-    /// The standard deviation is no positive number.
+    /// A diagnostic if the standard deviation is no positive, finite number.
+    ///
+    /// ```
+    /// use sincro_campaign::fit::SignalChoice;
+    ///
+    /// let choice = SignalChoice::parse("/arm.position=angle@0.002").unwrap();
+    /// assert_eq!((choice.signal.as_str(), choice.column.as_str()), ("/arm.position", "angle"));
+    /// assert_eq!(choice.sigma, Some(0.002)); // [rad]
+    /// ```
     pub fn parse(text: &str) -> Result<Self, Diagnostic> {
         let (names, sigma) = text.split_once('@').map_or((text, None), |(names, sigma)| (names, Some(sigma)));
         let sigma = match sigma.map(|word| word.trim().parse::<f64>()) {
@@ -63,13 +72,13 @@ impl SignalChoice {
 }
 
 impl DataSet {
-    /// Reads a file whose first column is the time.
-    ///
-    /// Without choices, every column is taken that has the name of a recorded signal.
+    /// Reads a CSV file whose first column is the time `[s]`. Of the others it takes those of `choices`; without
+    /// choices, every column whose name is one of `recorded`, the names of the recorded signals.
     ///
     /// # Errors
     ///
-    /// The file cannot be read, its times do not ascend, or a column is not there.
+    /// Diagnostics with the file's name: it cannot be read, it has fewer than three rows or its times do not ascend, a
+    /// chosen column is not there, or no number is in the columns taken.
     pub fn read(path: &Path, choices: &[SignalChoice], recorded: &[String]) -> Result<Self, Diagnostics> {
         let table = Table::read_csv(path)
             .map_err(|error| Diagnostics::from(Diagnostic::without_location(error.to_string())))?;
@@ -116,7 +125,7 @@ impl DataSet {
         Ok(set)
     }
 
-    /// Number of measured values.
+    /// Returns the number of measured values in all columns, gaps left out.
     #[must_use]
     pub fn n_values(&self) -> usize {
         self.columns.iter().map(|c| c.values.iter().filter(|x| x.is_finite()).count()).sum()
@@ -125,7 +134,7 @@ impl DataSet {
 
 /// Value of a recorded series at a time: exact at its rows, between them the cubic through four of them.
 #[must_use]
-pub fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
+pub(crate) fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
     let above = times.partition_point(|x| *x < t);
     for near in [above, above.saturating_sub(1)] {
         if times.get(near).is_some_and(|x| (x - t).abs() < 1e-9) {

@@ -6,26 +6,28 @@ use sincro_scene::overrides::Override;
 use sincro_scene::tree::raw_objects;
 use sincro_sim::Loaded;
 
-/// A number that is to be found.
+/// Free parameter of a fit or a tuning: a number in the files of a scene that the search may change within bounds, in
+/// the unit of that setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeParameter {
-    /// Its path as after `--set`.
+    /// Path of the setting as after `--set`, such as `/arm.mass`.
     pub path: String,
-    /// Start of the search.
+    /// Start of the search, between the bounds.
     pub start: f64,
-    /// Lower bound; may be −∞.
+    /// Lower bound, in the parameter's unit; −∞ if there is none.
     pub low: f64,
-    /// Upper bound; may be ∞.
+    /// Upper bound, in the parameter's unit; ∞ if there is none.
     pub high: f64,
 }
 
 impl FreeParameter {
-    /// Reads what stands after `--free`; a start that is not given is the value in the files, or the middle of the
-    /// bounds.
+    /// Reads an argument of `--free`: `PATH`, `PATH=START`, `PATH=LOW..HIGH` or `PATH=START in LOW..HIGH`. A start that
+    /// is not given is the value in the files of `loaded`, or the middle of the bounds.
     ///
     /// # Errors
     ///
-    /// It is not of one of the forms, or there is no start.
+    /// A diagnostic if the text is of none of these forms, the bounds are not in order, the start is outside of them,
+    /// or there is none.
     pub fn parse(text: &str, loaded: &Loaded) -> Result<Self, Diagnostic> {
         let help = "write PATH, PATH=START, PATH=LOW..HIGH or \"PATH=START in LOW..HIGH\"";
         let refuse = |message: String| Diagnostic::without_location(message).with_help(help);
@@ -62,7 +64,7 @@ impl FreeParameter {
         Ok(Self { path: path.to_owned(), start, low, high })
     }
 
-    /// The setting of a value.
+    /// Returns the setting that gives the parameter this value, in its unit.
     #[must_use]
     pub fn setting(&self, value: f64) -> Override {
         Override::new(&self.path, &format!("{value:?}"))
@@ -70,7 +72,7 @@ impl FreeParameter {
 
     /// Typical size of a change.
     #[must_use]
-    pub fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         let width = self.high - self.low;
         match self.start.abs() {
             start if start > 0.0 => start,
@@ -82,15 +84,15 @@ impl FreeParameter {
 
 /// Settings of all values.
 #[must_use]
-pub fn settings(fixed: &[Override], free: &[FreeParameter], values: &[f64]) -> Vec<Override> {
+pub(crate) fn settings(fixed: &[Override], free: &[FreeParameter], values: &[f64]) -> Vec<Override> {
     fixed.iter().cloned().chain(free.iter().zip(values).map(|(free, value)| free.setting(*value))).collect()
 }
 
-/// Reads all texts after `--free`; each may hold several, separated by commas.
+/// Reads all arguments of `--free`, each with one parameter or several, separated by commas; in their order.
 ///
 /// # Errors
 ///
-/// As [`FreeParameter::parse`], and a path twice.
+/// All findings at once: those of [`FreeParameter::parse`], a path that stands twice, or no parameter at all.
 pub fn parse_all(texts: &[String], loaded: &Loaded) -> Result<Vec<FreeParameter>, Diagnostics> {
     let (mut all, mut found): (Vec<FreeParameter>, Diagnostics) = (Vec::new(), Diagnostics::new());
     for text in texts.iter().flat_map(|text| text.split(',')).filter(|text| !text.trim().is_empty()) {

@@ -13,48 +13,53 @@ const LOOSE: f64 = 1.0;
 /// Lags of the autocorrelation.
 const MAX_LAG: usize = 40;
 
-/// One unknown with its interval.
+/// Estimate of one unknown of a fit with its confidence interval, in the unit of the unknown; an entry of
+/// [`Inference::estimates`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Value.
+    /// Fitted value.
     pub value: f64,
-    /// Standard deviation; infinite if it is not identifiable.
+    /// Standard deviation; infinite if the unknown is not identifiable.
     pub std: f64,
-    /// Half width of its interval.
+    /// Half width of the confidence interval, by Student's distribution; infinite if the unknown is not identifiable.
     pub half_width: f64,
-    /// True if the data identify it.
+    /// True if the data determine the unknown; false if it is part of an [`Unidentifiable`] combination.
     pub is_identifiable: bool,
 }
 
-/// Combination of unknowns that the data do not identify.
+/// Combination of unknowns that the data do not determine: a right singular vector of the scaled sensitivities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unidentifiable {
-    /// Singular value relative to the largest.
+    /// Its singular value relative to the largest (dimensionless, 0 to 1).
     pub share: f64,
-    /// Unknowns in it and their parts, relative to their scales, the largest first.
+    /// Unknowns in the combination: index in [`Model::names`](super::Model::names) and component of the unit vector,
+    /// relative to the values of the unknowns; descending in magnitude, those below 0.1 left out.
     pub parts: Vec<(usize, f64)>,
 }
 
-/// Statistics of a fit.
+/// Statistics of a fit: intervals, correlation and identifiability of its `n` unknowns; result of [`infer`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inference {
-    /// Estimates of the unknowns.
+    /// Estimates of the `n` unknowns, in the order of [`Model::names`](super::Model::names).
     pub estimates: Vec<Estimate>,
-    /// Correlation matrix.
+    /// Correlation matrix of the estimates, `n` rows of `n` entries, each −1 to 1; 1 on the diagonal.
     pub correlation: Vec<Vec<f64>>,
-    /// Singular values of the scaled sensitivities, relative to the largest.
+    /// Singular values of the scaled sensitivities relative to the largest, descending, `n` of them (dimensionless).
     pub singular: Vec<f64>,
-    /// Combinations that the data do not identify.
+    /// Combinations that the data do not determine, the best determined first; empty if there are none.
     pub unidentifiable: Vec<Unidentifiable>,
-    /// Standard deviation of the weighted residuals.
+    /// Standard deviation of the weighted residuals, over the degrees of freedom; near 1 if the noise was given
+    /// correctly.
     pub sigma: f64,
-    /// Data and unknowns.
+    /// Number of measured values.
     pub n_values: usize,
-    /// Degrees of freedom.
+    /// Degrees of freedom: measured values less unknowns, at least 1.
     pub freedom: f64,
 }
 
-/// Statistics of a solution; `scales` are those of the unknowns.
+/// Computes the statistics of a solution of `n` unknowns: intervals, correlation, identifiability. `scales` holds `n`
+/// typical sizes, one for each unknown in its unit and in the order of [`Model::names`](super::Model::names), for
+/// unknowns that came out as 0; `confidence` is the probability of the intervals, in (0, 1).
 #[must_use]
 pub fn infer(solution: &Solution, scales: &[f64], confidence: f64) -> Inference {
     let n = scales.len();
@@ -110,18 +115,21 @@ pub fn infer(solution: &Solution, scales: &[f64], confidence: f64) -> Inference 
     Inference { estimates, correlation, singular, unidentifiable, sigma, n_values: rows.len(), freedom }
 }
 
-/// Whiteness of a series of residuals.
+/// Test of the residuals of one column for whiteness: residuals of a model that misses nothing are uncorrelated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Whiteness {
-    /// Autocorrelation from lag 1 on.
+    /// Autocorrelation from lag 1 on, one lag being one measured value; 40 lags, or a quarter of the values if these
+    /// are fewer.
     pub autocorrelation: Vec<f64>,
-    /// Bound that white noise exceeds at one lag in twenty.
+    /// Bound `1.96/√n` that white noise exceeds in magnitude at one lag in twenty.
     pub bound: f64,
-    /// Probability that white noise has a statistic of Ljung and Box (1978) as large.
+    /// Probability (p-value) that white noise has a statistic of Ljung and Box (1978) at least as large, over 20 lags
+    /// at most. Below 0.01 the residuals are hardly white.
     pub p_value: f64,
 }
 
-/// Whiteness of residuals in the order of their times; none of fewer than eight.
+/// Tests residuals in the order of their times for whiteness; entries that are not finite are left out. `None` of fewer
+/// than eight values, or if all are equal.
 #[must_use]
 pub fn whiteness(residuals: &[f64]) -> Option<Whiteness> {
     let r: Vec<f64> = residuals.iter().copied().filter(|r| r.is_finite()).collect();

@@ -19,35 +19,39 @@ pub use inference::{Inference, Whiteness, infer, whiteness};
 pub use model::{Model, ModelError};
 pub use solve::{Loss, Solution, SolveError, solve};
 
-/// A fit with everything that its report says.
+/// Identification of parameters from measured data, complete with statistics and validation: all that its report says.
+/// Made by [`Fit::new`].
 #[derive(Debug)]
 pub struct Fit<'a> {
-    /// Title of the scene.
+    /// Title of the report, usually that of the scene.
     pub title: String,
-    /// The model and its data.
+    /// Model with its free parameters and its data.
     pub model: Model<'a>,
-    /// Loss.
+    /// Loss function that was minimised.
     pub loss: Loss,
-    /// Probability of the intervals.
+    /// Probability of the confidence intervals, in (0, 1).
     pub confidence: f64,
-    /// The solution.
+    /// Solution of the least-squares problem.
     pub solution: Solution,
-    /// Its statistics.
+    /// Intervals, correlation and identifiability of the unknowns.
     pub inference: Inference,
-    /// Predicted values at the start and at the end, in the order of [`Model::predict`].
+    /// Predicted values at the start of the search and at its end, each in the order and units of [`Model::predict`].
     pub predicted: (Vec<f64>, Vec<f64>),
-    /// Data that were held back, with what the fitted model predicts.
+    /// Data sets that were held back, each with the values that the fitted model predicts for it, in the order of
+    /// [`Model::predict`] for this set alone.
     pub validation: Vec<(DataSet, Vec<f64>)>,
     /// Wall time of the fit `[s]`.
     pub wall_time: f64,
 }
 
 impl<'a> Fit<'a> {
-    /// Fits a model, and judges it on data that were held back.
+    /// Fits a model to its data, computes the statistics for intervals of probability `confidence` (in (0, 1)), and
+    /// predicts the data sets of `validation`, which were held back.
     ///
     /// # Errors
     ///
-    /// See [`SolveError`].
+    /// [`SolveError`]: the model cannot be run, a parameter has no effect on what was measured, or there are too few
+    /// data.
     pub fn new(
         title: String,
         model: Model<'a>,
@@ -85,20 +89,22 @@ impl<'a> Fit<'a> {
         all
     }
 
-    /// Whiteness of the residuals of each column.
+    /// Returns the test for whiteness of the residuals of each column, set by set in the order of the model's data;
+    /// `None` where there are fewer than eight values.
     #[must_use]
     pub fn whiteness(&self) -> Vec<Option<Whiteness>> {
         self.columns().into_iter().map(|(_, _, range)| whiteness(&self.solution.residuals[range])).collect()
     }
 
-    /// Settings that give a run the fitted values, as they are typed.
+    /// Returns the fitted values as arguments of the command line: `--set 'PATH=VALUE'` for each free parameter,
+    /// separated by spaces. Time offsets are left out.
     #[must_use]
     pub fn command(&self) -> String {
         let set = self.model.free.iter().zip(&self.solution.unknowns);
         set.map(|(free, value)| format!("--set '{}={value:?}'", free.path)).collect::<Vec<_>>().join(" ")
     }
 
-    /// Summary for the terminal.
+    /// Returns a summary of the fit for the terminal, several lines of English.
     #[must_use]
     pub fn text(&self) -> String {
         use std::fmt::Write as _;
@@ -168,11 +174,11 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// Writes `fit.json` and `report.html` into a folder.
+    /// Writes `fit.json` and `report.html` into a folder, which is created if it is absent.
     ///
     /// # Errors
     ///
-    /// A file cannot be written.
+    /// [`FileError`] with the path of the file or folder that cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), FileError> {
         sincro_sim::file::prepare(folder)?;
         let json = serde_json::to_string_pretty(&self.json()).expect("plain data");
@@ -180,7 +186,7 @@ impl<'a> Fit<'a> {
         sincro_sim::file::write_atomically(&folder.join("report.html"), page::html(self).as_bytes())
     }
 
-    /// The fit as JSON; numbers that are not finite are null.
+    /// Returns the fit as the JSON object of `fit.json`; numbers that are not finite are null.
     #[must_use]
     pub fn json(&self) -> Value {
         let names = self.model.names();

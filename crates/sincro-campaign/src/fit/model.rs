@@ -22,22 +22,23 @@ const ACCURACY: f64 = 1e-12;
 /// Tolerance of the runs on the way there.
 const COARSE: f64 = 1e-9;
 
-/// A model of measured data: the scene with its free parameters, and for each file a time offset if that is free.
+/// Model of measured data: the scene with its free parameters and, if wanted, one time offset for each data set. The
+/// unknowns are the free parameters in their order, then the offsets in the order of the sets.
 #[derive(Debug)]
 pub struct Model<'a> {
-    /// The scene.
+    /// Scene that is fitted.
     pub loaded: &'a Loaded,
-    /// Settings of all runs: those of the caller, then those that the runs of a fit need.
+    /// Settings of all runs, in this order: those of the caller, then those that the runs of a fit need.
     pub fixed: Vec<Override>,
     /// Number of the caller's settings.
     n_own: usize,
-    /// Free parameters.
+    /// Free parameters, the first unknowns.
     pub free: Vec<FreeParameter>,
-    /// Data that are fitted.
+    /// Data sets that are fitted.
     pub sets: &'a [DataSet],
-    /// True if the data of each file may be shifted in time.
+    /// True if the data of each set may be shifted in time: one more unknown for each `[s]`.
     pub has_offsets: bool,
-    /// Ends all runs.
+    /// Flag that ends all runs once it is true.
     pub interrupt: &'a AtomicBool,
     /// Runs that were made.
     n_runs: AtomicUsize,
@@ -45,14 +46,14 @@ pub struct Model<'a> {
     is_coarse: AtomicBool,
 }
 
-/// Error of a model.
+/// Failure of the runs of a [`Model`] at some values of the unknowns.
 #[derive(Debug)]
 pub enum ModelError {
-    /// The scene refuses the values.
+    /// The scene refuses the values; its findings.
     Refused(Diagnostics),
-    /// The run stopped; the reason.
+    /// The run stopped before its end; the reason in English.
     Stopped(String),
-    /// It was interrupted.
+    /// The flag `interrupt` of the model became true.
     Interrupted,
 }
 
@@ -62,18 +63,20 @@ impl From<Diagnostics> for ModelError {
     }
 }
 
-/// Sensitivities of all residuals.
+/// Sensitivities: derivatives of all predicted values by the unknowns; result of [`Model::sensitivities`].
 #[derive(Clone, Debug)]
 pub struct Sensitivities {
-    /// Derivatives of all predicted values, a column for each parameter.
+    /// One column for each unknown, each with an entry for every value of [`Model::predict`], in its order
+    /// `[unit of the signal / unit of the unknown]`; NaN where nothing was measured.
     pub columns: Vec<Vec<f64>>,
-    /// Estimated error, relative to the largest derivative of the same parameter.
+    /// Estimated error of the derivatives, relative to the largest one of the same unknown (dimensionless); 0 if it was
+    /// not asked for.
     pub error: f64,
 }
 
 impl<'a> Model<'a> {
-    /// A model with the settings that its runs need: the signals of the data recorded at every step, until the last of
-    /// the data.
+    /// Creates a model of a scene with the settings `fixed`. Settings for its runs are added: they last until the last
+    /// time of the data, record at every step, and leave out checks, plots and variants.
     #[must_use]
     pub fn new(
         loaded: &'a Loaded,
@@ -100,23 +103,23 @@ impl<'a> Model<'a> {
 
     /// Settings that the caller gave.
     #[must_use]
-    pub fn own_settings(&self) -> &[Override] {
+    pub(crate) fn own_settings(&self) -> &[Override] {
         &self.fixed[..self.n_own]
     }
 
     /// Sets the tolerance of the integrator for the runs from now on: the coarse one of the search (true), or the fine
     /// one at which the solution and its uncertainty are computed (false).
-    pub fn set_coarse(&self, is_coarse: bool) {
+    pub(crate) fn set_coarse(&self, is_coarse: bool) {
         self.is_coarse.store(is_coarse, Ordering::Relaxed);
     }
 
-    /// Number of unknowns: free parameters and time offsets.
+    /// Returns the number of unknowns: free parameters and time offsets.
     #[must_use]
     pub fn n_unknowns(&self) -> usize {
         self.free.len() + if self.has_offsets { self.sets.len() } else { 0 }
     }
 
-    /// Names of the unknowns.
+    /// Returns the names of the unknowns in their order: paths of the free parameters, then `time offset of FILE`.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         let offsets = self.sets.iter().take(self.n_unknowns() - self.free.len());
@@ -124,7 +127,12 @@ impl<'a> Model<'a> {
         names.chain(offsets.map(|set| format!("time offset of {}", set.path.display()))).collect()
     }
 
-    /// Start, lower bound, upper bound and scale of an unknown.
+    /// Returns start, lower bound, upper bound and typical size of unknown `k`, in its unit; those of a time offset
+    /// `[s]` follow from the length of its data.
+    ///
+    /// # Panics
+    ///
+    /// If `k` is not below [`Model::n_unknowns`].
     #[must_use]
     pub fn bounds(&self, k: usize) -> (f64, f64, f64, f64) {
         match self.free.get(k) {
@@ -136,17 +144,23 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Runs made so far.
+    /// Returns the number of simulations made so far, for predictions and sensitivities together.
     #[must_use]
     pub fn n_runs(&self) -> usize {
         self.n_runs.load(Ordering::Relaxed)
     }
 
-    /// Predicted values of all data, set by set, column by column; NaN where the data have none.
+    /// Predicts all data by one run: set by set, in each column by column, in each one value per time, in the unit of
+    /// the signal; NaN where nothing was measured. `unknowns` has [`Model::n_unknowns`] values in the order of
+    /// [`Model::names`].
     ///
     /// # Errors
     ///
-    /// The scene refuses the values, or the run stops.
+    /// [`ModelError`]: the scene refuses the values, the run stops, or it was interrupted.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer values than free parameters.
     pub fn predict(&self, unknowns: &[f64]) -> Result<Vec<f64>, ModelError> {
         self.n_runs.fetch_add(1, Ordering::Relaxed);
         let values = &unknowns[..self.free.len()];
@@ -190,7 +204,8 @@ impl<'a> Model<'a> {
         Ok(predicted)
     }
 
-    /// Derivatives of all predicted values by all unknowns, on all processors.
+    /// Computes the derivatives of all predicted values by all unknowns at the point `unknowns` by differences of runs,
+    /// on all processors. With `with_error` (twice the runs) they are extrapolated and their error is estimated.
     ///
     /// # Errors
     ///

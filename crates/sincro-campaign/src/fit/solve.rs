@@ -18,20 +18,21 @@ const DAMPING: f64 = 1e-3;
 /// Derivative, relative to the data, below which a parameter does nothing.
 const DEAD: f64 = 1e-11;
 
-/// Loss of a residual `r` in units of its noise.
+/// Loss function of the weighted residuals of a fit, in standard deviations of the noise; robust ones give outliers
+/// less weight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Loss {
-    /// r²/2: least squares.
+    /// Least squares: r²/2.
     #[default]
     Squares,
-    /// Linear beyond 1.345 standard deviations (Huber 1964).
+    /// Quadratic, linear beyond 1.345 standard deviations (Huber 1964).
     Huber,
-    /// Logarithmic beyond 2.385 standard deviations (Cauchy).
+    /// Quadratic near 0, logarithmic beyond 2.385 standard deviations (Cauchy).
     Cauchy,
 }
 
 impl Loss {
-    /// Loss that a plan names `squares`, `huber` or `cauchy`; none for any other word.
+    /// Returns the loss named `squares`, `huber` or `cauchy`; `None` for any other word.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Self> {
         match word {
@@ -42,7 +43,7 @@ impl Loss {
         }
     }
 
-    /// The word.
+    /// Returns the name of the loss in files and on the command line: `squares`, `huber` or `cauchy`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -62,36 +63,39 @@ impl Loss {
     }
 }
 
-/// Solution of a least-squares problem.
+/// Solution of the least-squares problem of a [`Model`]; result of [`solve`]. Residuals are in the order of
+/// [`Model::predict`], unknowns in that of [`Model::names`].
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// Values of the unknowns.
+    /// Fitted values of the unknowns, in their units.
     pub unknowns: Vec<f64>,
-    /// Weighted residuals, predicted less measured; NaN where nothing was measured.
+    /// Weighted residuals, weight times (predicted less measured), dimensionless if the weights are 1/σ; NaN where
+    /// nothing was measured.
     pub residuals: Vec<f64>,
-    /// Weights of the robust loss; 1 for least squares.
+    /// Weights of the robust loss, 0 to 1, one for each residual; all 1 for least squares.
     pub robust: Vec<f64>,
-    /// Weighted derivatives of the residuals by the unknowns.
+    /// Derivatives of the weighted residuals by the unknowns.
     pub sensitivities: Sensitivities,
-    /// Half the sum of the squares at the start and at the end.
+    /// Half the sum of the squared weighted residuals at the start and at the end.
     pub cost: (f64, f64),
-    /// Iterations made.
+    /// Number of Levenberg–Marquardt iterations.
     pub n_iterations: usize,
     /// True if the change or the gradient fell below its tolerance; else no better point was found, or the iteration
     /// limit was reached.
     pub has_converged: bool,
-    /// Unknowns at a bound.
+    /// True for each unknown that lies at a bound, in the order of the unknowns.
     pub at_bound: Vec<bool>,
 }
 
-/// Failure of a fit.
+/// Failure of a fit, by [`solve`] or [`Fit::new`](super::Fit::new).
 #[derive(Debug)]
 pub enum SolveError {
-    /// The model cannot be run at the start.
+    /// The model cannot be run, at the start or for its derivatives.
     Model(ModelError),
-    /// Parameters that change nothing of what was measured: their indices.
+    /// Unknowns that change nothing of what was measured: their indices in [`Model::names`], ascending. Fix them, or
+    /// measure more.
     Dead(Vec<usize>),
-    /// The data do not cover the time of the run, or are fewer than the unknowns.
+    /// The data within the time of the run are no more than the unknowns; their number.
     TooFew(usize),
 }
 
@@ -109,11 +113,13 @@ fn flat(model: &Model<'_>) -> (Vec<f64>, Vec<f64>) {
     (measured, weights)
 }
 
-/// Fits a model to its data.
+/// Fits the unknowns of a model to its data by the Levenberg–Marquardt method with bounds, from the starts of the free
+/// parameters; robust losses by iterative reweighting.
 ///
 /// # Errors
 ///
-/// The model cannot be run, a parameter has no effect, or there are fewer data than unknowns.
+/// [`SolveError::Model`]: the model cannot be run, or was interrupted. [`SolveError::Dead`]: an unknown has no effect.
+/// [`SolveError::TooFew`]: no more data than unknowns.
 pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
     let n = model.n_unknowns();
     let (measured, weights) = flat(model);

@@ -22,27 +22,27 @@ use crate::design::random::{Purpose, bits, permuted, uniform};
 use crate::design::{Distribution, inverse_normal, normal_cdf, sobol};
 use crate::measure::MeasurePlan;
 
-/// Most runs of a campaign.
+/// Upper limit of the number of runs of a campaign; plans with more are refused.
 pub const MAX_RUNS: u64 = 1_000_000_000;
 
-/// Design of the draws.
+/// Design of experiments: the rule by which the drawn parameters are spread over the runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Design {
-    /// Independent draws.
+    /// Simple random sampling: independent draws.
     Random,
-    /// One draw in each of `n` intervals of equal probability of every parameter.
+    /// Latin hypercube: one draw in each of `n` intervals of equal probability of every parameter, for `n` draws.
     LatinHypercube,
-    /// Points of the Sobol' sequence with a random digital shift.
+    /// Points of the Sobol' sequence with a random digital shift (quasi-Monte Carlo).
     Sobol,
-    /// Two Sobol' matrices and their mixtures, from which first-order and total indices follow (Saltelli 2002).
+    /// Two Sobol' matrices and their mixtures, from which first-order and total Sobol' indices follow (Saltelli 2002).
     Saltelli,
 }
 
 impl Design {
-    /// All designs.
+    /// All designs, in the order of the help texts.
     pub const ALL: [Self; 4] = [Self::Random, Self::LatinHypercube, Self::Sobol, Self::Saltelli];
 
-    /// The word in the file.
+    /// Returns the name of the design in a plan file: `random`, `latin-hypercube`, `sobol` or `saltelli`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -54,90 +54,94 @@ impl Design {
     }
 }
 
-/// A number that differs from run to run.
+/// Parameter of a campaign: a number of the scene that differs from run to run; a `[[parameter]]` of the plan.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Name of its column.
+    /// Name of its column in the results.
     pub name: String,
-    /// Paths as after `--set` that take its value.
+    /// Paths of the settings that take its value, as after `--set`.
     pub paths: Vec<Located<String>>,
-    /// Unit; may be empty.
+    /// Unit as text, for reports; may be empty.
     pub unit: String,
-    /// True if values are rounded to whole numbers.
+    /// True if its values are rounded to whole numbers.
     pub is_integer: bool,
-    /// Its distribution, or its values.
+    /// Distribution that it is drawn from, or values of a grid.
     pub distribution: Distribution,
 }
 
-/// Checks of the scene that are measured.
+/// Choice of the experiment's checks that a campaign measures besides its own measures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Checks {
-    /// All of each variant.
+    /// All checks of each variant.
     All,
-    /// None.
+    /// No check.
     None,
-    /// Those of these names.
+    /// Checks of these names.
     Named(Vec<String>),
 }
 
-/// A plan that was read and found sound, as far as that can be said without its scene.
+/// Plan of a campaign, read from a plan file and validated as far as that is possible without its scene: which runs
+/// there are, and which numbers are kept of each. [`crate::Campaign::new`] joins it with the scene.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Title of the report; may be empty.
     pub title: String,
     /// Description under the title; may be empty.
     pub description: String,
-    /// Folder of the scene.
+    /// Path of the scene's folder.
     pub scene: PathBuf,
-    /// Seed of all draws.
+    /// Seed of all random draws.
     pub seed: u64,
-    /// True if each sample gives the scene a seed of its own.
+    /// True if each sample gives the scene a seed of its own (for noise and the like).
     pub random_seeds: bool,
-    /// Probability of all intervals.
+    /// Probability of all confidence intervals, 0.5 to below 1.
     pub confidence: f64,
-    /// Design of the draws.
+    /// Design of experiments of the drawn parameters.
     pub design: Design,
-    /// Draws for each point of the grid; 1 if nothing is drawn.
+    /// Number of draws for each point of the grid; 1 if nothing is drawn.
     pub n_draws: u64,
     /// Parameters in the order of the file.
     pub parameters: Vec<Parameter>,
-    /// Cholesky factor of the correlation of the drawn parameters, row by row; none if they are independent.
+    /// Lower Cholesky factor of the correlation matrix of the drawn parameters, `n_drawn` rows of `n_drawn` entries in
+    /// the order of the file; `None` if they are independent.
     pub correlation: Option<Vec<Vec<f64>>>,
-    /// Parts of the experiment that are run: `main` and variants by their names.
+    /// Names of the variants of the experiment that are run, `main` being the experiment itself; at least one.
     pub variants: Vec<Located<String>>,
-    /// Settings of all runs.
+    /// Settings of all runs, as after `--set`.
     pub set: Vec<Override>,
-    /// Numbers that are kept of each run.
+    /// Measures that are kept of each run, in the order of the file.
     pub measures: Vec<MeasurePlan>,
-    /// Checks of the scene that are measured, too.
+    /// Checks of the experiment that are measured, too.
     pub checks: Checks,
-    /// Rows in each part of the results, if the file says so.
+    /// Number of rows in each part of the results; `None`: by [`Plan::rows_per_part`].
     pub rows_per_part: Option<u64>,
-    /// The file.
+    /// Text of the plan file, for messages and for the copy beside the results.
     pub source: Arc<SourceText>,
 }
 
-/// Point of a run: all that distinguishes it from the others, a function of the plan and `k`.
+/// Point of one run in the space of a campaign: all that distinguishes it from the others, a function of the plan and
+/// `k`. Made by [`Plan::point`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunPoint {
     /// Number of the run, from 0.
     pub k: u64,
-    /// Number of the sample, from 0.
+    /// Number of the sample, from 0: `k` divided by the number of variants.
     pub sample: u64,
-    /// Index of the variant.
+    /// Index of the variant in [`Plan::variants`].
     pub variant_idx: usize,
-    /// Seed that the scene is given; none if it keeps its own.
+    /// Seed that the scene is given; `None` if it keeps its own.
     pub seed: Option<u64>,
-    /// Values of the parameters in their order.
+    /// Values of the parameters, in the order and units of [`Plan::parameters`].
     pub values: Vec<f64>,
 }
 
 impl Plan {
-    /// Reads a plan file.
+    /// Reads a plan file (TOML); paths in it are relative to its folder.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with it.
+    /// All findings at once, each at its place in the file: text that cannot be read or is no TOML, unknown keys,
+    /// values without meaning, tables that cannot be read, too many runs.
     pub fn open(path: &Path) -> Result<Self, Diagnostics> {
         let text = std::fs::read_to_string(path).map_err(|error| {
             let words = format!("cannot read the plan `{}`: {error}", path.display());
@@ -146,40 +150,41 @@ impl Plan {
         Self::parse(path, text)
     }
 
-    /// Reads the text of a plan file; `path` is where its own paths start from.
+    /// Reads the text of a plan file; paths in it are relative to the folder of `path`, which is not read itself.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with it.
+    /// As [`Plan::open`].
     pub fn parse(path: &Path, text: String) -> Result<Self, Diagnostics> {
         read::plan(path, text)
     }
 
-    /// Number of points of the grid; `u64::MAX` if there are more than that.
+    /// Returns the number of points of the full-factorial grid; 1 without grid parameters, `u64::MAX` if there are more
+    /// than that.
     #[must_use]
     pub fn n_grid(&self) -> u64 {
         self.parameters.iter().map(|p| grid_len(&p.distribution)).fold(1, u64::saturating_mul)
     }
 
-    /// Number of samples: points of the grid times draws.
+    /// Returns the number of samples: points of the grid times draws; `u64::MAX` if there are more than that.
     #[must_use]
     pub fn n_samples(&self) -> u64 {
         self.n_grid().saturating_mul(self.n_draws)
     }
 
-    /// Number of runs.
+    /// Returns the number of runs: samples times variants.
     #[must_use]
     pub fn n_runs(&self) -> u64 {
         self.n_samples().saturating_mul(self.variants.len() as u64)
     }
 
-    /// Number of parameters that are drawn.
+    /// Returns the number of parameters that are drawn, those of a grid left out.
     #[must_use]
     pub fn n_drawn(&self) -> usize {
         self.parameters.iter().filter(|p| !p.distribution.is_grid()).count()
     }
 
-    /// The point of run `k`.
+    /// Returns the point of run `k` (from 0, below [`Plan::n_runs`]): its sample, variant, seed and parameter values.
     #[must_use]
     pub fn point(&self, k: u64) -> RunPoint {
         let n_variants = self.variants.len() as u64;
@@ -230,7 +235,8 @@ impl Plan {
         }
     }
 
-    /// Settings of a run, after those of its variant.
+    /// Returns the settings of the parameters and the seed of a run, which follow those of the plan and of its variant.
+    /// `point` comes from [`Plan::point`] of this plan.
     #[must_use]
     pub fn settings(&self, point: &RunPoint) -> Vec<Override> {
         let mut settings = Vec::new();
@@ -242,7 +248,8 @@ impl Plan {
         settings
     }
 
-    /// Rows in each part of the results: a function of the plan alone, so that parts are the same for any sharding.
+    /// Returns the number of rows in each part of the results, 1 to 2²⁰ (the last part has the rest): a function of the
+    /// plan alone, so that parts are the same for any sharding.
     #[must_use]
     pub fn rows_per_part(&self) -> u64 {
         self.rows_per_part.unwrap_or_else(|| self.n_runs().div_ceil(128).clamp(1, 1024))

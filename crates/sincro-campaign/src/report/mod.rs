@@ -14,20 +14,21 @@ use crate::store::{Store, StoreError, write_text};
 
 pub use summary::{Indices, Sample, Summary, Worst};
 
-/// A run that was made again, and the address of its report.
+/// Run that was made again with its own report, for the link in the report of the campaign.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replay {
-    /// Number of the run.
+    /// Number of the run in the campaign, from 0.
     pub k: u64,
-    /// Address relative to the campaign's report.
+    /// Address of its report, relative to the folder of the campaign.
     pub href: String,
 }
 
-/// Writes `report.html` and `summary.json`.
+/// Writes `report.html` and `summary.json` into the folder of a campaign that was collected; `replays` are runs made
+/// again, to which the report links.
 ///
 /// # Errors
 ///
-/// A file cannot be written.
+/// [`StoreError::File`] with the path of the file that cannot be written.
 pub fn write(store: &Store, summary: &Summary, replays: &[Replay]) -> Result<(), StoreError> {
     write_text(&store.folder.join("summary.json"), &(json_text(store, summary) + "\n"))?;
     write_text(&store.folder.join("report.html"), &page::html(store, summary, replays)).map_err(StoreError::from)
@@ -40,7 +41,8 @@ pub(crate) fn ascending(summary: &Summary, measure: usize) -> Vec<f64> {
     values
 }
 
-/// Summary for the terminal.
+/// Returns a summary of the campaign for the terminal, several lines of English: yield, statistics of the measures,
+/// worst run.
 #[must_use]
 pub fn text(store: &Store, summary: &Summary) -> String {
     let manifest = &store.manifest;

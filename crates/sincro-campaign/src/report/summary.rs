@@ -14,43 +14,45 @@ const MAX_SAMPLE: u64 = 20_000;
 /// Worst runs that are listed.
 const N_WORST: usize = 10;
 
-/// Statistics of all runs.
+/// Statistics of all runs of a campaign, the content of its report; made by [`Summary::of`]. Lists of parameters and
+/// measures are in the order of the [`Manifest`].
 #[derive(Clone, Debug)]
 pub struct Summary {
     /// Number of runs.
     pub n: u64,
-    /// Good runs.
+    /// Number of good runs: completed or ended as intended, within all limits, no measured check failed.
     pub n_good: u64,
-    /// Numbers of runs by their status: completed, ended, stopped, refused.
+    /// Number of runs of each status, in the order `completed`, `ended`, `stopped`, `refused`.
     pub statuses: Vec<(String, u64)>,
-    /// Name of each variant, its runs, its good runs.
+    /// Name of each variant, number of its runs, number of its good runs, in the order of the plan.
     pub variants: Vec<(String, u64, u64)>,
-    /// Runs with findings of the audit.
+    /// Number of runs in which the audit found something.
     pub n_with_findings: u64,
-    /// Moments of each measure over the runs that have it.
+    /// Mean, spread and extremes of each measure, in its unit, over the runs that have a value.
     pub measures: Vec<Moments>,
-    /// Runs that miss the limits of each measure; 0 if it has none.
+    /// Number of runs outside the limits of each measure; 0 if it has no limits.
     pub misses: Vec<u64>,
     /// Rows that are kept for quantiles and pictures.
     pub sample: Sample,
-    /// The worst runs, the worst first.
+    /// Worst runs, the worst first, ten at most.
     pub worst: Vec<Worst>,
-    /// Sobol' indices of each measure, if the design tells them.
+    /// Sobol' indices of each measure; `None` unless the design is `saltelli` and the measure varies.
     pub indices: Vec<Option<Indices>>,
 }
 
-/// Rows that are kept: all, or a draw that depends on the seed and the number of the run alone.
+/// Rows of a campaign kept in memory for quantiles and pictures: all, or about 20 000 drawn at random by the seed and
+/// the number of the run alone. All lists have one entry per kept run, in the order of the runs.
 #[derive(Clone, Debug, Default)]
 pub struct Sample {
-    /// Share of the rows that is kept.
+    /// Probability with which a row is kept; 1 and above: all are.
     pub share: f64,
-    /// Numbers of the runs.
+    /// Numbers of the kept runs, ascending.
     pub k: Vec<u64>,
-    /// Values of each parameter.
+    /// Values of the parameters: one list for each parameter, in its unit.
     pub parameters: Vec<Vec<f64>>,
-    /// Values of each measure; NaN where there is none.
+    /// Values of the measures: one list for each measure, in its unit; NaN where there is none.
     pub measures: Vec<Vec<f64>>,
-    /// True for good runs.
+    /// True for each good run.
     pub good: Vec<bool>,
 }
 
@@ -62,30 +64,31 @@ impl Sample {
     }
 }
 
-/// One of the worst runs.
+/// One of the worst runs of a campaign, an entry of [`Summary::worst`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Worst {
-    /// Its number.
+    /// Number of the run, from 0.
     pub k: u64,
-    /// Its variant.
+    /// Name of its variant.
     pub variant: String,
-    /// Its status.
+    /// Status of the run: `completed`, `ended`, `stopped` or `refused`.
     pub status: String,
-    /// Distance beyond the limits, in standard deviations; infinite for a run that stopped.
+    /// Distance beyond the limits in standard deviations of the measure, negative within them; infinite for a run that
+    /// stopped or was refused.
     pub score: f64,
-    /// Reason for a person.
+    /// Reason in English, such as the measure and its value.
     pub reason: String,
-    /// Values of the parameters.
+    /// Values of the parameters, in their order and units.
     pub parameters: Vec<f64>,
 }
 
-/// Variance-based sensitivities of a measure: shares of its variance.
+/// Sobol' indices of one measure: shares of its variance (dimensionless) that the drawn parameters cause.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Indices {
-    /// Rows of the drawn parameters: index among the parameters, share alone, half width of its interval, share with
-    /// all its interactions, half width.
+    /// One row for each drawn parameter: its index among all parameters, its first-order index, the half width of that
+    /// one's confidence interval, its total index (with all interactions), the half width of that one's.
     pub rows: Vec<(usize, f64, f64, f64, f64)>,
-    /// Number of blocks in which all runs have a value, and of all.
+    /// Number of blocks of the Saltelli design in which all runs have a value, and of all blocks.
     pub n_blocks: (u64, u64),
 }
 
@@ -127,11 +130,11 @@ impl Group<'_> {
 }
 
 impl Summary {
-    /// Reads the table of a campaign that was collected.
+    /// Computes the statistics from the table `runs.parquet` of a campaign, which [`crate::collect`] wrote.
     ///
     /// # Errors
     ///
-    /// The table cannot be read.
+    /// [`StoreError::Damaged`] with the file and the reason, if the table is missing or cannot be read.
     pub fn of(store: &Store) -> Result<Self, StoreError> {
         let manifest = &store.manifest;
         let (n_parameters, n_measures) = (manifest.parameters.len(), manifest.measures.len());
@@ -166,7 +169,8 @@ impl Summary {
         Ok(summary)
     }
 
-    /// Interval of the yield.
+    /// Returns the lower and upper bound, 0 to 1, of the confidence interval of the yield (share of good runs) after
+    /// Wilson (1927), for the probability `confidence` in (0, 1); (0, 1) without runs.
     #[must_use]
     pub fn yield_interval(&self, confidence: f64) -> (f64, f64) {
         wilson(self.n_good, self.n, confidence)

@@ -13,23 +13,25 @@ use super::{Store, StoreError, own_name, put};
 /// Rows of a row group of the table.
 const ROWS_PER_GROUP: usize = 1 << 16;
 
-/// A table of all runs that was written.
+/// Account of [`collect`]: the table of all runs that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Collected {
-    /// Number of rows.
+    /// Number of rows, one for each run.
     pub n_rows: u64,
-    /// Hash of the traces of all runs, in their order.
+    /// Hash of the traces of all runs in their order, 16 hexadecimal digits: equal for identical results.
     pub trace: String,
-    /// Files of processes that were killed while they wrote; they were taken away.
+    /// Number of unfinished files that were deleted; processes that were killed while they wrote had left them.
     pub n_partial: usize,
 }
 
-/// Collects the parts of a campaign into `runs.parquet`.
+/// Collects the parts of a campaign into the table `runs.parquet` in its folder: each run once, in the order of their
+/// numbers.
 ///
 /// # Errors
 ///
-/// Another process collects, parts are missing, damaged or of another campaign, or the disk is full. The table is then
-/// as it was before.
+/// [`StoreError::Busy`]: another process collects. [`StoreError::Missing`]: parts are missing. [`StoreError::Damaged`]:
+/// a part is damaged or of another campaign. [`StoreError::Foreign`]: other files are among the parts.
+/// [`StoreError::File`]: a file cannot be read or written. The table is then as it was before.
 pub fn collect(store: &Store) -> Result<Collected, StoreError> {
     let lock_path = store.folder.join(".lock");
     let lock = File::create(&lock_path).map_err(|e| FileError::new("write", &lock_path, e))?;

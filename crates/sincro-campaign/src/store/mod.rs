@@ -30,33 +30,33 @@ use crate::campaign::{Campaign, Column};
 use crate::row::Layout;
 
 pub use collect::{Collected, collect};
-pub use part::PartState;
+pub(crate) use part::PartState;
 
 /// Name of the description.
 const MANIFEST: &str = "campaign.json";
 /// Name of the collected table.
-pub const RUNS: &str = "runs.parquet";
+pub(crate) const RUNS: &str = "runs.parquet";
 
-/// Description of a campaign beside its results: all that `collect` and the report need of the plan.
+/// Description of a campaign beside its results, `campaign.json`: all that [`collect`] and the report need of the plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// Hash of the inputs.
+    /// Hash of the inputs, [`Campaign::input`].
     pub input: String,
-    /// Version of the program.
+    /// Version of the program that began the campaign.
     pub sincro_version: String,
-    /// Path of the plan as it was named.
+    /// Path of the plan file as it was named on the command line.
     pub plan: String,
-    /// Name of the scene.
+    /// Name of the scene's folder.
     pub scene: String,
-    /// Title of the report.
+    /// Title of the report: that of the plan, or of the experiment.
     pub title: String,
-    /// Description; may be empty.
+    /// Description under the title; may be empty.
     pub description: String,
-    /// Design of the draws.
+    /// Name of the design of experiments, [`crate::plan::Design::word`].
     pub design: String,
-    /// Seed of the draws.
+    /// Seed of all random draws.
     pub seed: u64,
-    /// Probability of the intervals.
+    /// Probability of the confidence intervals, 0.5 to below 1.
     pub confidence: f64,
     /// Number of runs.
     pub n_runs: u64,
@@ -64,30 +64,30 @@ pub struct Manifest {
     pub n_draws: u64,
     /// Number of parameters that are drawn.
     pub n_drawn: usize,
-    /// Rows in each part; the last has the rest.
+    /// Number of rows in each part; the last has the rest.
     pub rows_per_part: u64,
-    /// Parts of the experiment.
+    /// Names of the variants, in the order of the plan.
     pub variants: Vec<String>,
-    /// Parameters.
+    /// Descriptions of the parameters, in the order of the plan.
     pub parameters: Vec<Column>,
-    /// True for those that are drawn.
+    /// True for each parameter that is drawn, false for one of the grid, in their order.
     pub is_drawn: Vec<bool>,
-    /// Measures.
+    /// Descriptions of the measures, in the order of their columns.
     pub measures: Vec<Column>,
 }
 
-/// Error of a campaign's folder.
+/// Error of the folder of a campaign. Its text (`Display`) is a message for the user, [`StoreError::help`] the remedy.
 #[derive(Debug)]
 pub enum StoreError {
     /// A file cannot be written or read.
     File(FileError),
-    /// The folder belongs to another campaign, or holds something else; message and help.
+    /// The folder belongs to another campaign, or holds something else; message and remedy.
     Foreign(String, String),
-    /// A part of the results is damaged: its file and the reason.
+    /// A part, the table or the manifest is damaged: its file and the reason.
     Damaged(PathBuf, String),
-    /// Parts are missing: first and last run of each range.
+    /// Parts are missing: numbers of the first and last run of each missing range, ascending.
     Missing(Vec<(u64, u64)>),
-    /// Another process collects.
+    /// Another process collects this folder.
     Busy(PathBuf),
 }
 
@@ -111,7 +111,7 @@ impl fmt::Display for StoreError {
 impl std::error::Error for StoreError {}
 
 impl StoreError {
-    /// Remedy; may be empty.
+    /// Returns the remedy in English, such as which file to delete; empty if there is none.
     #[must_use]
     pub fn help(&self) -> String {
         match self {
@@ -133,21 +133,23 @@ impl From<FileError> for StoreError {
     }
 }
 
-/// The folder of a campaign.
+/// Folder of a campaign with its manifest and its results, which several processes may fill at the same time.
 #[derive(Clone, Debug)]
 pub struct Store {
-    /// The folder.
+    /// Path of the folder.
     pub folder: PathBuf,
-    /// Its description.
+    /// Content of its `campaign.json`.
     pub manifest: Manifest,
 }
 
 impl Store {
-    /// Opens the folder of a campaign, or makes it; `plan` is how its plan was named.
+    /// Opens the folder of a campaign, or creates it; `plan` is the path of the plan file as the user named it, for
+    /// reports.
     ///
     /// # Errors
     ///
-    /// It holds another campaign or other files, or cannot be written.
+    /// [`StoreError::Foreign`]: it holds another campaign or other files. [`StoreError::Damaged`]: its manifest cannot
+    /// be understood. [`StoreError::File`]: it cannot be read or written.
     pub fn open(folder: &Path, campaign: &Campaign, plan: &str) -> Result<Self, StoreError> {
         let manifest = Manifest::of(campaign, plan);
         if let Some(found) = Manifest::read(folder)? {
@@ -190,7 +192,8 @@ impl Store {
     ///
     /// # Errors
     ///
-    /// It holds none.
+    /// [`StoreError::Foreign`]: it has no `campaign.json`. [`StoreError::Damaged`]: that cannot be understood.
+    /// [`StoreError::File`]: it cannot be read.
     pub fn existing(folder: &Path) -> Result<Self, StoreError> {
         let manifest = Manifest::read(folder)?.ok_or_else(|| {
             let message = format!("`{}` is no folder of a campaign: it has no `{MANIFEST}`", folder.display());
@@ -201,21 +204,22 @@ impl Store {
 
     /// Columns of the results.
     #[must_use]
-    pub fn layout(&self) -> Layout {
+    pub(crate) fn layout(&self) -> Layout {
         self.manifest.layout()
     }
 
-    /// Number of parts.
+    /// Returns the number of parts (files of [`Manifest::rows_per_part`] rows) of the complete results.
     #[must_use]
     pub fn n_parts(&self) -> u64 {
         self.manifest.n_runs.div_ceil(self.manifest.rows_per_part)
     }
 
-    /// Trace of run `k` in the results, if they have it.
+    /// Returns the trace of run `k` (from 0, below the manifest's `n_runs`) in the results,
+    /// [`Row::trace`](crate::row::Row::trace); `None` if the run is not there yet.
     ///
     /// # Errors
     ///
-    /// The results cannot be read.
+    /// [`StoreError::File`] or [`StoreError::Damaged`]: the table or the part that holds the run cannot be read.
     pub fn trace_of(&self, k: u64) -> Result<Option<String>, StoreError> {
         let path =
             [self.runs_path(), self.part_path(k / self.manifest.rows_per_part)].into_iter().find(|p| p.is_file());
@@ -236,19 +240,19 @@ impl Store {
 
     /// First and last run of a part.
     #[must_use]
-    pub fn range(&self, part: u64) -> (u64, u64) {
+    pub(crate) fn range(&self, part: u64) -> (u64, u64) {
         let size = self.manifest.rows_per_part;
         (part * size, ((part + 1) * size).min(self.manifest.n_runs) - 1)
     }
 
     /// File of a part.
     #[must_use]
-    pub fn part_path(&self, part: u64) -> PathBuf {
+    pub(crate) fn part_path(&self, part: u64) -> PathBuf {
         let (first, last) = self.range(part);
         self.folder.join("parts").join(format!("part-{first:09}-{last:09}.parquet"))
     }
 
-    /// The results of all runs.
+    /// Returns the path of the table of all runs, `runs.parquet`, which [`collect`] writes.
     #[must_use]
     pub fn runs_path(&self) -> PathBuf {
         self.folder.join(RUNS)
@@ -319,7 +323,7 @@ impl Manifest {
 
     /// Columns of the results.
     #[must_use]
-    pub fn layout(&self) -> Layout {
+    pub(crate) fn layout(&self) -> Layout {
         let names = |columns: &[Column]| columns.iter().map(|c| c.name.clone()).collect();
         Layout { parameters: names(&self.parameters), measures: names(&self.measures) }
     }
@@ -393,7 +397,7 @@ pub(crate) fn put(own: &Path, path: &Path, written: std::io::Result<()>) -> Resu
 /// # Errors
 ///
 /// The file cannot be written.
-pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
+pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
     write_atomically(path, text.as_bytes())
 }
 

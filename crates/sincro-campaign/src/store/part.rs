@@ -14,7 +14,7 @@ use crate::row::Row;
 
 /// State of a part.
 #[derive(Debug)]
-pub enum PartState {
+pub(crate) enum PartState {
     /// Its file is not there.
     Missing,
     /// Its file is whole and belongs to this campaign.
@@ -29,7 +29,7 @@ impl Store {
     /// # Errors
     ///
     /// The disk is full, or the folder takes no files.
-    pub fn write_part(&self, part: u64, rows: &[Row]) -> Result<(), StoreError> {
+    pub(crate) fn write_part(&self, part: u64, rows: &[Row]) -> Result<(), StoreError> {
         let path = self.part_path(part);
         let group = self.layout().group(rows);
         let footer = [
@@ -53,7 +53,7 @@ impl Store {
     /// # Errors
     ///
     /// It is not there, damaged, or of another campaign.
-    pub fn read_part(&self, part: u64) -> Result<Vec<Values>, StoreError> {
+    pub(crate) fn read_part(&self, part: u64) -> Result<Vec<Values>, StoreError> {
         let path = self.part_path(part);
         let mut file = ParquetFile::open(&path).map_err(|error| damaged(&path, error))?;
         let refuse = |reason: String| Err(StoreError::Damaged(path.clone(), reason));
@@ -82,7 +82,7 @@ impl Store {
     /// # Errors
     ///
     /// A file that is there cannot be read.
-    pub fn part_state(&self, part: u64) -> Result<PartState, StoreError> {
+    pub(crate) fn part_state(&self, part: u64) -> Result<PartState, StoreError> {
         match self.read_part(part) {
             Ok(_) => Ok(PartState::Whole),
             Err(StoreError::File(error)) if error.cause.kind() == ErrorKind::NotFound => Ok(PartState::Missing),
@@ -91,11 +91,11 @@ impl Store {
         }
     }
 
-    /// Number of parts whose file is there, without reading them.
+    /// Returns the number of parts whose file is there, without reading them.
     ///
     /// # Errors
     ///
-    /// The folder cannot be read.
+    /// [`FileError`] with the path of the folder, if it cannot be read.
     pub fn n_present(&self) -> Result<u64, FileError> {
         let folder = self.folder.join("parts");
         let entries = std::fs::read_dir(&folder).map_err(|e| FileError::new("read the folder", &folder, e))?;

@@ -49,35 +49,45 @@ fn parse(text: &str, measures: &[String]) -> Result<Expression, Diagnostic> {
     })
 }
 
-/// A goal: the smaller the better.
+/// Goal of a tuning: a formula of the measures of a run, whose value is minimised.
 #[derive(Clone, Debug)]
 pub struct Goal {
-    /// Its text.
+    /// Text of the formula.
     pub text: String,
     formula: Expression,
 }
 
 impl Goal {
-    /// Reads a goal.
+    /// Reads a goal, a formula of the measures named `measures`, in which every character but letters and digits is
+    /// written as `_`, such as `iae + 0.1*max_torque`.
     ///
     /// # Errors
     ///
-    /// It is no formula of the measures.
+    /// A diagnostic with the known measures, if it is no formula of them or a name fits two of them.
     pub fn parse(text: &str, measures: &[String]) -> Result<Self, Diagnostic> {
         Ok(Self { text: text.to_owned(), formula: parse(text, measures)? })
     }
 
-    /// Its value for the measures of a run.
+    /// Returns the value of the goal; `measures` has one value for each name of [`Goal::parse`], in that order. NaN if
+    /// a measure that it uses has no value.
     #[must_use]
     pub fn value(&self, measures: &[f64]) -> f64 {
         self.formula.eval(measures, &mut self.formula.scratch())
     }
 }
 
-/// A limit: `FORMULA <= FORMULA` or `FORMULA >= FORMULA`.
+/// Limit of a tuning, an inequality of formulas of the measures: `FORMULA <= FORMULA` or `FORMULA >= FORMULA`.
+///
+/// ```
+/// use sincro_campaign::tune::Limit;
+///
+/// let limit = Limit::parse("overshoot <= 0.05", &["overshoot".into(), "iae".into()]).unwrap();
+/// assert_eq!(limit.violation(&[0.04, 1.0]), 0.0);
+/// assert!((limit.violation(&[0.06, 1.0]) - 0.2).abs() < 1e-12); // by a fifth of 0.05
+/// ```
 #[derive(Clone, Debug)]
 pub struct Limit {
-    /// Its text.
+    /// Text of the inequality.
     pub text: String,
     left: Expression,
     right: Expression,
@@ -85,11 +95,11 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// Reads a limit.
+    /// Reads a limit, such as `overshoot <= 0.05`; names of measures as in [`Goal::parse`].
     ///
     /// # Errors
     ///
-    /// It has no `<=` or `>=`, or its sides are no formulas of the measures.
+    /// A diagnostic if it has no `<=` or `>=`, or a side is no formula of the measures.
     pub fn parse(text: &str, measures: &[String]) -> Result<Self, Diagnostic> {
         let (sides, is_upper) = match (text.split_once("<="), text.split_once(">=")) {
             (Some(sides), _) => (sides, true),
@@ -103,13 +113,14 @@ impl Limit {
         Ok(Self { text: text.to_owned(), left, right, is_upper })
     }
 
-    /// Value of its left side.
+    /// Returns the value of the left side; `measures` has one value for each name of [`Limit::parse`], in that order.
     #[must_use]
     pub fn left(&self, measures: &[f64]) -> f64 {
         self.left.eval(measures, &mut self.left.scratch())
     }
 
-    /// By how much it is broken, relative to its right side; 0 if it is kept.
+    /// Returns the violation of the limit relative to the magnitude of its right side; 0 if it is kept, ∞ if a measure
+    /// has no value. `measures` as in [`Limit::left`].
     #[must_use]
     pub fn violation(&self, measures: &[f64]) -> f64 {
         let (left, right) = (self.left(measures), self.right.eval(measures, &mut self.right.scratch()));
@@ -118,12 +129,12 @@ impl Limit {
     }
 }
 
-/// Tables of a plan for measures in one line: `NAME = MEASURE(FORMULA)` with signals in braces, such as
-/// `iae = integral(abs(1 - {/shaft.position}))`, and times `[s]` behind `from` and `to`.
+/// Returns `[[measure]]` tables, text of a plan file, for measures of one line each: `NAME = MEASURE(FORMULA)` with
+/// signals in braces, such as `iae = integral(abs(1 - {/shaft.position}))`.
 ///
 /// # Errors
 ///
-/// A line is not of this form.
+/// A diagnostic that shows the first line that is not of this form.
 pub fn measure_tables(lines: &[String]) -> Result<String, Diagnostic> {
     let mut out = String::new();
     for line in lines {

@@ -20,69 +20,72 @@ use sincro_sim::run::RunError;
 
 use crate::campaign::Campaign;
 use crate::fit::FreeParameter;
-pub use cma::Cma;
+use cma::Cma;
 pub use goal::{Goal, Limit, measure_tables};
-pub use local::Simplex;
+use local::Simplex;
 
-/// Method of the search.
+/// Search method of a tuning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// CMA-ES between the bounds.
+    /// Global search between the bounds by CMA-ES.
     #[default]
     Global,
-    /// Simplex search from the start.
+    /// Local search from the start by the simplex of Nelder and Mead.
     Local,
 }
 
-/// Rule by which the values of several runs become one.
+/// Rule by which the values of a goal or limit over several runs become one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Robust {
-    /// The worst of all runs.
+    /// Greatest value of all runs.
     Worst,
-    /// The value that this share of the runs does not exceed.
+    /// Value that this share of the runs, 0 to 1, does not exceed.
     Quantile(f64),
-    /// The mean.
+    /// Mean of all runs.
     Mean,
 }
 
-/// A search.
+/// Tuning: search for the free parameters of a scene that minimise a goal within limits, over one run or all runs of a
+/// campaign. Fill it in, then call [`Tuning::search`].
 #[derive(Debug)]
 pub struct Tuning<'a> {
-    /// The runs that every candidate makes.
+    /// Campaign whose runs every candidate makes; its measures are the arguments of goal and limits.
     pub campaign: &'a Campaign,
     /// Free parameters, with finite bounds.
     pub free: Vec<FreeParameter>,
-    /// Goal.
+    /// Goal that is minimised.
     pub goal: Goal,
-    /// Limits.
+    /// Limits that must be kept; may be empty.
     pub limits: Vec<Limit>,
-    /// Several runs as one.
+    /// Rule by which the values of several runs become one.
     pub robust: Robust,
-    /// Method.
+    /// Search method.
     pub method: Method,
-    /// Most candidates.
+    /// Upper limit of the number of candidates.
     pub budget: usize,
-    /// Seed of the draws.
+    /// Seed of the search's random draws.
     pub seed: u64,
 }
 
-/// A candidate that was tried.
+/// Candidate of a tuning: values of the free parameters with what came out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// Values of the free parameters.
+    /// Values of the free parameters, in their order and units.
     pub values: Vec<f64>,
-    /// Value of the goal; infinite if a run has none.
+    /// Value of the goal over all runs; infinite if a run has none.
     pub goal: f64,
-    /// Sum of what the limits are broken by, relative to them; 0 if they are kept.
+    /// Sum of `violations`; 0 if all limits are kept, infinite if the goal has no value.
     pub violation: f64,
-    /// Violation of each limit over all runs, relative to it; 0 if it is kept.
+    /// Violation of each limit over all runs, relative to the limit, in the order of [`Tuning::limits`]; 0 if it is
+    /// kept.
     pub violations: Vec<f64>,
-    /// Measures of the first run.
+    /// Measures of the first run, in the order of the campaign's layout and in their units.
     pub measures: Vec<f64>,
 }
 
 impl Candidate {
-    /// Returns true if it is better by Deb's rules.
+    /// Returns true if the candidate is better than `other` by Deb's rules: less violation of the limits first, then
+    /// the smaller goal.
     #[must_use]
     pub fn is_better_than(&self, other: &Self) -> bool {
         match (self.violation > 0.0, other.violation > 0.0) {
@@ -94,27 +97,28 @@ impl Candidate {
     }
 }
 
-/// Result of a search.
+/// Result of [`Tuning::search`].
 #[derive(Clone, Debug)]
 pub struct Tuned {
-    /// The start.
+    /// Candidate at the start of the search.
     pub before: Candidate,
-    /// The best candidate.
+    /// Best candidate.
     pub after: Candidate,
-    /// Goal of the best candidate after so many, as far as it keeps the limits.
+    /// Progress of the search: after how many candidates the best one changed, and its goal; the first entry is the
+    /// start.
     pub history: Vec<(usize, f64)>,
-    /// Candidates tried.
+    /// Number of candidates tried.
     pub n_candidates: usize,
-    /// True if the search ended of itself, not by its budget.
+    /// True if the search converged before its budget was used up.
     pub has_converged: bool,
-    /// True if it was interrupted.
+    /// True if the search was interrupted.
     pub is_interrupted: bool,
-    /// Wall time `[s]`.
+    /// Wall time of the search `[s]`.
     pub wall_time: f64,
 }
 
 impl Tuned {
-    /// End of the search in words.
+    /// Returns the end of the search in English: `converged`, `interrupted` or `ended by its budget`.
     #[must_use]
     pub fn ended(&self) -> &'static str {
         match (self.has_converged, self.is_interrupted) {
@@ -126,11 +130,13 @@ impl Tuned {
 }
 
 impl Tuning<'_> {
-    /// Searches; `progress` is told the share of the budget that is used and the best goal.
+    /// Searches the best candidate, from the start of the free parameters, on all processors. After each generation or
+    /// candidate `progress` receives the share of the budget used so far, from 0 to about 1, and the goal of the best
+    /// candidate. `None` if `interrupt` became true before the first candidate was complete.
     ///
     /// # Errors
     ///
-    /// A measured signal does not exist.
+    /// [`RunError`]: a run could not be begun, such as for a measured signal that does not exist.
     pub fn search(
         &self,
         interrupt: &AtomicBool,
@@ -242,20 +248,21 @@ impl Tuning<'_> {
         self.free.iter().zip(unit).map(|(free, u)| from_unit(free, *u)).collect()
     }
 
-    /// Settings that give the free parameters these values, one for each in their order and units.
+    /// Returns the settings that give the free parameters the values `values`, one for each in their order and units.
     #[must_use]
     pub fn settings(&self, values: &[f64]) -> Vec<Override> {
         self.free.iter().zip(values).map(|(free, value)| free.setting(*value)).collect()
     }
 
-    /// Settings as they are typed.
+    /// Returns the values (one for each free parameter, in their order and units) as arguments of the command line:
+    /// `--set 'PATH=VALUE'` each, separated by spaces.
     #[must_use]
     pub fn command(&self, values: &[f64]) -> String {
         let set = self.free.iter().zip(values);
         set.map(|(free, value)| format!("--set '{}={value:?}'", free.path)).collect::<Vec<_>>().join(" ")
     }
 
-    /// Summary for the terminal.
+    /// Returns a summary of the search for the terminal, several lines of English.
     #[must_use]
     pub fn text(&self, tuned: &Tuned) -> String {
         use std::fmt::Write as _;
@@ -292,11 +299,11 @@ impl Tuning<'_> {
         out
     }
 
-    /// Writes `tune.json` and `report.html` into a folder.
+    /// Writes `tune.json` and `report.html` into a folder, which is created if it is absent.
     ///
     /// # Errors
     ///
-    /// A file cannot be written.
+    /// [`FileError`] with the path of the file or folder that cannot be written.
     pub fn write(&self, tuned: &Tuned, folder: &Path) -> Result<(), FileError> {
         sincro_sim::file::prepare(folder)?;
         let names = &self.campaign.layout.measures;
@@ -334,7 +341,7 @@ fn compare(a: &Candidate, b: &Candidate) -> std::cmp::Ordering {
 }
 
 impl Robust {
-    /// Reads `worst`, `mean` or a share such as `0.9`.
+    /// Reads `worst`, `mean` or a quantile as a share from 0 to 1, such as `0.9`; `None` for anything else.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Self> {
         match word {

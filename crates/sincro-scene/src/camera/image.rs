@@ -3,7 +3,9 @@
 use super::render::NO_PIECE;
 use super::{BACKGROUND, Optics};
 
-/// A picture, row by row from the bottom, each from left to right.
+/// Image of a camera: colour, depth and visible piece of each pixel. Pixels are stored row by row from the bottom of
+/// the picture, each row from left to right; pixel (column, row) has the index `row · columns + column`. Filled by
+/// [`Renderer::draw`](super::Renderer::draw).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     resolution: [usize; 2],
@@ -17,31 +19,33 @@ pub struct Image {
     pub(super) piece: Vec<u32>,
 }
 
-/// A rectangle of pixels.
+/// Rectangular part of an image, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Column and row of its lower left corner.
+    /// Column and row of its lower left pixel, from 0; rows count from the bottom.
     pub position: [usize; 2],
-    /// Columns and rows.
+    /// Numbers of columns and rows.
     pub size: [usize; 2],
 }
 
-/// Pixel format of an image: grey (the mean of the three) or colours; with or without a byte of opacity.
+/// Pixel format for the exchange of an image as bytes: grey (mean of red, green and blue) or colours, with or without a
+/// byte of opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
-    /// One byte instead of three.
+    /// True for one byte of intensity, false for three bytes: red, green, blue.
     pub is_grey: bool,
-    /// One byte more: 255 up to this depth, 0 beyond it; 0 is where the picture begins, 1 where it ends.
+    /// With a byte of opacity behind them: 255 up to this depth, 0 beyond it. The depth is a share of the depth range:
+    /// 0 at the near plane, 1 at the far plane.
     pub cut_off: Option<f64>,
 }
 
 impl Layer {
-    /// Three bytes a pixel: red, green, blue.
+    /// Three bytes per pixel: red, green, blue.
     pub const RGB: Self = Self { is_grey: false, cut_off: None };
-    /// One byte a pixel: intensity.
+    /// One byte per pixel: intensity.
     pub const GREY: Self = Self { is_grey: true, cut_off: None };
 
-    /// Number of bytes of a pixel.
+    /// Returns the number of bytes per pixel, 1 to 4.
     #[must_use]
     pub fn width(&self) -> usize {
         (if self.is_grey { 1 } else { 3 }) + usize::from(self.cut_off.is_some())
@@ -49,7 +53,7 @@ impl Layer {
 }
 
 impl Image {
-    /// Creates an image of the resolution of `optics` that shows nothing but background.
+    /// Creates an image with the resolution and depth range of `optics` that shows the default background only.
     #[must_use]
     pub fn new(optics: &Optics) -> Self {
         let mut new =
@@ -58,7 +62,8 @@ impl Image {
         new
     }
 
-    /// Makes it nothing but background; allocates only if it grows.
+    /// Sets all pixels to `background` (red, green, blue, 0 to 255) at the far plane, with the resolution and depth
+    /// range of `optics`; allocates only if the image grows.
     pub fn clear(&mut self, optics: &Optics, background: [u8; 3]) {
         let n = optics.resolution[0] * optics.resolution[1];
         (self.resolution, self.near, self.far) = (optics.resolution, optics.near, optics.far);
@@ -72,19 +77,19 @@ impl Image {
         self.piece.resize(n, NO_PIECE);
     }
 
-    /// Number of columns and of rows.
+    /// Returns the numbers of columns and rows of pixels.
     #[must_use]
     pub fn resolution(&self) -> [usize; 2] {
         self.resolution
     }
 
-    /// The part that is the whole image.
+    /// Returns the part that covers the whole image, for [`Image::bytes`] and the like.
     #[must_use]
     pub fn whole(&self) -> Part {
         Part { position: [0; 2], size: self.resolution }
     }
 
-    /// Returns true if a part lies in it, and is not empty.
+    /// Returns true if `part` lies inside the image and is not empty.
     #[must_use]
     pub fn has(&self, part: &Part) -> bool {
         let fits = |k: usize| {
@@ -94,19 +99,22 @@ impl Image {
         fits(0) && fits(1)
     }
 
-    /// Colours of all pixels: red, green, blue.
+    /// Returns the colours of all pixels: red, green, blue (0 to 255) of each, `3 · columns · rows` bytes, row by row
+    /// from the bottom of the picture, each row from left to right.
     #[must_use]
     pub fn rgb(&self) -> &[u8] {
         &self.rgb
     }
 
-    /// Depths of all pixels: along the camera's z `[m]`, where the picture ends if nothing is there.
+    /// Returns the depths of all pixels, `columns · rows` distances along the camera's z `[m]`, row by row from the
+    /// bottom of the picture, each row from left to right; that of the far plane where nothing is.
     #[must_use]
     pub fn depth(&self) -> &[f64] {
         &self.depth
     }
 
-    /// Which piece of the scenery each pixel shows, [`NO_PIECE`] if none.
+    /// Returns the piece that each pixel shows, `columns · rows` indices into the list that was drawn ([`NO_PIECE`] for
+    /// the background), row by row from the bottom of the picture, each row from left to right.
     #[must_use]
     pub fn pieces(&self) -> &[u32] {
         &self.piece
@@ -123,7 +131,13 @@ impl Image {
         (y..y + h).flat_map(move |row| row * columns + x..row * columns + x + w)
     }
 
-    /// Bytes of a part, which lies in it.
+    /// Returns the pixels of `part` in the format `layer`: `part.size[0] · part.size[1]` pixels of [`Layer::width`]
+    /// bytes, row by row from the bottom, each row from left to right.
+    ///
+    /// # Panics
+    ///
+    /// If the part reaches beyond the last pixel. It must lie inside the image ([`Image::has`]); else pixels of other
+    /// rows are read.
     #[must_use]
     pub fn bytes(&self, part: Part, layer: Layer) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(layer.width() * part.size[0] * part.size[1]);
@@ -141,17 +155,24 @@ impl Image {
         bytes
     }
 
-    /// Depths of a part, which lies in it: `[m]`, or shares from where it begins, 0, to where it ends, 1.
+    /// Returns the depths of the pixels of `part`, row by row from the bottom, each row from left to right: `[m]` along
+    /// the camera's z if `in_metres`, else shares of the depth range, 0 at the near plane and 1 at the far plane.
+    ///
+    /// # Panics
+    ///
+    /// As [`Image::bytes`], when such a pixel is reached.
     pub fn depths(&self, part: Part, in_metres: bool) -> impl Iterator<Item = f64> {
         let of = move |k: usize| if in_metres { self.depth[k] } else { self.share(self.depth[k]) };
         self.places(part).map(of)
     }
 
-    /// Puts colours into a part, which lies in it; opacity is passed over, as V-REP does.
+    /// Writes bytes into the colours of `part`: pixels of [`Layer::width`] bytes in the format `layer`, row by row from
+    /// the bottom, each row from left to right. Bytes of opacity are skipped, as in V-REP; depths stay. If there are
+    /// fewer bytes than pixels, the rest of the part stays.
     ///
     /// # Panics
     ///
-    /// There are fewer bytes than the part has.
+    /// As [`Image::bytes`].
     pub fn write(&mut self, part: Part, layer: Layer, bytes: &[u8]) {
         let places: Vec<usize> = self.places(part).collect();
         for (k, pixel) in places.into_iter().zip(bytes.chunks_exact(layer.width())) {
@@ -160,8 +181,8 @@ impl Image {
         }
     }
 
-    /// Least, greatest and mean of intensity, red, green, blue and depth, in this order, each dimensionless from 0 to
-    /// 1.
+    /// Returns statistics over all pixels: minima of intensity, red, green, blue and depth, then their maxima, then
+    /// their means, each dimensionless from 0 to 1 (depth: 0 at the near plane, 1 at the far plane).
     #[must_use]
     pub fn statistics(&self) -> [f64; 15] {
         let n = self.depth.len() as f64;

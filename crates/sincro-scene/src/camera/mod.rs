@@ -27,42 +27,45 @@ pub use render::{NO_PIECE, Renderer};
 use sincro_math::elementary;
 
 /// Most columns, and most rows, of a picture.
-pub const MAX_SIDE: usize = 4096;
-/// Most pixels of a picture: 4 Mi, which take 60 MB.
+const MAX_SIDE: usize = 4096;
+/// Upper limit of the number of pixels of an image: 4 Mi, which take 60 MB.
 pub const MAX_PIXELS: usize = 1 << 22;
-/// Default distance of the near clipping plane `[m]`.
+/// Default distance of the near plane along the camera's z `[m]`.
 pub const NEAR: f64 = 0.01;
-/// Default distance of the far clipping plane `[m]`.
+/// Default distance of the far plane along the camera's z `[m]`; nothing beyond it is seen.
 pub const FAR: f64 = 100.0;
-/// Default background colour: red, green, blue, as in the viewer's page.
+/// Default background colour, red, green, blue (0 to 255): that of the viewer.
 pub const BACKGROUND: [u8; 3] = [0xf7, 0xf8, 0xfa];
 /// Farthest end of a picture, and largest height of an orthographic one `[m]`.
 const MAX_LENGTH: f64 = 1e6;
 
-/// Optics of a camera.
+/// Optics of a camera: resolution, depth range and projection. The camera looks along z of its frame, y is up in the
+/// image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Optics {
-    /// Columns and rows.
+    /// Numbers of columns and rows of pixels.
     pub resolution: [usize; 2],
-    /// Distance along the camera's z at which the picture begins `[m]`.
+    /// Distance of the near plane along the camera's z `[m]`; nothing before it is seen.
     pub near: f64,
-    /// Distance along the camera's z at which it ends `[m]`.
+    /// Distance of the far plane along the camera's z `[m]`; nothing beyond it is seen.
     pub far: f64,
-    /// Projection.
+    /// Projection with its field of view.
     pub lens: Lens,
 }
 
-/// Projection of an image.
+/// Projection of a camera, with its field of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
-    /// In the camera's origin; the angle between the upper and the lower edge `[rad]`.
+    /// Perspective projection through the camera's origin; the angle between the upper and the lower edge of the image
+    /// `[rad]`.
     Perspective(f64),
-    /// Nowhere: all are parallel to z; the height of the picture `[m]`.
+    /// Orthographic projection parallel to the camera's z; the height of the image `[m]`.
     Orthographic(f64),
 }
 
 impl Optics {
-    /// Half the height of the picture: at a distance of one metre, or anywhere, if it is orthographic `[m]`.
+    /// Returns half the height of the image `[m]`: of a perspective one in the plane 1 m before the camera, of an
+    /// orthographic one at any distance.
     #[must_use]
     pub fn half_height(&self) -> f64 {
         match self.lens {
@@ -71,7 +74,7 @@ impl Optics {
         }
     }
 
-    /// Edge of a pixel, where [`Optics::half_height`] is measured `[m]`.
+    /// Returns the edge length of a (square) pixel `[m]`, measured where [`Optics::half_height`] is.
     #[must_use]
     pub fn pixel(&self) -> f64 {
         2.0 * self.half_height() / self.resolution[1] as f64
@@ -82,7 +85,7 @@ impl Optics {
         (self.resolution[0] as f64 / self.resolution[1] as f64).max(1.0)
     }
 
-    /// Angle over the longer side of a perspective picture `[rad]`; 0 of an orthographic one.
+    /// Returns the angle over the longer side of a perspective image `[rad]`; 0 of an orthographic one.
     #[must_use]
     pub fn view_angle(&self) -> f64 {
         match self.lens {
@@ -91,7 +94,7 @@ impl Optics {
         }
     }
 
-    /// The longer side of an orthographic picture `[m]`; 0 of a perspective one.
+    /// Returns the length of the longer side of an orthographic image `[m]`; 0 of a perspective one.
     #[must_use]
     pub fn view_size(&self) -> f64 {
         match self.lens {
@@ -100,29 +103,31 @@ impl Optics {
         }
     }
 
-    /// These optics in perspective, with an angle over the longer side of the picture of `angle` `[rad]` (at most 3.1).
+    /// Returns these optics in perspective projection with the angle `angle` over the longer side of the image `[rad]`,
+    /// clamped to 0 to 3.1.
     #[must_use]
     pub fn with_view_angle(self, angle: f64) -> Self {
         let tall = elementary::tan(0.5 * angle.clamp(0.0, 3.1)).0 / self.longer();
         Self { lens: Lens::Perspective(2.0 * elementary::atan(tall).0), ..self }
     }
 
-    /// These optics in orthographic projection, with `size` as the longer side of the picture `[m]`.
+    /// Returns these optics in orthographic projection with the length `size` of the longer side of the image `[m]`.
     #[must_use]
     pub fn with_view_size(self, size: f64) -> Self {
         Self { lens: Lens::Orthographic(size / self.longer()), ..self }
     }
 
-    /// Checks that a picture can be rendered.
+    /// Checks that an image can be rendered with these optics.
     ///
     /// # Errors
     ///
-    /// What is wrong first.
+    /// The first of [`Optics::invalid_settings`].
     pub fn check(&self) -> Result<(), InvalidSetting> {
         self.invalid_settings().into_iter().next().map_or(Ok(()), Err)
     }
 
-    /// Every setting that has no meaning, with its key and what was expected; empty if all are fine.
+    /// Returns every invalid setting, in the order resolution, near plane, far plane, projection; empty if all are
+    /// valid.
     #[must_use]
     pub fn invalid_settings(&self) -> Vec<InvalidSetting> {
         [self.wrong_resolution(), self.wrong_near(), self.wrong_far(), self.wrong_lens()]
@@ -173,13 +178,13 @@ impl Optics {
     }
 }
 
-/// Invalid setting of a camera.
+/// Invalid setting of a camera, for a message to the user; found by [`Optics::invalid_settings`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InvalidSetting {
-    /// The key of the scene file that says it.
+    /// Key of the scene file that gives it, such as `near`.
     pub key: &'static str,
-    /// Value found.
+    /// Value found, in words with its unit: `a field of view of 180°`.
     pub found: String,
-    /// Value expected.
+    /// Values allowed, in words with their unit.
     pub expected: String,
 }

@@ -2,19 +2,19 @@
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
-/// Channels of a pixel.
+/// Channels of the pixels of a PNG file, one byte each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channels {
-    /// One.
+    /// One channel: intensity.
     Grey,
-    /// Three.
+    /// Three channels: red, green, blue.
     Rgb,
-    /// Four.
+    /// Four channels: red, green, blue, opacity.
     Rgba,
 }
 
 impl Channels {
-    /// Number of bytes of a pixel.
+    /// Returns the number of bytes per pixel: 1, 3 or 4.
     #[must_use]
     pub fn width(self) -> usize {
         match self {
@@ -34,11 +34,12 @@ impl Channels {
     }
 }
 
-/// A picture whose rows come from the bottom, as those of cameras do.
+/// Encodes an image as a PNG file and returns its bytes. `pixels` holds `columns · rows` pixels of [`Channels::width`]
+/// bytes, row by row from the bottom of the picture as in [`Image`](super::Image), each from left to right.
 ///
 /// # Panics
 ///
-/// There are more or fewer bytes than the picture has.
+/// If `pixels` has another length.
 #[must_use]
 pub fn encode(pixels: &[u8], [columns, rows]: [usize; 2], channels: Channels) -> Vec<u8> {
     let width = columns * channels.width();

@@ -15,10 +15,11 @@ use super::light::Light;
 use super::{Image, Lens, Optics};
 use crate::scenery::Piece;
 
-/// Object index of a pixel that shows the background.
+/// Piece index of a pixel that shows the background; see [`Image::pieces`].
 pub const NO_PIECE: u32 = u32::MAX;
 
-/// Draws pictures; keeps what it can use again.
+/// Software renderer: draws pieces of a scene as a camera sees them. It keeps its buffers, and so should be used again
+/// for the next image.
 #[derive(Clone, Debug)]
 pub struct Renderer {
     light: Light,
@@ -49,13 +50,15 @@ impl Default for Renderer {
 }
 
 impl Renderer {
-    /// Creates a renderer; its buffers grow with the first picture.
+    /// Creates a renderer; its buffers grow with the first image.
     #[must_use]
     pub fn new() -> Self {
         Self { light: Light::new(), extents: Vec::new(), order: Vec::new() }
     }
 
-    /// Draws pieces, each with its pose in the world `[m]`, as they are seen from a camera's pose in the world `[m]`.
+    /// Draws pieces into `image`, whose former content is lost: each piece comes with its pose in the world, `x_wc` is
+    /// the camera's pose in the world `[m]` (it looks along its z, y up). Pixels without a piece get the colour
+    /// `background` (red, green, blue, 0 to 255). Piece indices in the image count the iterator's items from 0.
     pub fn draw<'p>(
         &mut self,
         pieces: impl Iterator<Item = (&'p Piece, Pose<f64>)>,

@@ -16,7 +16,7 @@ use super::robot::Item;
 use crate::fmu::{FmuInstance, FmuLoader, FmuModel};
 use crate::suggest;
 
-/// See the head of this file.
+/// FMU as a block of a diagram: co-simulation at the block's sample time.
 #[derive(Clone, Debug)]
 pub struct FmuBlock {
     model: Option<Arc<dyn FmuModel>>,

@@ -13,7 +13,7 @@ use sincro_math::Real;
 use super::robot::Item;
 use crate::script::{ScriptParser, ScriptedLaw, ScriptedLawSpec};
 
-/// See the head of this file.
+/// Lua code as a block of a diagram, evaluated at ticks.
 #[derive(Clone, Debug)]
 pub struct LuaBlock {
     spec: ScriptedLawSpec,

@@ -24,8 +24,6 @@ use sincro_blocks::runner::Runner;
 use sincro_dynamics::model::Model;
 
 pub(crate) use file::DiagramFile;
-pub use fmu::FmuBlock;
-pub use lua::LuaBlock;
 pub use ports::is_known_at_ticks_only;
 use read::{DiagramReader, Origin};
 pub use reference::reference;
@@ -39,12 +37,13 @@ use crate::fmu::Loaders;
 use crate::folder::Folder;
 use crate::record::{Entry, Probe, catalogue};
 
-/// A diagram of a scene, ready to run.
+/// Block diagram that is compiled for a model and connected to its measurements and commands. Read from `diagram.toml`
+/// with the scene, or made in code by [`ControlDiagram::new`].
 #[derive(Clone, Debug)]
 pub struct ControlDiagram {
-    /// As it is drawn.
+    /// Diagram as it was drawn: blocks and wires by their names.
     pub diagram: Diagram,
-    /// Compiled and connected to the model.
+    /// Compiled diagram, connected to the model.
     pub wiring: Arc<Wiring>,
 }
 
@@ -106,8 +105,8 @@ fn shortened(diagnostics: Diagnostics) -> Diagnostics {
 }
 
 impl ControlDiagram {
-    /// Compiles a diagram, however it was drawn, for a model; `step` is the base step `[s]`, `seed` that of everything
-    /// random.
+    /// Compiles a diagram for a model; `step` is the base step of the experiment `[s]`, `seed` that of all random
+    /// blocks. Wires to and from names such as `/hinge.position` connect it to the model.
     ///
     /// ```
     /// use sincro_blocks::diagram::Diagram;
@@ -132,7 +131,8 @@ impl ControlDiagram {
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the diagram.
+    /// [`CompileError`](sincro_blocks::compile::CompileError) with everything that is wrong with the diagram: ports
+    /// that do not exist, widths and units that do not fit, algebraic loops.
     pub fn new(
         diagram: Diagram,
         model: &Arc<Model<f64>>,
@@ -151,7 +151,8 @@ impl ControlDiagram {
         Ok(Self { diagram, wiring })
     }
 
-    /// The block whose continuous state decays fastest at the start, and how fast [1/s]; none if nothing does.
+    /// Returns the path of the block whose continuous state decays fastest at the start, and its decay rate `[1/s]`;
+    /// `None` if no state decays. For the choice of the integration method.
     #[must_use]
     pub fn fastest_decay(&self) -> Option<(String, f64)> {
         let program = self.wiring.program();
@@ -163,7 +164,8 @@ impl ControlDiagram {
         (decay[k] > 0.0).then(|| (step.path.clone(), decay[k]))
     }
 
-    /// Signals of its scopes: title, and the names of the recorded signals.
+    /// Returns the scopes of the diagram in their order: title, and the names of the recorded signals that they show.
+    /// `model` is the one that the diagram was compiled for.
     #[must_use]
     pub fn scopes(&self, model: &Model<f64>) -> Vec<(String, Vec<String>)> {
         let program = self.wiring.program();
@@ -188,7 +190,8 @@ impl ControlDiagram {
             .collect()
     }
 
-    /// The diagram's signals as they are recorded: `block`, `block.port`, components of vectors as `block[0]`.
+    /// Returns the diagram's signals as they can be recorded, with their units: `block`, `block.port`, components of
+    /// vectors as `block[0]`.
     #[must_use]
     pub fn entries(&self) -> Vec<Entry> {
         entries(&self.wiring)

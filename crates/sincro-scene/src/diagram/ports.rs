@@ -81,7 +81,8 @@ pub(crate) fn depends_on_commands(model: &Model<f64>, probe: Probe) -> bool {
     }
 }
 
-/// Returns true if a measurement is known at ticks only: what is summed up over a step, what sensors sample.
+/// Returns true if a measurement has a value at ticks only and none between: sums over a step, values of sensors,
+/// contact forces. Continuous blocks see such a measurement held.
 #[must_use]
 pub fn is_known_at_ticks_only(probe: Probe) -> bool {
     matches!(

@@ -12,7 +12,7 @@ use sincro_dynamics::model::Model;
 
 use super::robot;
 
-/// All kinds of blocks, category by category.
+/// Returns the descriptions of all kinds of blocks, category by category; for help texts.
 #[must_use]
 pub fn kinds() -> Vec<&'static Kind> {
     let of_library = library::all().map(|item| item.kind);
@@ -21,7 +21,7 @@ pub fn kinds() -> Vec<&'static Kind> {
     kinds
 }
 
-/// The reference as Markdown: a section for each category, in it a section for each block.
+/// Returns the block reference `docs/blocks.md` as Markdown: a section for each category, in it one for each block.
 #[must_use]
 pub fn reference() -> String {
     let mut text = String::from(
@@ -58,7 +58,7 @@ fn section(kind: &'static Kind) -> String {
     text
 }
 
-/// A block as it is printed on a terminal, with an example for a diagram file.
+/// Returns the reference of one kind of block as plain text for the terminal, with an example for a diagram file.
 #[must_use]
 pub fn page(kind: &'static Kind) -> String {
     let mut text = format!("{} ({})\n  {}\n  {}\n", kind.name, kind.category.title(), kind.summary, kind.equation);

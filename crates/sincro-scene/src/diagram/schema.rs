@@ -10,7 +10,7 @@ use sincro_blocks::library;
 use super::{DiagramFile, robot};
 use crate::schema::generate;
 
-/// JSON Schema of `diagram.toml`.
+/// Returns the JSON Schema of `diagram.toml`, generated from the blocks; made once.
 pub fn diagram_schema() -> &'static Value {
     static SCHEMA: LazyLock<Value> = LazyLock::new(|| with_blocks(generate::<DiagramFile>()));
     &SCHEMA

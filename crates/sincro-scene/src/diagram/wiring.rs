@@ -8,26 +8,28 @@ use super::ports::Measurement;
 use crate::record::Probe;
 use crate::record::probe;
 
-/// A measurement in use: its components and their places among the signals.
+/// Measurement that a compiled diagram reads, with the place of its components among the diagram's signals; an entry of
+/// [`Wiring::early`] or [`Wiring::late`].
 #[derive(Clone, Debug)]
 pub struct MeasuredSignals {
-    /// Its components.
+    /// Probes of its components, in their order.
     pub probes: Vec<Probe>,
-    /// Place of the first among the signals.
+    /// Index of the first component among the diagram's signals; the others follow.
     pub at: usize,
-    /// True if it is read between ticks, too.
+    /// True if continuous blocks read it, between ticks, too.
     pub is_minor: bool,
 }
 
-/// Connection of a compiled diagram to a model: its measurements and its commands.
+/// Connection of a compiled diagram to a model: which measurements are read into which signals, and which signals are
+/// commands. Part of a [`ControlDiagram`](super::ControlDiagram).
 #[derive(Clone, Debug)]
 pub struct Wiring {
     program: Arc<Program>,
-    /// Measurements that are functions of the state.
+    /// Measurements that are functions of the state, read before the blocks are evaluated.
     pub early: Vec<MeasuredSignals>,
-    /// Measurements that depend on accelerations, and with them on the commands.
+    /// Measurements that depend on accelerations, and through them on the commands.
     pub late: Vec<MeasuredSignals>,
-    /// True if any measurement needs poses and twists: at ticks, and between them.
+    /// True if a measurement needs poses and twists of the links: at ticks (first entry), between ticks (second).
     pub needs_poses: [bool; 2],
 }
 
@@ -52,7 +54,7 @@ impl Wiring {
         Some(reading.probes[signal - reading.at])
     }
 
-    /// Compiled diagram that is wired.
+    /// Returns the compiled diagram: blocks in their order of evaluation, with the indices of their signals.
     #[must_use]
     pub fn program(&self) -> &Arc<Program> {
         &self.program

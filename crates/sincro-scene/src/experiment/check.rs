@@ -8,105 +8,109 @@ use sincro_math::expression::Expression;
 
 use crate::diagnostic::{Located, Location};
 
-/// One expectation about a run, or about all runs of a sweep.
+/// Check of a run: one expectation about a recorded signal or a formula, or about all runs of a sweep. Read from
+/// `[[check]]` of the experiment; a simulation is judged by it.
 ///
-/// Formulas of a check (its own and that of the expected value) share their names, in this order: the aliases, then
-/// `t`, then the parameters. [`Check::values`] fills the slots.
+/// Formulas of a check (its own and that of the expected value) share their arguments, in this order: the aliases, `t`
+/// `[s]`, the parameters. [`Check::values`] lists the values of one row in that order.
 #[derive(Clone, Debug)]
 pub struct Check {
     /// Name in the report.
     pub name: String,
-    /// Measured series.
+    /// Series that is measured.
     pub what: Subject,
-    /// Names of recorded signals in formulas, in the order of the first slots; empty if `what` is a signal.
+    /// Names in formulas with the recorded signals that they stand for; empty if `what` is a signal.
     pub aliases: Vec<(String, Located<String>)>,
-    /// Names and values of the experiment's parameters, in the order of the last slots.
+    /// Names and values of the experiment's parameters.
     pub parameters: Arc<[(String, f64)]>,
     /// Expected value.
     pub expected: Expected,
-    /// Comparison: equal, at most or at least.
+    /// Comparison of measured and expected value.
     pub sense: Sense,
-    /// Measure of the series that is compared.
+    /// Rule by which the series becomes the number that is compared.
     pub measure: Measure,
-    /// Final value of the step for `overshoot`, `rise-time` and `settling-time`; that of the last row if not given.
+    /// Final value of the step for `overshoot`, `rise-time` and `settling-time`, in the unit of the series; `None`: the
+    /// value of the last row.
     pub target: Option<f64>,
-    /// Half the width of the band of `settling-time` around the target, relative to the step's height.
+    /// Half width of the band of `settling-time` around the target, relative to the step's height (0.02 is 2 %).
     pub band: f64,
-    /// The one time `[s]` that is looked at, if given; it excludes `window`.
+    /// Time `[s]` (in a sweep: value of the parameter) of the only row that is looked at; excludes `window`.
     pub at: Option<f64>,
-    /// First and last time `[s]` that are looked at, ends included; all if not given.
+    /// First and last time `[s]` (in a sweep: value of the parameter) that are looked at, ends included; `None`: all.
     pub window: Option<(f64, f64)>,
-    /// Largest |measured − expected| that holds, in the unit of what is measured (or 1, if `relative`); not negative,
-    /// and 0 if `sense` is not `Equal`.
+    /// Largest |measured − expected| that holds, in the unit of the measured value (dimensionless if `relative`); not
+    /// negative, and 0 if `sense` is not `Equal`.
     pub tolerance: f64,
     /// True if the difference is divided by max(|expected|, floor).
     pub relative: bool,
-    /// Least divisor of a relative difference; zero unless given.
+    /// Least divisor of a relative difference, in the unit of the measured value; 0 unless given.
     pub floor: f64,
-    /// The check's `name` in the file, for messages.
+    /// Location of the check's `name` in the file, for messages.
     pub location: Location,
 }
 
-/// Comparison of measured and expected value.
+/// Comparison of the measured with the expected value of a check.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sense {
-    /// They are equal within the tolerance.
+    /// Equal within the tolerance.
     #[default]
     Equal,
-    /// The measured value is not greater.
+    /// Not greater than expected.
     AtMost,
-    /// The measured value is not less.
+    /// Not less than expected.
     AtLeast,
 }
 
-/// Series that a check measures: a recorded signal, or a formula of signals.
+/// Series that a check measures.
 #[derive(Clone, Debug)]
 pub enum Subject {
-    /// A recorded signal by its name.
+    /// Recorded signal by its name, such as `/shoulder.position`.
     Signal(Located<String>),
-    /// A formula of the aliases, `t` and the parameters.
+    /// Formula of the check's aliases, of `t` `[s]` and of the parameters.
     Formula(Expression),
 }
 
-/// Expected value of a check: a number, a formula or a reference series.
+/// Expected value of a check, in the unit of what is measured.
 #[derive(Clone, Debug)]
 pub enum Expected {
-    /// The same number at all times.
+    /// Number that does not change over time.
     Value(f64),
-    /// A formula of the aliases, `t` and the parameters.
+    /// Formula of the check's aliases, of `t` `[s]` and of the parameters, evaluated for each row.
     Formula(Expression),
-    /// A column of a CSV file.
+    /// Reference series from a CSV file, interpolated at the times of the rows.
     Reference(Reference),
 }
 
-/// A column of a CSV file against another: rows of a reference. The file has been read and checked.
+/// Reference series of a check or plot: a column of a CSV file over a column of times, read and validated when the
+/// experiment is opened.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// The file; the folder of the experiment is part of it.
+    /// Path of the file, the folder of the experiment included.
     pub file: PathBuf,
-    /// Name of the column of times `[s]` (in a sweep: of the values of the swept parameter).
+    /// Name of the column of times `[s]`; in a sweep, of values of the swept parameter.
     pub key_column: String,
     /// Name of the column of values.
     pub column: String,
-    /// Factor on the column's values.
+    /// Factor that the file's values were multiplied by.
     pub scale: f64,
-    /// Added after scaling.
+    /// Number that was added after scaling, in the unit of the checked signal.
     pub offset: f64,
-    /// Times (or parameter values) of the rows, strictly increasing.
+    /// Times `[s]` (or parameter values) of the rows, strictly increasing.
     pub keys: Arc<[f64]>,
-    /// Values of the rows, `scale` and `offset` already applied.
+    /// Values of the rows, `scale` and `offset` already applied, in the unit of the checked signal; as many as `keys`.
     pub values: Arc<[f64]>,
-    /// The name of the column in the experiment file, for messages.
+    /// Location of the column's name in the experiment file, for messages.
     pub location: Location,
 }
 
-/// Measure of a series that is compared with the expected value.
+/// Measure of a series: the rule by which its rows become the number that a check compares. In the unit of the series
+/// unless stated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
-    /// Every row with the expected value of its time; the largest difference counts.
+    /// Difference of every row from the expected value at its time; the largest counts.
     Error,
-    /// The last row.
+    /// Value of the last row.
     Final,
     /// Mean over time (trapezoidal rule).
     Mean,
@@ -120,26 +124,28 @@ pub enum Measure {
     Rms,
     /// Standard deviation over time.
     Std,
-    /// Integral over time: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows that are looked at. A row's value
-    /// stands for the interval that ends at it, which is exact for mean values of a step such as `motor_torque`.
+    /// Integral over time, unit of the series times `[s]`: Σ x_k·(t_k − t_{k−1}) over the intervals between the rows. A
+    /// row's value stands for the interval that ends at it, which is exact for mean values of a step such as
+    /// `motor_torque`.
     Integral,
     /// Time `[s]` of the least value.
     TimeOfMin,
     /// Time `[s]` of the greatest value.
     TimeOfMax,
-    /// Overshoot of a step response beyond its target, relative to the step's height. The step leads from the first row
-    /// that is looked at to the target.
+    /// Overshoot of a step response beyond its target, relative to the step's height (dimensionless). The step leads
+    /// from the first row to the target.
     Overshoot,
     /// Time `[s]` between the first crossings of 10 % and of 90 % of the step's height.
     RiseTime,
     /// Time `[s]` from the first row to the last instant at which the response enters the band around its target.
     SettlingTime,
-    /// The magnitude in the first row in which it is greater than the expected value, or its greatest if it never is.
+    /// Magnitude in the first row in which it is greater than the expected value, or the greatest magnitude if it never
+    /// is.
     Divergence,
 }
 
 impl Measure {
-    /// The word in the file.
+    /// Returns the name of the measure in the file, such as `settling-time`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -163,13 +169,13 @@ impl Measure {
 
     /// Returns true if it is one of a step response, which has a target.
     #[must_use]
-    pub fn is_of_step(self) -> bool {
+    pub(crate) fn is_of_step(self) -> bool {
         matches!(self, Self::Overshoot | Self::RiseTime | Self::SettlingTime)
     }
 }
 
 impl Check {
-    /// Names of the recorded signals it needs, as they are in the file.
+    /// Returns the names of the recorded signals that the check needs, with their locations in the file.
     pub fn signals(&self) -> impl Iterator<Item = &Located<String>> {
         let own = match &self.what {
             Subject::Signal(name) => Some(name),
@@ -178,8 +184,8 @@ impl Check {
         own.into_iter().chain(self.aliases.iter().map(|(_, signal)| signal))
     }
 
-    /// The slots of the check's formulas for one row: the aliases' values in their order, the time `[s]`, the
-    /// parameters.
+    /// Returns the arguments of the check's formulas for one row: `aliases`, the values of the aliased signals in the
+    /// order of [`Check::aliases`], then the time `t` `[s]`, then the parameters.
     #[must_use]
     pub fn values(&self, aliases: &[f64], t: f64) -> Vec<f64> {
         let parameters = self.parameters.iter().map(|(_, value)| *value);

@@ -29,11 +29,11 @@ use check::{Check, Reference};
 use stop::StopWhen;
 use task::Task;
 
-/// Smallest useful accuracy of the variable-step methods: below, the rounding of double precision in a step is larger
-/// than its tolerance, and the steps become shorter without end.
+/// Smallest useful accuracy (relative local error tolerance, dimensionless) of the variable-step methods: below, the
+/// rounding of double precision in a step is larger than its tolerance, and the steps become shorter without end.
 pub const SMALLEST_ACCURACY: f64 = 1e-14;
 
-/// An experiment: everything about a run but the scene.
+/// Experiment: everything about a run but the scene, read from `experiment.toml` by [`crate::open::open`].
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -52,46 +52,46 @@ pub struct Experiment {
     pub title: String,
     /// Description under the title; may be empty.
     pub description: String,
-    /// The scene file; the folder is part of it.
+    /// Path of the scene file, the folder included.
     pub scene_path: PathBuf,
-    /// Simulated time `[s]`.
+    /// Simulated time of the run `[s]`.
     pub duration: f64,
-    /// Base step `[s]`.
+    /// Base step: the period of a tick `[s]`.
     pub step: f64,
     /// Base steps in `duration`; at least one.
     pub n_steps: u64,
-    /// Base steps from one call of the scripts to the next, and in one step of remote clients; at least one.
+    /// Base steps between two calls of the scripts, and in one step of remote clients; at least one.
     pub simulation_ticks: u64,
     /// Base steps for each recorded row; at least one.
     pub record_every: u64,
     /// Integration method of the equations of motion.
     pub integrator: Integrator,
-    /// Local tolerance of the variable-step methods.
+    /// Local error tolerance of the variable-step methods, relative (dimensionless).
     pub accuracy: f64,
     /// Estimate of the error bar of the recorded signals.
     pub error_bar: ErrorBar,
-    /// Seed of everything random.
+    /// Seed of everything random in the run.
     pub seed: u64,
-    /// Names of the recorded signals; not empty, no name twice.
+    /// Names of the recorded signals, in the order of the columns; not empty, no name twice.
     pub record: Vec<Located<String>>,
-    /// Names and numbers for formulas.
+    /// Parameters of the formulas in the scene's files: name and value, in the unit that the formulas give them.
     pub parameters: BTreeMap<String, f64>,
-    /// Bounds at which the run ends before its duration.
+    /// Stop conditions: bounds at which the run ends before its duration.
     pub stops: Vec<StopWhen>,
-    /// Checks of the run.
+    /// Checks of the main run, in the order of the file.
     pub checks: Vec<Check>,
-    /// Repeats the run over a parameter.
+    /// Repetition of the run over a parameter, if there is one.
     pub sweep: Option<Sweep>,
-    /// The same experiment with other settings.
+    /// Variants: the same experiment with other settings, in the order of the file.
     pub variants: Vec<Variant>,
     /// Plots of the report; empty if the report is to choose.
     pub plots: Vec<Plot>,
-    /// A task for reinforcement learning, if there is one.
+    /// Task for reinforcement learning, if there is one.
     pub task: Option<Arc<Task>>,
 }
 
 impl Experiment {
-    /// Drops variants, sweep, and all that plots draw of other runs: what is left is one run.
+    /// Removes variants, sweep, and all that plots draw of other runs, so that the experiment is a single run.
     pub fn keep_one_run(&mut self) {
         self.variants.clear();
         self.sweep = None;
@@ -103,25 +103,26 @@ impl Experiment {
     }
 }
 
-/// Integration method of the equations of motion.
+/// Integration method of the equations of motion, key `integrator` of the experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Integrator {
-    /// Chosen for the scene; second order or better.
+    /// Chosen for the scene by stiffness and elements; of second order or better.
     Auto,
-    /// Semi-implicit Euler at the base step.
+    /// Semi-implicit Euler method at the base step; first order.
     SemiImplicitEuler,
-    /// The classical Runge–Kutta method at the base step.
+    /// Classical Runge–Kutta method at the base step; fourth order.
     Rk4,
-    /// Springs and dampers implicit, at the base step.
+    /// Method at the base step that treats springs and dampers implicitly, for stiff scenes.
     Implicit,
-    /// Explicit pair of order 5(4) with error control.
+    /// Explicit Dormand–Prince pair of order 5(4) with error control.
     DormandPrince,
-    /// Implicit with error control.
+    /// Linearly implicit extrapolation with error control, for stiff scenes.
     Stiff,
 }
 
 impl Integrator {
-    /// The word in the file.
+    /// Returns the name of the method in the file: `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`
+    /// or `stiff`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -135,30 +136,32 @@ impl Integrator {
     }
 }
 
-/// Estimate of the error bar of the recorded signals.
+/// Method by which the integration error of the recorded signals is estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorBar {
-    /// By a second, finer run.
+    /// Comparison with a second, finer run.
     Refine,
-    /// Not at all.
+    /// No estimate.
     None,
 }
 
-/// A static characteristic: the run is repeated over a parameter, and final values are recorded.
+/// Parameter sweep of an experiment: the run is repeated over the values of a parameter, and the final values of the
+/// recorded signals are kept (a static characteristic).
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// Parameter that is varied: a path as for `--set`.
+    /// Path of the parameter that is varied, as for `--set`.
     pub parameter: Located<String>,
-    /// Further numbers that take the same value.
+    /// Paths of further numbers that take the same value.
     pub also: Vec<Located<String>>,
-    /// Its values, in the order in which they are run.
+    /// Values of the parameter in its unit, in the order in which they are run.
     pub values: Vec<f64>,
-    /// Checks over the whole sweep.
+    /// Checks over the whole sweep, the parameter in the place of time.
     pub checks: Vec<Check>,
 }
 
 impl Sweep {
-    /// Settings for one value of the parameter, in its unit, to be added to those the experiment was loaded with.
+    /// Returns the settings for the value `value` of the parameter, in its unit; they are to be added to those that the
+    /// experiment was loaded with.
     pub fn settings(&self, value: f64) -> impl Iterator<Item = Override> {
         std::iter::once(&self.parameter).chain(&self.also).map(move |path| {
             let number = Override::new(&path.value, &format!("{value:?}"));
@@ -167,43 +170,44 @@ impl Sweep {
     }
 }
 
-/// The same experiment with other settings: load it again with `set` added to the settings.
-///
-/// Its checks then stand in that experiment's variant of the same name, with the variant's parameters.
+/// Variant of an experiment: the same files with other settings. To run it, load the experiment again with `set` added
+/// to the settings; its checks are then found in that experiment's variant of the same name, with the variant's
+/// parameters.
 #[derive(Clone, Debug)]
 pub struct Variant {
-    /// Short name, letters, digits, `_`, `-` and `.`; none twice.
+    /// Short name of letters, digits, `_`, `-` and `.`; unique.
     pub name: String,
     /// Description of the difference; may be empty.
     pub description: String,
-    /// The settings, in the order of their paths.
+    /// Settings, in the order of their paths.
     pub set: Vec<Override>,
-    /// True if the main run's checks are also made on the variant.
+    /// True if the checks of the main run apply to the variant, too.
     pub inherit_checks: bool,
-    /// Checks of the variant.
+    /// Checks of the variant alone.
     pub checks: Vec<Check>,
-    /// Its name in the file.
+    /// Location of its name in the file, for messages.
     pub location: Location,
 }
 
-/// A plot of the report.
+/// Plot of the report: recorded signals over time, or paths in space.
 #[derive(Clone, Debug)]
 pub struct Plot {
-    /// Its title.
+    /// Title above the plot.
     pub title: String,
-    /// True if it shows paths in space: its signals are then vectors, see [`path_components`].
+    /// True for paths in space: each signal is then a vector of three recorded components, see [`path_components`].
     pub is_path: bool,
     /// Recorded signals, one line each; at least one.
     pub signals: Vec<Located<String>>,
-    /// Drawn over the first signal; if none is given, what the checks compare that signal with.
+    /// Reference series drawn over the first signal; `None`: the one that the checks compare that signal with, if any.
     pub reference: Option<Reference>,
-    /// True if the panel below shows how the variants differ from the main run; none: as it fits.
+    /// True if a panel below shows the differences of the variants from the main run; `None`: the report decides.
     pub compares_variants: Option<bool>,
-    /// Names of the variants that are drawn; none: all.
+    /// Names of the variants that are drawn; `None`: all.
     pub variants: Option<Vec<String>>,
 }
 
-/// Names that the components of a vector in space may be recorded under: `/drone.position.x` …, or `block[0]` ….
+/// Returns the two sets of names under which the x, y and z components of a spatial vector may be recorded: `VECTOR.x`
+/// to `VECTOR.z`, and `VECTOR[0]` to `VECTOR[2]`.
 #[must_use]
 pub fn path_components(vector: &str) -> [[String; 3]; 2] {
     [["x", "y", "z"].map(|a| format!("{vector}.{a}")), ["0", "1", "2"].map(|k| format!("{vector}[{k}]"))]

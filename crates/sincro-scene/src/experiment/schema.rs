@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::ExperimentFile;
 use crate::schema::generate;
 
-/// JSON Schema of `experiment.toml`.
+/// Returns the JSON Schema of `experiment.toml`, generated from the types that read it; made once.
 pub fn experiment_schema() -> &'static Value {
     static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<ExperimentFile>);
     &SCHEMA

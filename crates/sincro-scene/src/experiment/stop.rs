@@ -8,30 +8,30 @@ use super::Experiment;
 use super::check::{Check, Expected, Measure, Subject};
 use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 
-/// A bound of a recorded signal.
+/// Stop condition: a bound of a recorded signal at which a run ends before its duration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StopWhen {
-    /// The recorded signal.
+    /// Name of the recorded signal.
     pub signal: Located<String>,
-    /// Which side of the bound is the end.
+    /// Side of the bound on which the run ends.
     pub side: Side,
-    /// The bound.
+    /// Bound, in the unit of the signal.
     pub bound: f64,
 }
 
 /// Side of a bound on which a run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Above the bound.
+    /// Values above the bound end the run.
     Above,
-    /// Below it.
+    /// Values below the bound end the run.
     Below,
-    /// The magnitude is above it.
+    /// Magnitudes above the bound end the run.
     Beyond,
 }
 
 impl StopWhen {
-    /// Returns true if the run ends at a value `x` of the signal, in the unit in which it is recorded.
+    /// Returns true if the run ends at the value `x` of the signal, in its unit; NaN does not end it.
     #[must_use]
     pub fn is_reached(&self, x: f64) -> bool {
         match self.side {
@@ -41,7 +41,7 @@ impl StopWhen {
         }
     }
 
-    /// Bound of a check that wants a divergence; none for other checks.
+    /// Returns the stop condition of a check for divergence of a signal beyond a number; `None` for other checks.
     #[must_use]
     pub fn of(check: &Check) -> Option<Self> {
         match (check.measure, &check.what, &check.expected) {
@@ -52,8 +52,8 @@ impl StopWhen {
         }
     }
 
-    /// Bound and a value `x` beyond it, both in `unit`, in words: `/hinge.position is 1.2 rad, beyond the bound of 1
-    /// rad`.
+    /// Returns a sentence that the signal has the value `x` beyond the bound, both in the unit `unit`: ``
+    /// `/hinge.position` is 1.2 rad, beyond the bound of 1 rad ``.
     #[must_use]
     pub fn words(&self, x: f64, unit: &str) -> String {
         let side = match self.side {

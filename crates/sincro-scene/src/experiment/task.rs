@@ -16,88 +16,82 @@ use crate::suggest;
 /// Relative distance at which a time is a whole number of steps.
 const SAME_TIME: f64 = 1e-9;
 
-/// A task for reinforcement learning. Formulas see one list of numbers, see [`Task::slots`].
+/// Task for reinforcement learning, read from `[task]` of the experiment: observations, actions and reward of an agent.
+/// Its formulas share one list of arguments, named by [`Task::slots`].
 #[derive(Clone, Debug)]
 pub struct Task {
-    /// Base steps from one action to the next; at least one.
+    /// Base steps between two actions; at least one.
     pub ticks: u64,
-    /// Actions in the longest episode; at least one.
+    /// Number of actions of the longest episode, after which it is truncated; at least one.
     pub max_actions: u64,
-    /// Names of the numbers that formulas see: signals, actions, random numbers, `t`, parameters.
+    /// Names of the arguments of all formulas, in this order: signals, actions, named random numbers, `t` `[s]`,
+    /// parameters.
     pub slots: Vec<String>,
-    /// Signals that formulas read, in the order of their slots.
+    /// Recorded signals that formulas read, in the order of the first slots.
     pub signals: Vec<Located<String>>,
-    /// Formulas of what the agent sees.
+    /// Formulas of the observations, in the order of the agent's observation vector.
     pub observations: Vec<Expression>,
-    /// Formula of the reward.
+    /// Formula of the reward of one action.
     pub reward: Expression,
-    /// Formula of the end of an episode.
+    /// Formula of the end of an episode, which ends where it is not 0; `None`: only the time limit ends it.
     pub terminated: Option<Expression>,
-    /// Actions, in the order of their slots.
+    /// Actions, in the order of the agent's action vector and of their slots.
     pub actions: Vec<Action>,
-    /// Commands that formulas give.
+    /// Commands that formulas give: name of the command and its formula, in the command's unit.
     pub commands: Vec<(Located<String>, Expression)>,
-    /// Numbers drawn for each episode, in the order of drawing.
+    /// Numbers drawn anew for each episode, in the order of drawing.
     pub random: Vec<Random>,
-    /// Values of the parameters, the last slots.
+    /// Values of the parameters, for the last slots.
     pub parameters: Vec<f64>,
 }
 
-/// An action of a task: the command that it sets, and the values it may have.
+/// Action of a task: an entry of the agent's action vector, the values it may have and the command that it sets.
 #[derive(Clone, Debug)]
 pub struct Action {
-    /// Its name in formulas.
+    /// Name in formulas.
     pub name: String,
-    /// The command that it is; none if formulas make something of it.
+    /// Name of the command that the action sets, in the command's unit; `None` if only formulas read it.
     pub command: Option<Located<String>>,
-    /// Values that it may have.
+    /// Values that the action may have.
     pub space: Space,
 }
 
-/// Values that an action may have.
+/// Space of an action's values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Space {
-    /// All between two bounds.
+    /// Continuous: all values between the lower and the upper bound, in the unit of the command.
     Range(f64, f64),
-    /// These, chosen by number.
+    /// Discrete: these values, in the unit of the command; of an action between them the nearest counts.
     Values(Vec<f64>),
 }
 
-/// A number that is drawn anew for each episode.
+/// Random number that is drawn anew for each episode of a task (domain randomisation).
 #[derive(Clone, Debug)]
 pub struct Random {
-    /// Its use.
+    /// Use of the number.
     pub target: Target,
-    /// Its distribution.
+    /// Distribution that it is drawn from, in the unit of its target.
     pub distribution: Distribution,
 }
 
-/// Use of a random number.
+/// Use of a random number of a task, see [`Random`].
 #[derive(Clone, Debug)]
 pub enum Target {
-    /// Formulas read it, at this place among the named random numbers.
+    /// Slot of the formulas: index among the named random numbers, from 0.
     Name(usize),
-    /// A coordinate or velocity starts with it.
+    /// Initial value of a coordinate or velocity, named by its signal, such as `/hinge.position`.
     Start(Located<String>),
-    /// A number of the scene or the diagram has it.
+    /// Number of the scene or the diagram, named by its path as after `--set`.
     Parameter(Located<String>),
 }
 
-/// Distribution of a random number.
+/// Distribution of a random number of a task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Distribution {
-    /// Uniform between two bounds.
+    /// Uniform between the lower and the upper bound.
     Uniform(f64, f64),
     /// Normal, by mean and standard deviation.
     Normal(f64, f64),
-}
-
-impl Task {
-    /// Number of named random numbers.
-    #[must_use]
-    pub fn n_named(&self) -> usize {
-        self.random.iter().filter(|random| matches!(random.target, Target::Name(_))).count()
-    }
 }
 
 /// Reads the task of an experiment; none, with problems noted, if something is wrong with it.
@@ -274,7 +268,8 @@ pub(crate) fn check(task: &Task, model: &Model<f64>, entries: &[Entry]) -> Diagn
     found
 }
 
-/// Names of a model's commands as they are recorded, in their order.
+/// Returns the names of a model's commands as they are recorded, such as `/hinge.command`, in the order of the command
+/// vector.
 #[must_use]
 pub fn command_names(model: &Model<f64>) -> Vec<String> {
     let mut named: Vec<(usize, String)> = (catalogue(model).into_iter())
@@ -285,7 +280,8 @@ pub fn command_names(model: &Model<f64>) -> Vec<String> {
     named.into_iter().map(|(_, name)| name).collect()
 }
 
-/// Index of the command of that name, as it is recorded or without its ending `.command`.
+/// Returns the index in the command vector of the command named `name`, as it is recorded or without its ending
+/// `.command`; `None` if there is none.
 #[must_use]
 pub fn command_index(model: &Model<f64>, name: &str) -> Option<usize> {
     let is_named = |known: &str| known == name || known.strip_suffix(".command") == Some(name);

@@ -10,7 +10,7 @@ use sincro_dynamics::model::{JointInfo, Model};
 
 use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
 
-/// A signal that can be recorded: its name, its unit, how it is measured.
+/// Signal that can be recorded: name, unit, and the probe that reads it; an entry of [`catalogue`].
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -25,11 +25,11 @@ use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe,
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// As it is written in `record`.
+    /// Name as it is written in `record`, such as `/slide.velocity`.
     pub name: String,
-    /// SI unit.
+    /// SI unit as text, such as `m/s`; `1` or empty if dimensionless.
     pub unit: Cow<'static, str>,
-    /// Probe that reads it.
+    /// Probe that reads the signal off a world.
     pub probe: Probe,
 }
 
@@ -50,7 +50,8 @@ impl List {
     }
 }
 
-/// All signals of a model: joints, bodies and frames in their order, then the world's.
+/// Returns all signals that a model offers: those of joints, bodies and frames in their order, then those of the world,
+/// such as `energy.total`.
 ///
 /// ```
 /// use sincro_scene::prelude::*;

@@ -4,26 +4,29 @@ use sincro_dynamics::constraint::ContactPoint;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Vec3;
 
-/// Quantity of the contacts of a body.
+/// Quantity of all contacts of a body together, for [`read`]; vectors in world axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactQuantity {
-    /// Sum of all forces on it `[N]`, world axes.
+    /// Sum of the contact forces on the body `[N]`, 3 components.
     Force,
-    /// Sum of their moments about the world's origin and of rolling and spinning friction [N·m], world axes.
+    /// Sum of their moments about the world's origin and of rolling and spinning friction `[N·m]`, 3 components.
     Torque,
-    /// Sum of the normal forces `[N]`.
+    /// Sum of the normal forces `[N]`, a scalar.
     NormalForce,
-    /// Size of the sum of the friction forces `[N]`: how redundant points share them is not determined.
+    /// Magnitude of the sum of the friction forces `[N]`, a scalar: how redundant points share them is not determined.
     FrictionForce,
-    /// Centre of the normal forces `[m]`; NaN where nothing presses.
+    /// Centre of the normal forces in the world `[m]`, 3 components; NaN where nothing presses.
     Point,
-    /// Mean normal, into the body, weighted by the normal forces; NaN where nothing presses.
+    /// Mean normal, a unit vector into the body, weighted by the normal forces, 3 components; NaN where nothing
+    /// presses.
     Normal,
-    /// Number of points that press.
+    /// Number of contact points with a normal force, a scalar.
     Count,
 }
 
-/// Component `k` of a contact quantity `[N]`, `[N·m]`, `[m]` of the body with index `frame`; 0 if nothing touches it.
+/// Returns component `k` (0 to 2; ignored for scalars) of a contact quantity, in its unit, of the body whose frame has
+/// the index `frame` in the model's names. `points` are the contact points of the present state. Without contact 0; NaN
+/// of `Point` and `Normal`.
 pub fn read(
     model: &Model<f64>,
     points: impl Iterator<Item = ContactPoint>,

@@ -23,7 +23,9 @@ use crate::names::nearest_path;
 use crate::suggest;
 use probe::View;
 
-/// One number that can be read off a world.
+/// Measurement: one number that can be read off a world, in SI units. Indices count from 0; those of degrees of freedom
+/// are indices of the model's velocities v, those of frames of the frames in the model's names, vectors have components
+/// 0 to 2 in world axes. [`catalogue`] gives the probes of a model with names and units.
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -37,128 +39,137 @@ use probe::View;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Probe {
-    /// Coordinate in q.
+    /// Generalized coordinate, by its index in q `[rad]`, `[m]`.
     Coordinate(usize),
-    /// Entry of v.
+    /// Generalized velocity, by its index in v `[rad/s]`, `[m/s]`.
     Rate(usize),
-    /// Entry of v̇.
+    /// Generalized acceleration, by its index in v̇ `[rad/s²]`, `[m/s²]`.
     Acceleration(usize),
-    /// Latched command of a motor.
+    /// Latched command, by its index in the command vector, in the unit of its actuator.
     Command(usize),
-    /// Mean torque of a motor over the step that ended here.
+    /// Mean torque `[N·m]` or force `[N]` of a motor since the last recorded row, by the motor's index.
     MotorTorqueMean(usize),
-    /// Torque of a motor now.
+    /// Torque `[N·m]` or force `[N]` of a motor at the instant, by the motor's index.
     MotorTorqueNow(usize),
-    /// Torque of a joint's spring.
+    /// Torque `[N·m]` or force `[N]` of the spring of a degree of freedom.
     SpringTorque(usize),
-    /// Torque of a joint's damper.
+    /// Torque `[N·m]` or force `[N]` of the damper of a degree of freedom.
     DampingTorque(usize),
-    /// Torque of Coulomb friction.
+    /// Torque `[N·m]` or force `[N]` of Coulomb friction of a degree of freedom.
     FrictionTorque(usize),
-    /// Torque applied by a signal.
+    /// Torque `[N·m]` or force `[N]` that a signal of the scene applies to a degree of freedom.
     AppliedTorque(usize),
-    /// Component of a frame's quantity in the world.
+    /// Component of a frame's quantity in the world: quantity, frame, component.
     Frame(FrameQuantity, usize, usize),
-    /// Energy of the whole world.
+    /// Energy of the whole world `[J]`.
     Energy(EnergyQuantity),
-    /// Component 0–2 of the angular, 3–5 of the linear momentum.
+    /// Component of the momentum of the whole world: 0–2 angular, about the world's origin `[N·m·s]`, 3–5 linear
+    /// `[N·s]`.
     Momentum(usize),
-    /// Quantity of a rotor.
+    /// Quantity of a rotor: quantity, index of the rotor.
     Rotor(RotorQuantity, usize),
-    /// Component of the force of a drag element, world axes.
+    /// Component of the force of a drag element `[N]`: index of the element, component.
     Drag(usize, usize),
-    /// Quantity of a spring and damper between two points.
+    /// Quantity of a spring and damper between two points: quantity, index of the element.
     SpringDamper(LineQuantity, usize),
-    /// Component of the wind at its reference height.
+    /// Component of the wind at its reference height `[m/s]`.
     Wind(usize),
-    /// Component of what touches a body.
+    /// Quantity of the contacts of a body: quantity, frame of the body, component.
     Contact(ContactQuantity, usize, usize),
-    /// Torque of the stops of a joint.
+    /// Torque `[N·m]` or force `[N]` of the position limits of a degree of freedom.
     LimitTorque(usize),
-    /// Constraint residual of a closure.
+    /// Position residual of a closure or gear, by its index among both: `[m]` of a loop joint, in the unit of its joint
+    /// of a gear.
     Opening(usize),
-    /// Component 0–2 of the torque, 3–5 of the force of the parent of a joint on its child.
+    /// Component of the wrench of a joint's parent on its child: 0–2 torque about the origin of the child's joint frame
+    /// `[N·m]`, 3–5 force `[N]`, both in the axes of the parent's joint frame.
     JointReaction(JointId, usize),
-    /// Constraint force of a degree of freedom of a force sensor.
+    /// Constraint force `[N]` or torque `[N·m]` of a degree of freedom of a force sensor.
     Reaction(usize),
-    /// Value of a sensor, as it was last sampled.
+    /// Value of a sensor as it was last sampled, by its index among the values of all sensors.
     Sensor(usize),
-    /// Signal of the diagram.
+    /// Signal of the diagram, by its index.
     Signal(usize),
-    /// Float signal that scripts and clients set; its number among those that are recorded.
+    /// Float signal that scripts and clients set, by its index among those that are recorded.
     FloatSignal(usize),
 }
 
 /// Prefix of the name of a float signal of scripts and clients in `record`.
 const FLOAT_SIGNAL: &str = "float_signal.";
 
-/// Names of the float signals among recorded names, in their order.
+/// Returns the names of the float signals (of scripts and clients) among recorded names, in their order, without their
+/// prefix.
 pub fn float_signals(names: &[Located<String>]) -> impl Iterator<Item = &str> {
     names.iter().filter_map(|name| name.value.strip_prefix(FLOAT_SIGNAL)).filter(|name| !name.is_empty())
 }
 
-/// Quantity of a rotor.
+/// Quantity of a rotor, for [`Probe::Rotor`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RotorQuantity {
-    /// Speed [rad/s].
+    /// Speed of rotation `[rad/s]`.
     Speed,
-    /// Force along its axis `[N]`.
+    /// Force on the airframe along the rotor's axis `[N]`.
     Thrust,
-    /// Reaction on the airframe about its axis [N·m].
+    /// Reaction torque on the airframe about the rotor's axis `[N·m]`.
     Torque,
-    /// Air through the disc [m/s].
+    /// Velocity of the air through the disc `[m/s]`.
     Inflow,
-    /// Power of the shaft `[W]`.
+    /// Shaft power `[W]`.
     Power,
-    /// Validity of its law: 1 if it holds, else 0.
+    /// Validity of the rotor's law at this state: 1 if it holds, else 0.
     Valid,
 }
 
-/// Quantity of a spring and damper between two points.
+/// Quantity of a spring and damper between two points, for [`Probe::SpringDamper`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineQuantity {
     /// Distance of the points `[m]`.
     Length,
-    /// Rate of the length [m/s].
+    /// Rate of the length, positive where the points move apart `[m/s]`.
     Rate,
     /// Force along the line, positive where it pushes the points apart `[N]`.
     Force,
 }
 
-/// Quantity of a frame.
+/// Quantity of a frame in the world, for [`Probe::Frame`]; vectors in world axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameQuantity {
-    /// Origin `[m]`.
+    /// Position of the origin `[m]`, 3 components.
     Position,
-    /// w, x, y, z.
+    /// Orientation as a unit quaternion, 4 components w, x, y, z.
     Quaternion,
-    /// Roll, pitch, yaw `[rad]`.
+    /// Roll, pitch, yaw of R = Rz(yaw)·Ry(pitch)·Rx(roll) `[rad]`, 3 components.
     Angles,
-    /// Velocity of the origin [m/s].
+    /// Velocity of the origin `[m/s]`, 3 components.
     Velocity,
-    /// [rad/s]
+    /// Angular velocity `[rad/s]`, 3 components.
     AngularVelocity,
-    /// Acceleration of the origin [m/s²].
+    /// Acceleration of the origin `[m/s²]`, 3 components.
     Acceleration,
-    /// Centre of mass of a body `[m]`.
+    /// Centre of mass of a body in the world `[m]`, 3 components.
     CenterOfMass,
-    /// Velocity of the air at the origin [m/s].
+    /// Velocity of the air at the origin `[m/s]`, 3 components.
     Wind,
 }
 
-/// Quantity of the energy.
+/// Quantity of the energy of the whole world, for [`Probe::Energy`] `[J]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum EnergyQuantity {
+    /// Kinetic energy.
     Kinetic,
+    /// Potential energy of gravity and springs.
     Potential,
+    /// Kinetic and potential energy.
     Total,
+    /// Work done by motors and applied forces since the start.
     Work,
+    /// Energy dissipated by dampers and friction since the start.
     Dissipated,
+    /// Error of the energy balance: total − total at the start − work + dissipated.
     Balance,
 }
 
-/// The chosen signals of one model.
+/// Recorder of the chosen signals of one model: returns a row of numbers for each recorded instant.
 #[derive(Clone, Debug)]
 pub struct Recorder {
     entries: Vec<Entry>,
@@ -173,11 +184,12 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Resolves names against a model and the signals of a diagram.
+    /// Creates a recorder of the signals `names`, in this order, of a model and of its diagram, whose signals are
+    /// `diagram` ([`ControlDiagram::entries`](crate::diagram::ControlDiagram::entries); empty without one).
     ///
     /// # Errors
     ///
-    /// All names that mean nothing, each with the nearest ones that do.
+    /// One diagnostic at each name that is no signal, with the nearest ones that are.
     pub fn new(names: &[Located<String>], model: &Model<f64>, diagram: &[Entry]) -> Result<Self, Diagnostics> {
         let all: Vec<Entry> = catalogue(model).into_iter().chain(diagram.iter().cloned()).collect();
         let mut diagnostics = Diagnostics::new();
@@ -203,14 +215,14 @@ impl Recorder {
         Ok(Self { entries, motor_impulse, last_t: 0.0, energy_at_start: 0.0, n_sensed, n_floats, row })
     }
 
-    /// Names and units of the columns, `t` first.
+    /// Returns names and units of the columns of a row: `t` in `s`, then the signals in the order of their names.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &str)> {
         [("t", "s")].into_iter().chain(self.entries.iter().map(|e| (e.name.as_str(), &*e.unit)))
     }
 
-    /// The row of what is seen at time `t` `[s]`, `t` first; `signals` are the diagram's, after them the float signals
-    /// that are recorded and the values of all sensors. To be called at every recorded instant, in order, the start
-    /// included.
+    /// Returns the row of the world at time `t` `[s]`, in the order and units of [`Recorder::columns`]. `signals` holds
+    /// the diagram's signals, then the recorded float signals, then the values of all sensors. To be called at every
+    /// recorded instant, in order, the start included (`is_start`).
     pub fn row(&mut self, seen: &Observation<'_>, signals: &[f64], t: f64, is_start: bool) -> &[f64] {
         let (energy, momentum) = (seen.energy(), seen.momentum());
         if is_start {
@@ -238,19 +250,21 @@ impl Recorder {
         &self.row
     }
 
-    /// Notes an instant `t` `[s]` that no row is made of: the mean torques of the next row begin here. `totals` are
-    /// those of the state.
+    /// Starts the averaging of mean torques anew at time `t` `[s]` without making a row. `totals` is
+    /// [`State::totals`](sincro_dynamics::state::State::totals) of the state at that time.
     pub fn skip_row(&mut self, totals: &[f64], t: f64) {
         self.motor_impulse.copy_from_slice(&totals[2..]);
         self.last_t = t;
     }
 
-    /// Memory from row to row: energy at the start `[J]`, time of the last row `[s]`, impulses of the motors [N·m·s].
+    /// Returns the recorder's memory between rows, for a snapshot: energy at the start `[J]`, time of the last row
+    /// `[s]`, impulse of each motor at that time `[N·m·s]`.
     pub fn memory(&self) -> impl Iterator<Item = f64> {
         [self.energy_at_start, self.last_t].into_iter().chain(self.motor_impulse.iter().copied())
     }
 
-    /// Goes back to what [`Recorder::memory`] gave. Returns false, and changes nothing, if it has another length.
+    /// Restores what [`Recorder::memory`] returned. Returns false, and changes nothing, if it has another length, as of
+    /// another model.
     pub fn set_memory(&mut self, memory: &[f64]) -> bool {
         let [energy, last_t, impulse @ ..] = memory else { return false };
         if impulse.len() != self.motor_impulse.len() {

@@ -15,27 +15,27 @@ use sincro_math::Real;
 
 use super::{EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
 
-/// State of which a measurement is taken.
+/// State at which a [`Probe`] is evaluated, in any number type; lists have the order of the model's state.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a, R> {
     /// Time `[s]`.
     pub t: f64,
-    /// The model.
+    /// Model of the state.
     pub model: &'a Model<R>,
-    /// Coordinates.
+    /// Generalized coordinates, `n_q`: `[rad]`, `[m]`.
     pub q: &'a [R],
-    /// Velocities.
+    /// Generalized velocities, `n_v`: `[rad/s]`, `[m/s]`.
     pub v: &'a [R],
-    /// States of rotors.
+    /// States of rotors with a lag, [`State::rotors`].
     pub rotors: &'a [R],
-    /// As latched; empty where they are not known yet.
+    /// Latched commands, in the units of their actuators; empty where they are not known yet.
     pub commands: &'a [R],
-    /// With the kinematics at (q, v), where a probe needs them.
+    /// Scratch with the kinematics at (q, v), for probes that need them ([`needs_kinematics`]).
     pub scratch: &'a Scratch<R>,
 }
 
 impl<'a, R> View<'a, R> {
-    /// View of the state that a coupled system sees.
+    /// Creates the view of the state that a coupled system, such as a diagram, is given at ticks and between them.
     pub fn of(seen: &'a StateView<'_, R>) -> Self {
         let &StateView { t, model, q, v, rotors, commands, ref scratch } = seen;
         Self { t, model, q, v, rotors, commands, scratch }
@@ -43,14 +43,14 @@ impl<'a, R> View<'a, R> {
 }
 
 impl<'a> View<'a, f64> {
-    /// View of an observed world at time `t` `[s]`.
+    /// Creates the view of an observed world at time `t` `[s]`.
     pub fn observed(seen: &'a Observation<'_>, t: f64) -> Self {
         let State { q, v, rotors, commands, .. } = seen.state;
         Self { t, model: seen.model(), q, v, rotors, commands, scratch: seen.scratch() }
     }
 }
 
-/// Returns true if a probe needs the poses and twists of links.
+/// Returns true if a probe needs the poses and twists of links in [`View::scratch`].
 pub fn needs_kinematics(probe: Probe) -> bool {
     matches!(
         probe,
@@ -63,8 +63,12 @@ pub fn needs_kinematics(probe: Probe) -> bool {
     )
 }
 
-/// Value in SI units of a measurement that the state alone decides; after kinematics, if it needs them. None for what
-/// is known at ticks only.
+/// Returns the value, in SI units, of a measurement that is a function of the state alone; `None` for one that depends
+/// on accelerations or is known at ticks only. For probes that need it, `at.scratch` must hold the kinematics.
+///
+/// # Panics
+///
+/// If an index of the probe does not exist in the model.
 pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     let model = at.model;
     Some(match probe {
@@ -90,8 +94,12 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
     })
 }
 
-/// Value in SI units of a measurement that depends on the commands; after kinematics with the accelerations. None for
-/// what the state alone decides.
+/// Returns the value, in SI units, of a measurement that depends on accelerations or commands; `None` for others.
+/// `at.scratch` must hold the kinematics with the accelerations.
+///
+/// # Panics
+///
+/// If an index of the probe does not exist in the model.
 pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>, probe: Probe) -> Option<R> {
     Some(match probe {
         Probe::Acceleration(k) => response.accelerations[k],
@@ -106,11 +114,16 @@ pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>
 }
 
 /// Returns true if the load of a rotor depends on its present command.
-pub fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuantity, rotor: usize) -> bool {
+pub(crate) fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuantity, rotor: usize) -> bool {
     quantity != RotorQuantity::Speed && model.rotors()[rotor].speed.follows_at_once()
 }
 
-/// Speed `[rad/s]` and load of rotor `k`, and how the air meets it.
+/// Returns the speed of rotor `k` `[rad/s]`, its aerodynamic load, and the motion of its hub through the air.
+/// `at.scratch` must hold the kinematics.
+///
+/// # Panics
+///
+/// If `k` is not below the number of the model's rotors.
 pub fn rotor<'a, R: Real>(at: &View<'a, R>, k: usize) -> (R, Load<R>, Hub<'a, R>) {
     let rotor = &at.model.rotors()[k];
     let speed = rotor.speed.value(at.v, at.commands, at.rotors);
@@ -137,7 +150,11 @@ fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
     }
 }
 
-/// Force of a drag element, world axes `[N]`.
+/// Returns the force of drag element `k` on its body in world axes `[N]`. `at.scratch` must hold the kinematics.
+///
+/// # Panics
+///
+/// If `k` is not below the number of the model's drag elements.
 pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     let drag = &at.model.drags()[k];
     let x_wl = &at.scratch.link_poses()[drag.link];
@@ -147,7 +164,7 @@ pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
 }
 
 /// Returns true for the force of a spring and damper with an actuator, which depends on its present command.
-pub fn has_actuated_force<R: Real>(model: &Model<R>, quantity: LineQuantity, k: usize) -> bool {
+pub(crate) fn has_actuated_force<R: Real>(model: &Model<R>, quantity: LineQuantity, k: usize) -> bool {
     quantity == LineQuantity::Force && model.spring_dampers()[k].actuator.is_some()
 }
 
@@ -161,7 +178,12 @@ fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
     }
 }
 
-/// Attachment of a frame of the model.
+/// Returns the link (or the world) to which the frame with index `frame` in the model's names is fixed, and its pose
+/// there `[m]`.
+///
+/// # Panics
+///
+/// If there is no such frame.
 pub fn attached<R: Real>(model: &Model<R>, frame: usize) -> Attached<R> {
     let info = &model.names().frames[frame];
     let rot = Mat3(info.pose.rot.0.map(|row| row.map(R::splat)));

@@ -36,7 +36,7 @@ const SECTIONS: [(&str, &str); 18] = [
     ("/free/solid/eye", "Proximity sensor"),
 ];
 
-/// The reference as Markdown.
+/// Returns the reference of recorded signals `docs/signals.md` as Markdown.
 #[must_use]
 pub fn signal_reference() -> String {
     let scene = from_text(SAMPLE).unwrap_or_else(|found| panic!("the sample scene does not compile: {found}"));

@@ -54,16 +54,16 @@ pub(crate) struct CameraFile {
     pub external_input: Option<bool>,
 }
 
-/// Settings of the images of a camera that clients and scripts read.
+/// Settings of the images of a vision sensor: a camera of a scene whose images clients and scripts can read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VisionSensor {
-    /// Pixels, lens, where they begin and end.
+    /// Resolution, depth range and projection.
     pub optics: Optics,
-    /// Red, green and blue where nothing is.
+    /// Background colour: red, green, blue, 0 to 255.
     pub background: [u8; 3],
-    /// Taken only when asked for.
+    /// True if images are taken only when a client or script asks for one, not in every step.
     pub is_explicit: bool,
-    /// Not taken, but written.
+    /// True if no images are taken: clients and scripts write them.
     pub is_external: bool,
 }
 

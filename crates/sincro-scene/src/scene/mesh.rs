@@ -26,12 +26,13 @@ const MAX_HULL: usize = 512;
 const STL_HEAD: usize = 84;
 const STL_TRIANGLE: usize = 50;
 
-/// Corners `[m]` and triangles.
+/// Triangle mesh: corners and the triangles between them, as it is read from a mesh file by [`mesh_of_file`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangles {
-    /// Corners `[m]`.
+    /// Coordinates x, y, z of the corners in the frame of the file `[m]`.
     pub corners: Vec<[f64; 3]>,
-    /// Corners of each triangle, by index.
+    /// Indices of the three corners of each triangle, in the order of the file (by convention counterclockwise seen
+    /// from outside).
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -164,11 +165,11 @@ fn triangles_of(bytes: &[u8], path: &Path) -> Result<Triangles, Diagnostic> {
 /// Largest mesh file that is read for clients and scripts.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// The triangles of a mesh file; what is wrong, in a sentence.
+/// Reads the triangle mesh of an STL or OBJ file, by the ending of its name.
 ///
 /// # Errors
 ///
-/// The file cannot be read, is too large, or is no mesh.
+/// A message in English: the file cannot be read, is larger than 64 MiB, or is no mesh.
 pub fn mesh_of_file(path: &Path) -> Result<Triangles, String> {
     let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
     if size > MAX_BYTES {

@@ -61,7 +61,8 @@ use signal_file::SignalReader;
 use start::Start;
 use tree::Entry;
 
-/// A scene, ready to run.
+/// Scene that is compiled and ready to run: the model with its initial state, and everything around it. Part of an
+/// opened folder ([`crate::open::open`]), or made of a text by [`from_text`].
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -87,39 +88,39 @@ use tree::Entry;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The compiled model; its names are the paths of the objects.
+    /// Compiled model; its names are the paths of the objects.
     pub model: Arc<Model<f64>>,
-    /// Initial state.
+    /// Initial state of the model.
     pub initial: State<f64>,
-    /// Commands over time, in the model's order: of motors, of forces that take them (none of their own), speeds of
-    /// rotors, forces of springs and dampers.
+    /// Commands over time, in the order of the model's command vector and in the units of the actuators: of motors, of
+    /// forces that take them (none of their own), speeds of rotors, forces of springs and dampers.
     pub commands: Vec<Signal>,
-    /// Its sensors, in the order in which their values are kept.
+    /// Sensors, in the order in which their values are kept.
     pub sensors: Vec<SensorSpec>,
-    /// Every object, parents before children, children in the order of the file.
+    /// All objects, parents before children, children in the order of the file.
     pub objects: Vec<Object>,
     /// Scripts, in the order of the file.
     pub scripts: Vec<Script>,
-    /// Warnings for the user.
+    /// Warnings about the scene file, in its order.
     pub warnings: Vec<Diagnostic>,
     /// Made when somebody looks first.
     scenery: OnceLock<Scenery>,
 }
 
 impl Scene {
-    /// Visible geometry of all bodies and frames.
+    /// Returns the visible geometry of all bodies; made at the first call.
     #[must_use]
     pub fn scenery(&self) -> &Scenery {
         self.scenery.get_or_init(|| pieces::scenery_of(self))
     }
 
-    /// Degrees of freedom at the start, closed loops counted.
+    /// Returns the degrees of freedom (mobility) in the initial state, with closed loops counted.
     #[must_use]
     pub fn freedom(&self) -> Mobility {
         sincro_dynamics::initial::mobility(&self.model, &self.initial)
     }
 
-    /// The object of a path.
+    /// Returns the object of a path such as `/arm/link`; `None` if there is none.
     #[must_use]
     pub fn object(&self, path: &str) -> Option<&Object> {
         self.objects.iter().find(|object| object.path == path)

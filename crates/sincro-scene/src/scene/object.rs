@@ -8,7 +8,8 @@ use sincro_dynamics::spatial::Pose;
 use super::camera::VisionSensor;
 use crate::diagnostic::Location;
 
-/// A joint, body, frame or force.
+/// Object of a scene: joint, body, frame, force, rotor, drag element, sensor or camera, as the tree of the scene shows
+/// it; an entry of [`Scene::objects`](super::Scene::objects).
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -25,32 +26,33 @@ use crate::diagnostic::Location;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// Parent's path, `/` and name.
+    /// Path: that of the parent, `/`, and the name.
     pub path: String,
-    /// Last part of the path.
+    /// Name, the last part of the path.
     pub name: String,
     /// Its kind.
     pub kind: ObjectKind,
-    /// Index of its parent among the objects; none for children of the world.
+    /// Index of its parent among the objects of the scene; `None` for children of the world.
     pub parent: Option<usize>,
-    /// Pose of its frame in its parent's (at zero coordinates, if it is carried by a joint).
+    /// Pose of its frame in its parent's frame `[m]`; of what a joint carries at zero coordinates.
     pub pose: Pose<f64>,
-    /// Contact material of a body; beside its shapes there are surfaces that enclose nothing, such as planes.
+    /// Contact material of a body that can touch others; `None` for all else.
     pub contact: Option<Material>,
-    /// Surfaces of a body that are not solids with mass.
+    /// Surfaces of a body that enclose no solid with mass, such as planes and meshes, each with its pose in the body's
+    /// frame `[m]`.
     pub surfaces: Vec<(Surface, Pose<f64>)>,
-    /// Colours of the surfaces, as far as they have one.
+    /// Colours of `surfaces`, one for each: red, green, blue, 0 to 255; `None` where it has none of its own.
     pub surface_colors: Vec<Option<[u8; 3]>>,
-    /// Shapes of a body.
+    /// Solids of a body.
     pub shapes: Vec<ShapeInstance>,
-    /// Geometry that shows in the place of shapes and surfaces, if there is any.
+    /// Geometry that is shown in the place of shapes and surfaces; empty: those are shown.
     pub visuals: Vec<ShownSurface>,
-    /// Its name in the file.
+    /// Location of its name in the scene file.
     pub location: Location,
 }
 
 impl Object {
-    /// Visible geometry: the visuals, or shapes and surfaces where there are none.
+    /// Returns the visible geometry in the object's frame: the visuals, or shapes and surfaces where there are none.
     pub fn shown(&self) -> impl Iterator<Item = ShownSurface> {
         let own = self.visuals.is_empty();
         let solids =
@@ -64,18 +66,18 @@ impl Object {
     }
 }
 
-/// Geometry as it shows.
+/// Visible geometry of an object, with pose and colour; see [`Object::shown`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownSurface {
-    /// Geometry in its own frame.
+    /// Surface, in its own frame.
     pub surface: Surface,
-    /// Pose in the object's frame.
+    /// Pose of that frame in the object's frame `[m]`.
     pub pose: Pose<f64>,
-    /// Red, green, blue.
+    /// Colour: red, green, blue, 0 to 255; `None`: chosen by the viewer.
     pub color: Option<[u8; 3]>,
 }
 
-/// Kind of an object.
+/// Kind of an [`Object`], with what belongs to this kind alone.
 ///
 /// ```
 /// use sincro_scene::prelude::*;
@@ -91,41 +93,41 @@ pub struct ShownSurface {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum ObjectKind {
-    /// Joint; fixed ones too.
+    /// Joint, fixed ones included.
     Joint {
-        /// Kind of motion.
+        /// Kind of its motion.
         kind: JointKind,
-        /// Index of its motor among the model's, if it has one.
+        /// Index of its motor among the model's motors, if it has one.
         motor: Option<usize>,
     },
-    /// Body.
+    /// Body with mass.
     Body {
-        /// In its own frame.
+        /// Mass properties `[kg]`, `[m]`, `[kg·m²]` in the body's frame.
         mass: MassProperties,
     },
     /// Body without mass, fixed in the world: a floor, a wall.
     Fixture,
-    /// Named point.
+    /// Named frame without mass.
     Frame,
     /// External force on its parent.
     Force,
-    /// Rotor on its parent; thrust along its z.
+    /// Rotor on its parent, with its thrust along z of its frame.
     Rotor,
-    /// Drag of its parent, along its own axes.
+    /// Drag element on its parent, along the axes of its frame.
     Drag,
     /// Sensor on its parent.
     Sensor,
-    /// Camera; no part of the model.
+    /// Camera, which looks along z of its frame; no part of the model.
     Camera {
-        /// Angle between the upper and the lower edge of its picture `[deg]`.
+        /// Angle between the upper and the lower edge of its image `[deg]`.
         field_of_view_deg: f64,
-        /// Settings of its images, if clients and scripts can read them.
+        /// Settings of its images, if it is a vision sensor.
         sensor: Option<VisionSensor>,
     },
 }
 
 impl ObjectKind {
-    /// The word for it, such as `revolute joint` or `body`.
+    /// Returns the kind in English for messages and lists, such as `revolute joint` or `body`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -151,15 +153,15 @@ impl ObjectKind {
     }
 }
 
-/// A solid of a body.
+/// Solid of a body, with pose, density and colour; an entry of [`Object::shapes`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeInstance {
-    /// The solid.
+    /// Solid with its dimensions `[m]`.
     pub shape: Shape,
-    /// Pose in the body's frame.
+    /// Pose of the solid's frame in the body's frame `[m]`.
     pub pose: Pose<f64>,
-    /// [kg/m³], if it has one: its own or the body's.
+    /// Density `[kg/m³]`, its own or the body's; `None` if the body's mass is given directly.
     pub density: Option<f64>,
-    /// Red, green, blue.
+    /// Colour: red, green, blue, 0 to 255; `None`: chosen by the viewer.
     pub color: Option<[u8; 3]>,
 }

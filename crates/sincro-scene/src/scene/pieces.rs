@@ -47,7 +47,11 @@ fn pieces_of(objects: &[Object], names: &Names, k: usize, plain: [u8; 3]) -> Vec
     objects[k].shown().filter_map(piece).collect()
 }
 
-/// Frame of object `k` of a scene, attached to its link or to the world.
+/// Returns the link (or the world) that carries the frame of object `k` of a scene, and the frame's pose there `[m]`.
+///
+/// # Panics
+///
+/// If `k` is not below the number of the scene's objects.
 #[must_use]
 pub fn frame_of(scene: &Scene, k: usize) -> Attached<f64> {
     attached(&scene.objects, scene.model.names(), k)

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::SceneFile;
 use crate::schema::generate;
 
-/// JSON Schema of `scene.toml`.
+/// Returns the JSON Schema of `scene.toml`, generated from the types that read it; made once.
 pub fn scene_schema() -> &'static Value {
     static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<SceneFile>);
     &SCHEMA

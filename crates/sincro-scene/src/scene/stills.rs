@@ -11,7 +11,8 @@ use super::{ObjectKind, Scene, VisionSensor, frame_of, looking};
 use crate::camera::{BACKGROUND, FAR, Image, Lens, NEAR, Optics, Renderer};
 use crate::scenery::{Scenery, placed};
 
-/// A camera with all it needs; what it takes is used again for the next picture.
+/// Camera that renders images of a scene at given coordinates, outside of any run; it keeps its buffers from image to
+/// image.
 pub struct Camera {
     model: Arc<Model<f64>>,
     sensor: VisionSensor,
@@ -23,7 +24,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Object `k` of a scene; none if it is no camera. One that is no vision sensor takes pictures of `resolution`.
+    /// Creates the camera that is object `k` of a scene; `None` if `k` is no object or no camera. A vision sensor has
+    /// its own optics; any other camera renders `resolution` columns and rows.
     #[must_use]
     pub fn of_scene(scene: &Scene, k: usize, resolution: [usize; 2]) -> Option<Self> {
         let ObjectKind::Camera { field_of_view_deg, sensor } = &scene.objects.get(k)?.kind else { return None };
@@ -37,8 +39,8 @@ impl Camera {
         Some(Self::new(scene, sensor.clone().unwrap_or_else(plain), frame_of(scene, k)))
     }
 
-    /// A camera of one's own, which stands in the world and looks at a point `[m]`, z up in the picture; none if it
-    /// stands there.
+    /// Creates a camera that stands at the point `from` of the world and looks at the point `at`, both x, y, z `[m]`,
+    /// with the world's z up in the image (y if it looks straight up or down); `None` if the two points are the same.
     #[must_use]
     pub fn looking_at(scene: &Scene, optics: Optics, from: [f64; 3], at: [f64; 3]) -> Option<Self> {
         let pos = Vec3(from);
@@ -47,7 +49,8 @@ impl Camera {
         Some(Self::new(scene, sensor, Attached { link: None, pose }))
     }
 
-    /// Creates a camera that no file describes, fixed to a frame at its pose `[m]`.
+    /// Creates a camera with the settings `sensor`, fixed to the link or world frame `frame` at its pose there `[m]`;
+    /// it looks along z of that pose.
     #[must_use]
     pub fn new(scene: &Scene, sensor: VisionSensor, frame: Attached<f64>) -> Self {
         let image = Image::new(&sensor.optics);
@@ -55,13 +58,18 @@ impl Camera {
         Self { model: scene.model.clone(), sensor, frame, scenery, scratch, renderer: Renderer::new(), image }
     }
 
-    /// Optics of the camera.
+    /// Returns the optics of the camera.
     #[must_use]
     pub fn optics(&self) -> &Optics {
         &self.sensor.optics
     }
 
-    /// Renders the image at coordinates `q` (n_q) `[rad]`, `[m]`.
+    /// Renders the image at the coordinates `q`, `n_q` numbers `[rad]`, `[m]` in the order of the model's state; it
+    /// stays valid until the next call.
+    ///
+    /// # Panics
+    ///
+    /// If `q` is shorter than `n_q`.
     pub fn render(&mut self, q: &[f64]) -> &Image {
         kinematics::poses(&self.model, q, &mut self.scratch);
         let x_wc = kinematics::frame_pose(&self.scratch, &self.frame);

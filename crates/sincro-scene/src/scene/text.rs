@@ -11,8 +11,8 @@ use crate::names::resolve_objects;
 use crate::normalize::{Parameters, normalize};
 use crate::schema::validate;
 
-/// Compiles the text of a scene file. Files that it names are looked for in the working directory; the seed of its
-/// turbulence is 0.
+/// Compiles the text of a scene file, for tests and examples without a folder. Files that it names are looked for in
+/// the working directory; the seed of its turbulence is 0.
 ///
 /// ```
 /// let text = r#"
@@ -34,7 +34,7 @@ use crate::schema::validate;
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the text, warnings included.
+/// All findings about the text, warnings included, in its order.
 pub fn from_text(text: &str) -> Result<Scene, Diagnostics> {
     let source = Arc::new(SourceText { path: "scene.toml".into(), text: text.to_owned() });
     let mut document = Document::parse(&source)?;

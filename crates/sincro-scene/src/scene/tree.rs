@@ -66,7 +66,7 @@ pub(super) struct PlaceInTree {
 
 impl Entry<'_> {
     /// Placement of its frame in its parent's.
-    pub fn placement(&self) -> Placement {
+    pub(super) fn placement(&self) -> Placement {
         match self.file {
             AnyFile::Joint(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),
             AnyFile::Body(f) => Placement::new(f.position, f.rotation_deg, f.quaternion_wxyz),

@@ -106,7 +106,8 @@ pub(super) fn quoted(names: &[&str]) -> String {
     names.join(", ")
 }
 
-/// The description of a value: its own, or that of its type.
+/// Returns the description of the value that `schema` describes: its own, or that of its type; empty if there is none.
+/// `root` is the whole schema, in which references are resolved.
 pub fn description<'s>(root: &'s Value, schema: &'s Value) -> &'s str {
     let own = schema.get("description").and_then(Value::as_str);
     let of_type = || alternatives(root, schema).first().and_then(|c| c.get("description")).and_then(Value::as_str);
@@ -118,7 +119,7 @@ fn unit(description: &str) -> String {
     units(description).join(" or ")
 }
 
-/// The units in brackets in a description, one by one.
+/// Returns the units in square brackets in a description, such as `N·m/rad` and `N/m`, in their order.
 pub fn units(description: &str) -> Vec<&str> {
     let mut units = Vec::new();
     let mut rest = description;

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::describe::units;
 
-/// Format of the files that this program writes; older ones are read, newer ones refused.
+/// Version of the file format that this program writes; files of older versions are read, those of newer ones refused.
 pub const FORMAT: u64 = 2;
 
 /// Suffixes of a key by its unit, with the words for the unit.
@@ -14,7 +14,8 @@ const VARIANTS: [(&str, &str, &str); 3] = [
     ("rad/s", "_deg_s", "in degrees a second [deg/s]"),
 ];
 
-/// The schema with formulas in the place of numbers, angles in degrees, speeds in turns a minute, and its version.
+/// Returns a schema of a file as editors use it: extended by all that is rewritten before validation, such as formulas
+/// in the place of numbers and keys with suffixes (`_deg`, `_rpm`), and with the version of the format.
 #[must_use]
 pub fn for_editors(schema: &Value) -> Value {
     let mut schema = schema.clone();

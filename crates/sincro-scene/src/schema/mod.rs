@@ -62,7 +62,12 @@ fn simplify_table(table: &mut Map<String, Value>) {
     }
 }
 
-/// One way in which a value may be given: references followed, `anyOf` taken apart.
+/// Returns the alternative forms of the value that `schema` describes, as plain schemas: references are resolved in
+/// `root`, the whole schema, and `anyOf` is taken apart.
+///
+/// # Panics
+///
+/// If a reference does not resolve; those of generated schemas do.
 pub fn alternatives<'s>(root: &'s Value, schema: &'s Value) -> Vec<&'s Map<String, Value>> {
     let mut found = Vec::new();
     collect(root, schema, &mut found);
@@ -81,14 +86,15 @@ fn collect<'s>(root: &'s Value, schema: &'s Value, found: &mut Vec<&'s Map<Strin
     }
 }
 
-/// Schema of a key of a table: of a named property, or of any key of an open table. None if the table does not know it.
+/// Returns the schema of the key `key` of a table: that of the property of this name, or of any key if the table is
+/// open. `None` if the table does not know the key.
 pub fn property<'s>(table: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
     let named = table.get("properties").and_then(|p| p.get(key));
     named.or_else(|| table.get("additionalProperties").filter(|rest| **rest != Value::Bool(false)))
 }
 
 /// Names of the keys that a table knows.
-pub fn property_names(table: &Map<String, Value>) -> Vec<&str> {
+pub(crate) fn property_names(table: &Map<String, Value>) -> Vec<&str> {
     let named = table.get("properties").and_then(Value::as_object);
     named.map(|p| p.keys().map(String::as_str).collect()).unwrap_or_default()
 }

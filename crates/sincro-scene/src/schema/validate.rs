@@ -16,7 +16,8 @@ use crate::vocabulary;
 const UNITS: [&str; 14] =
     ["_deg", "_rad", "_rpm", "_deg_s", "_rad_s", "_hz", "_ms", "_us", "_mm", "_cm", "_m", "_s", "_kg", "_g"];
 
-/// Everything in `document` that does not fit `schema`.
+/// Validates a document against the schema of its kind of file and returns everything that does not fit, each at its
+/// location, in the order of the text; empty if it is valid.
 pub fn validate(document: &Document, schema: &Value) -> Diagnostics {
     let mut walker = Walker { document, root: schema, diagnostics: Diagnostics::new() };
     walker.value("", &document.root, schema);

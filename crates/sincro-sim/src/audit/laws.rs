@@ -7,7 +7,9 @@ use sincro_scene::experiment::Experiment;
 use super::Finding;
 use super::limits::{ISLAND, Limits};
 
-/// Accumulator of a run: nothing is allocated while it runs.
+/// Audit of a run while it goes on: keeps the worst residual of each law of the mechanism and the solver, without
+/// allocation. [`Recording`](crate::run::Recording) has one; a run driven otherwise calls [`LawAudit::observe`],
+/// [`LawAudit::tick`] and at the end [`LawAudit::close`].
 #[derive(Clone, Debug)]
 pub struct LawAudit {
     /// For each law the worst residual and its time `[s]`.
@@ -36,7 +38,7 @@ impl Default for LawAudit {
 }
 
 impl LawAudit {
-    /// Adds the state observed at time `t` `[s]`.
+    /// Takes the residuals of the laws at the state observed at time `t` `[s]`; to be called at each recorded instant.
     pub fn observe(&mut self, seen: &Observation<'_>, t: f64) {
         self.acceleration = seen.accelerations.iter().fold(self.acceleration, |largest, a| largest.max(a.abs()));
         for (law, residual) in seen.law_residuals().iter() {
@@ -47,7 +49,7 @@ impl LawAudit {
         }
     }
 
-    /// Adds the solver's statistics after the step that ended at time `t` `[s]`.
+    /// Takes the solver's statistics after the step that ended at time `t` `[s]`; to be called after each step.
     pub fn tick(&mut self, world: &World, t: f64) {
         let residual = world.solver_report().map_or(0.0, |report| report.worst_residual);
         if residual > self.unsolved.0 {
@@ -62,7 +64,8 @@ impl LawAudit {
         self.fallback = (steps, if self.fallback.0 == 0 { t } else { self.fallback.1 });
     }
 
-    /// All laws that something was subject to.
+    /// Returns one finding for each law that something in the world was subject to, with its worst value and limit;
+    /// `method` is the integration method of the run.
     #[must_use]
     pub fn close(&self, world: &World, experiment: &Experiment, method: MethodKind) -> Vec<Finding> {
         let limits = Limits::new(experiment, method);

@@ -20,27 +20,28 @@ use serde::{Deserialize, Serialize};
 pub(crate) use help::{finer_steps, help};
 pub use laws::LawAudit;
 pub(crate) use limits::energy_limit;
-pub use sources::{source_findings, sources};
+pub use sources::source_findings;
+pub(crate) use sources::sources;
 
-/// A law that a run was measured against: its worst value and the limit there.
+/// Law that a run was measured against, with its worst value and the limit there; an entry of [`AuditReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
-    /// The law: `loop-position`, `energy-balance` … (`docs/accuracy.md`).
+    /// Name of the law, such as `loop-position` or `energy-balance` (`docs/accuracy.md`).
     pub law: String,
-    /// Path of the element, or the signal or solver concerned.
+    /// Path of the element, or name of the signal or solver concerned.
     pub element: String,
-    /// Time of the value `[s]`.
+    /// Time at which the value occurred `[s]`.
     pub time: f64,
-    /// The value found.
+    /// Worst value found, in `unit`.
     #[serde(with = "crate::number")]
     pub value: f64,
-    /// Largest value allowed.
+    /// Largest value allowed, in `unit`.
     #[serde(with = "crate::number")]
     pub limit: f64,
     /// Unit of value and limit; empty for relative residuals and counts.
     #[serde(default)]
     pub unit: String,
-    /// The setting that would help; empty for a law that holds.
+    /// Remedy, such as the setting that would help; empty for a law that holds.
     #[serde(default)]
     pub help: String,
 }
@@ -59,12 +60,12 @@ impl Finding {
     }
 }
 
-/// Result of the audit of a run.
+/// Audit of a run: the physical and numerical laws it was measured against, and those that it violates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AuditReport {
-    /// True if nothing was found.
+    /// True if no law is violated.
     pub ok: bool,
-    /// Laws with a value beyond their limit.
+    /// Laws with a value beyond their limit, in the order of `laws`.
     pub findings: Vec<Finding>,
     /// All laws that the run was measured against, each with its worst value.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -78,14 +79,16 @@ impl Default for AuditReport {
 }
 
 impl AuditReport {
-    /// Splits the laws measured into those that hold and those that do not.
+    /// Creates the report of a run from the laws it was measured against, one entry for each; those that do not hold
+    /// become findings.
     #[must_use]
     pub fn of(laws: Vec<Finding>) -> Self {
         let findings: Vec<Finding> = laws.iter().filter(|law| !law.holds()).cloned().collect();
         Self { ok: findings.is_empty(), findings, laws }
     }
 
-    /// Audit of several runs: of each law the worst value; `runs` yields each audit with the name of its run.
+    /// Creates the common report of several runs: of each law the entry farthest beyond (or nearest to) its limit.
+    /// `runs` yields the name of each run, which is added to the element, and its report.
     #[must_use]
     pub fn worst(runs: impl IntoIterator<Item = (String, Self)>) -> Self {
         let mut laws: Vec<Finding> = Vec::new();

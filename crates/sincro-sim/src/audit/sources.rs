@@ -13,7 +13,8 @@ use crate::load::Loaded;
 /// Rounding of typed numbers: a sine at exactly half the rate is none above it.
 const ABOVE: f64 = 1.0 + 1e-9;
 
-/// Sources above half the rate at which they are read, which is known before a run.
+/// Returns a finding for each signal source with a frequency above half the rate at which it is read (Nyquist
+/// frequency), in `[Hz]`; known before a run.
 #[must_use]
 pub fn source_findings(loaded: &Loaded) -> Vec<Finding> {
     let mut findings: Vec<Finding> = sources(loaded).into_iter().filter(|source| !source.holds()).collect();

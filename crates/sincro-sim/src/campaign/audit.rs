@@ -5,7 +5,8 @@ use crate::audit::{AuditReport, Finding, energy_limit, help, sources};
 use crate::load::Loaded;
 use crate::run::Simulated;
 
-/// Audits a run that was made; `finer` is the finer run of its error bars, if there was one.
+/// Audits a run of `loaded`: the laws of its mechanism and solver, its sources and its energy balance. `finer` is the
+/// finer run of its error bars, if there was one; without it some laws are left out.
 #[must_use]
 pub fn audit(loaded: &Loaded, run: &Simulated, finer: Option<&Simulated>) -> AuditReport {
     let mut laws = run.laws.clone();

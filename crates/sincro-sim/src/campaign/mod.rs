@@ -30,28 +30,28 @@ use sincro_scene::open::settings_with;
 use sincro_scene::overrides::Override;
 use sincro_scene::scene::{ObjectKind, Scene};
 
-/// One run of a campaign with its judgement.
+/// One run of a [`Campaign`] (main run or variant), judged by audit and checks.
 #[derive(Clone, Debug)]
 pub struct CompletedRun {
-    /// Result of the run.
+    /// Recorded signals, status and statistics of the run.
     pub simulated: Simulated,
-    /// Columns with their error bars.
+    /// Recorded signals with units and error bars, in the order of the table's columns.
     pub columns: Vec<ColumnReport>,
-    /// Its audit.
+    /// Audit of the run.
     pub audit: AuditReport,
-    /// Its checks.
+    /// Outcomes of its checks, in their order.
     pub outcomes: Vec<Outcome>,
-    /// Settings of the run.
+    /// Settings with which it ran.
     pub settings: Settings,
-    /// Hash of its model.
+    /// Hash of its model, 16 hexadecimal digits.
     pub model_hash: String,
-    /// Its diagram, if it has one.
+    /// Block diagram that controlled it, if there was one.
     pub controller: Option<ControlDiagram>,
-    /// Its scene, to be shown.
+    /// Visible scene, for the replay.
     pub view: SceneView,
 }
 
-/// Results of an experiment: the main run, its variants, its sweep.
+/// Results of an experiment: the main run, its variants and its sweep, as [`run_campaign`] returns them.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -71,26 +71,29 @@ pub struct CompletedRun {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Campaign {
-    /// The main run.
+    /// Main run.
     pub main: CompletedRun,
-    /// The variants, each with its name and description.
+    /// Variants with their runs, in the order of the experiment.
     pub variants: Vec<(Variant, CompletedRun)>,
-    /// The sweep and its checks.
+    /// Sweep and the outcomes of its checks, if the experiment has one.
     pub sweep: Option<(Sweep, Vec<Outcome>)>,
-    /// All of it as it stands in `run.json`.
+    /// Report of all runs, the content of `run.json`.
     pub report: RunReport,
 }
 
-/// Told what is being done and the share of it.
+/// Callback for the progress of a campaign: receives what is being done (`run`, `variant NAME` …) and the share of it
+/// that is done, 0 to 1.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
 
-/// Runs a loaded experiment with all that belongs to it; `out_dir` takes `signals.csv`, `sweep.csv`, `run.json` and a
-/// folder a variant.
+/// Runs a loaded experiment with its variants and its sweep, and judges them by their checks. `folder` and `overrides`
+/// are those that it was loaded with; `out_dir`, if given, receives `signals.csv`, `sweep.csv`, `run.json` and a folder
+/// for each variant. Once `interrupt` is true the present run ends and no other begins.
 ///
 /// # Errors
 ///
-/// Problems of a variant or of a sweep's point, and files that cannot be written. A run that stops or a check that
-/// fails is a result, not an error.
+/// [`RunError::Diagnostics`]: findings of a variant or of a point of the sweep, or a recorded signal that does not
+/// exist. [`RunError::File`]: a file cannot be written. A run that stops or a check that fails is a result, not an
+/// error.
 ///
 /// ```
 /// use std::sync::atomic::AtomicBool;
@@ -155,8 +158,9 @@ pub fn run_campaign(
     Ok(Campaign { main, variants, sweep, report })
 }
 
-/// A single run that was made elsewhere – by clients of a live session – judged by the checks of its experiment: no
-/// variants, no sweep, no error bars, because it cannot be repeated.
+/// Judges a single run that was made elsewhere, such as by clients of a live session, by the checks of its experiment:
+/// without variants, sweep and error bars, because it cannot be repeated. `folder` is the scene's folder, for the
+/// report.
 #[must_use]
 pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
     let columns = ColumnReport::of_table(&simulated.table);

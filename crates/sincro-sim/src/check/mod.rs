@@ -38,41 +38,43 @@ use rows::Rows;
 use series::Source;
 use sincro_scene::experiment::check::{Check, Expected, Measure, Sense};
 
-/// The judgement of one check, and the numbers it rests on.
+/// Outcome of one check: the verdict and the numbers it rests on; result of [`evaluate`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// The check's name.
+    /// Name of the check.
     pub name: String,
-    /// The judgement.
+    /// Verdict on the check.
     pub verdict: Verdict,
-    /// Description of the comparison: `greatest value of /shoulder.position against 0.2`.
+    /// Description of the comparison in English: `greatest value of /shoulder.position against 0.2`.
     pub about: String,
-    /// The value measured, for `error` that of the worst row; none if the check was not made.
+    /// Measured value, in `unit`; of the measure `error` that of the worst row. `None` if the check was not made.
     pub measured: Option<f64>,
-    /// The value expected at the same place.
+    /// Expected value at the same place, in `unit`; `None` if the check was not made.
     pub expected: Option<f64>,
-    /// True if the expected value is a bound.
+    /// Comparison: equal, at most or at least.
     pub sense: Sense,
-    /// |measured − expected|, divided by max(|expected|, floor) if `relative`; how far beyond a bound; may be infinite or NaN, which
-    /// never holds.
+    /// Deviation |measured − expected|, or the excess beyond a bound, in `unit`; divided by max(|expected|, floor) if
+    /// `relative`. May be infinite or NaN, which never holds; `None` if the check was not made.
     pub deviation: Option<f64>,
-    /// Largest deviation that holds.
+    /// Largest deviation that holds, in the unit of `deviation`.
     pub limit: f64,
-    /// True if deviation and limit are relative, hence without unit.
+    /// True if deviation and limit are relative (dimensionless).
     pub relative: bool,
-    /// Unit of measured and expected; empty where it is not known (formulas).
+    /// Unit of measured and expected value; empty where it is not known, as for formulas.
     pub unit: String,
-    /// Key of the measured value, if it is that of a row: time `[s]`; in a sweep, the value of the parameter.
+    /// Time `[s]` of the row of the measured value (in a sweep: value of the parameter); `None` if it is not that of
+    /// one row.
     pub at: Option<f64>,
-    /// Number of rows that entered.
+    /// Number of rows that were evaluated.
     pub n_rows: usize,
-    /// The recorded signal that was measured as it is; none for formulas.
+    /// Recorded signal that was measured; `None` for formulas.
     pub signal: Option<String>,
-    /// For `error` against a reference or a formula, no bound: what was expected, row by row, as far as the run came.
+    /// Expected values row by row, as far as the run came, of the measure `error` against a reference or formula; else
+    /// `None`.
     pub series: Option<Series>,
 }
 
-/// The judgement of a check.
+/// Verdict on a check.
 ///
 /// ```
 /// use sincro_sim::check::evaluate;
@@ -95,23 +97,23 @@ pub struct Outcome {
 pub enum Verdict {
     /// The deviation is finite and within its limit.
     Holds,
-    /// It is not.
+    /// The deviation is beyond its limit or not finite.
     Fails,
-    /// There was nothing to compare; the reason.
+    /// The check could not be made, for this reason (in English), such as a run that stopped before the time that is
+    /// looked at.
     NotMade(String),
 }
 
-/// Expected values over time, or over the parameter of a sweep.
+/// Expected values of a check over time, or over the parameter of a sweep, to be drawn beside the measured ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// Times `[s]`, or values of the parameter.
+    /// Times `[s]`, or values of the parameter, ascending.
     pub times: Vec<f64>,
-    /// Expected values.
+    /// Expected value at each of `times`, in the unit of the signal.
     pub values: Vec<f64>,
 }
 
-/// Judges the checks of one run, in their order.
-///
+/// Evaluates the checks of one run on its recorded signals `table` and returns one outcome for each, in their order.
 /// `stopped` is the time `[s]` at which the run ended before its duration; `None` if it came to its end.
 #[must_use]
 pub fn evaluate(checks: &[Check], table: &Table, stopped: Option<f64>) -> Vec<Outcome> {
@@ -124,7 +126,7 @@ pub fn evaluate(checks: &[Check], table: &Table, stopped: Option<f64>) -> Vec<Ou
 ///
 /// A reference may have more rows than the sweep has points, or fewer, but not both.
 #[must_use]
-pub fn evaluate_sweep(checks: &[Check], sweep: &Sweep) -> Vec<Outcome> {
+pub(crate) fn evaluate_sweep(checks: &[Check], sweep: &Sweep) -> Vec<Outcome> {
     let runs = sweep.ascending();
     let table = sweep.table(&runs);
     let along = Along::sweep(&table, runs.iter().map(|run_idx| sweep.stop(*run_idx)).collect());

@@ -11,31 +11,34 @@ use std::path::Path;
 use crate::file::{FileError, write_atomically};
 use crate::table::Table;
 
-/// Writes a table as a NumPy archive: an array for each signal under its name.
+/// Writes a table as a NumPy archive (`.npz`): an array of doubles for each signal under its name, one entry per row,
+/// without units.
 ///
 /// # Errors
 ///
-/// The table is larger than the format can hold, or the file cannot be written.
+/// [`FileError`]: the table is larger than the format can hold, or the file cannot be written.
 pub fn write_npz(table: &Table, path: &Path) -> Result<(), FileError> {
     npz::LIMITS.check(table, path)?;
     write_atomically(path, &npz::bytes(table))
 }
 
-/// Writes a table as a MATLAB 5 file with the variables `t`, `signals` (a column for each signal), `names`, `units`.
+/// Writes a table as a MATLAB 5 file (`.mat`) with the variables `t` (times `[s]`), `signals` (a row for each time, a
+/// column for each further signal), `names` and `units` of these columns.
 ///
 /// # Errors
 ///
-/// The table is larger than the format can hold, or the file cannot be written.
+/// [`FileError`]: the table is larger than the format can hold, or the file cannot be written.
 pub fn write_mat(table: &Table, path: &Path) -> Result<(), FileError> {
     mat::LIMITS.check(table, path)?;
     write_atomically(path, &mat::bytes(table))
 }
 
-/// Writes a table as a Parquet file: a column of doubles for each signal; the units are in its metadata.
+/// Writes a table as a Parquet file: a column of doubles for each signal under its name; units are in the metadata as
+/// `unit of NAME`.
 ///
 /// # Errors
 ///
-/// The table is larger than the format can hold, or the file cannot be written.
+/// [`FileError`]: the table is larger than the format can hold, or the file cannot be written.
 pub fn write_parquet(table: &Table, path: &Path) -> Result<(), FileError> {
     parquet::LIMITS.check(table, path)?;
     write_atomically(path, &parquet::bytes(table))

@@ -8,10 +8,11 @@
 
 use sincro_dynamics::world::Observation;
 
-/// Count of numbers that make a point of contact.
+/// Number of entries per contact point in [`Contacts::frame`]: indices of the two surfaces, position x, y, z in the
+/// world `[m]`, force x, y, z on the first surface in world axes `[N]`.
 pub const CONTACT: usize = 8;
 
-/// The points of contact of some frames, in the order of the frames.
+/// Contact points of the frames of a trajectory, any number in each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contacts {
     /// For each frame: how many points there are up to and with it.
@@ -20,7 +21,7 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// Adds the frame of what is seen.
+    /// Appends a frame with the contact points of the observed world, as many as there are.
     pub fn record(&mut self, seen: &Observation<'_>) {
         for point in seen.contacts() {
             // indices below 2²⁴ are exact in single precision; a model has far fewer surfaces
@@ -30,30 +31,32 @@ impl Contacts {
         self.ends.push(self.numbers.len() / CONTACT);
     }
 
-    /// Adds frames of another list.
+    /// Appends all frames of `other` behind those of this list, in their order.
     pub fn append(&mut self, other: &Self) {
         let before = self.numbers.len() / CONTACT;
         self.ends.extend(other.ends.iter().map(|end| before + end));
         self.numbers.extend_from_slice(&other.numbers);
     }
 
-    /// The points of a frame, [`CONTACT`] numbers each.
+    /// Returns the contact points of frame `k` (from 0), [`CONTACT`] numbers each, one point after the other.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such frame.
     #[must_use]
     pub fn frame(&self, k: usize) -> &[f32] {
         let start = if k == 0 { 0 } else { self.ends[k - 1] };
         &self.numbers[CONTACT * start..CONTACT * self.ends[k]]
     }
 
-    /// Number of points of a frame.
+    /// Returns the number of contact points of frame `k` (from 0).
+    ///
+    /// # Panics
+    ///
+    /// If there is no such frame.
     #[must_use]
     pub fn count(&self, k: usize) -> usize {
         self.frame(k).len() / CONTACT
-    }
-
-    /// Forgets the frames from number `n` on.
-    pub fn truncate(&mut self, n: usize) {
-        self.ends.truncate(n);
-        self.numbers.truncate(CONTACT * self.ends.last().copied().unwrap_or(0));
     }
 }
 
@@ -68,7 +71,5 @@ mod tests {
         all.append(&one);
         assert_eq!([0, 1, 2, 3].map(|k| all.count(k)), [0, 2, 1, 0]);
         assert_eq!(all.frame(2), [1.0; CONTACT]);
-        all.truncate(2);
-        assert_eq!((all.count(1), all.numbers.len()), (2, 2 * CONTACT));
     }
 }

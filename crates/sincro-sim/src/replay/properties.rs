@@ -19,28 +19,28 @@ use sincro_scene::scene::scene_schema;
 use sincro_scene::schema::{alternatives, description, property, units};
 use sincro_scene::tree;
 
-/// A number of a file.
+/// Number in the files of a scene as the viewer lists and edits it; found by [`properties`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Property {
-    /// Path of the object that it belongs to, `/` for the scene itself, `experiment`, or `diagram/BLOCK`.
+    /// Path of the object that it belongs to; `/` for the scene itself, `experiment`, or `diagram/BLOCK`.
     pub owner: String,
-    /// As `--set` takes it: `/arm/link.mass`.
+    /// Path of the setting as after `--set`: `/arm/link.mass`.
     pub path: String,
-    /// Key relative to the owner: `mass`, `inertia.xx`.
+    /// Path of the key below the owner: `mass`, `inertia.xx`.
     pub key: String,
-    /// Its value.
+    /// Value in `unit`.
     pub value: f64,
-    /// Its unit; empty if the format says none.
+    /// Unit as text; empty if the file format has none for this key.
     pub unit: String,
-    /// Description; may be empty.
+    /// Description of the key; may be empty.
     pub about: String,
-    /// Its place.
+    /// Location in its file.
     #[serde(skip)]
     pub at: Location,
 }
 
-/// All numbers of the files that a scene was loaded from, with the settings that it was loaded with: scene, experiment,
-/// diagram.
+/// Returns all numbers of the files that a scene was loaded from, with the settings `settings` that it was loaded with,
+/// in the order of scene, experiment, diagram.
 #[must_use]
 pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     let mut found = Vec::new();
@@ -63,12 +63,12 @@ pub fn properties(loaded: &Loaded, settings: &[Override]) -> Vec<Property> {
     found
 }
 
-/// The texts of the files with settings written into them, by their paths; only the numbers change, comments and order
-/// stay.
+/// Writes settings into the texts of the files and returns those that change, by their paths; comments and order stay.
+/// Nothing is written to the disk.
 ///
 /// # Errors
 ///
-/// A sentence for each setting of what is no number that stands in a file.
+/// One message for each setting whose path is no number that stands in a file, or whose value is no number.
 pub fn edited(loaded: &Loaded, settings: &[Override]) -> Result<BTreeMap<PathBuf, String>, Vec<String>> {
     let known = properties(loaded, &[]);
     // the last setting of a path wins; keyed by file and place

@@ -21,133 +21,138 @@ use super::volume::{self, Edge};
 use sincro_scene::scene::{Object, ObjectKind, Scene, ShownSurface};
 use sincro_scene::sensor::{SensorKind, SensorSpec};
 
-/// Everything of a scene that a picture needs.
+/// Visible scene for replay and pictures: objects, shapes, and the layout of the trajectory's frames. Frames hold in
+/// turn: movers (7 numbers each), rotors, external forces, drag elements and winds (3 each), coordinates, velocities;
+/// see [`Layout`](super::Layout).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneView {
-    /// Parents before children.
+    /// Objects of the scene, parents before children.
     pub objects: Vec<ObjectView>,
-    /// Number of movers: joints of the model that move.
+    /// Number of movers, whose poses a frame has: one for each joint of the model, its last link.
     pub n_movers: usize,
-    /// Number of rotors.
+    /// Number of rotors in a frame.
     pub n_rotors: usize,
-    /// Number of external forces.
+    /// Number of external forces in a frame.
     pub n_forces: usize,
-    /// Number of drag elements.
+    /// Number of drag elements in a frame.
     pub n_drags: usize,
-    /// Movers at which the frames have the wind; none where the air stands still.
+    /// Indices of the movers at which frames have the wind; empty where the air stands still.
     pub winds: Vec<usize>,
-    /// Object of each surface that can touch, as points of contact name them; none for the world's own.
+    /// Object index of each contact surface, by the surface index of contact points; `None` for the world's own.
     pub surfaces: Vec<Option<usize>>,
-    /// Number of coordinates.
+    /// Number of generalized coordinates.
     pub n_q: usize,
-    /// Number of degrees of freedom.
+    /// Number of generalized velocities.
     pub n_v: usize,
-    /// Gravitational acceleration [m/s²].
+    /// Gravitational acceleration in world axes `[m/s²]`.
     pub gravity: [f64; 3],
 }
 
-/// A joint, body, frame, force, rotor, drag element, sensor, camera or closure.
+/// Object of the scene as it is drawn: joint, body, frame, force, rotor, drag element, sensor, camera or closure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ObjectView {
-    /// Path.
+    /// Path of the object, such as `/arm/link`.
     pub path: String,
-    /// Last part of the path.
+    /// Name, the last part of the path.
     pub name: String,
-    /// `revolute joint`, `body`, `rotor` …
+    /// Kind in English, such as `revolute joint`, `body`, `rotor`.
     pub kind: String,
-    /// Index of its parent; none for children of the world.
+    /// Index of its parent among the objects; `None` for children of the world.
     pub parent: Option<usize>,
-    /// Link that carries it; none if it is fixed in the world. For a joint, its moving side.
+    /// Index of the mover that carries it; `None` if it is fixed in the world. For a joint, its moving side.
     pub mover: Option<usize>,
-    /// Its frame in that of its mover, or in the world: position `[m]`, quaternion w, x, y, z.
+    /// Pose of its frame in that of its mover, or in the world: position x, y, z `[m]`, quaternion w, x, y, z.
     pub pose: [f64; 7],
-    /// Shapes.
+    /// Visible shapes.
     pub shapes: Vec<ShapeView>,
-    /// Mass `[kg]`, centre of mass `[m]` and inertia (xx, xy, xz, yy, yz, zz) [kg·m²] of a body.
+    /// Mass properties of a body: mass `[kg]`, centre of mass in its frame `[m]`, inertia about that centre in its axes
+    /// (xx, xy, xz, yy, yz, zz) `[kg·m²]`; `None` for all else.
     pub mass: Option<(f64, [f64; 3], [f64; 6])>,
-    /// Kind of motion of a joint.
+    /// Motion of a joint; `None` for all else.
     pub joint: Option<JointView>,
-    /// Quantity of a rotor.
+    /// Data of a rotor; `None` for all else.
     pub rotor: Option<RotorView>,
-    /// Index in the frames of a force that moves something.
+    /// Index among the external forces of a frame, of a force that acts on something that moves.
     pub force: Option<usize>,
-    /// Index in the frames of a drag element.
+    /// Index among the drag elements of a frame, of a drag element.
     pub drag: Option<usize>,
-    /// Edges of the volume that a proximity sensor sees, in its frame.
+    /// Edges of the volume of a proximity sensor, in its frame `[m]`; empty for all else.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub volume: Vec<Edge>,
-    /// Camera data.
+    /// Data of a camera; `None` for all else.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraView>,
-    /// Link index (none: the world) and pose of the other end of a loop joint, as `pose`.
+    /// Other end of a loop joint: index of its mover (`None`: the world), and pose there as in `pose`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_end: Option<(Option<usize>, [f64; 7])>,
 }
 
-/// A camera: looks along z of its frame, y is up in the picture.
+/// Camera of the scene as it is drawn; it looks along z of its frame, y is up in the image.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CameraView {
-    /// Angle between the upper and the lower edge of its picture `[deg]`.
+    /// Angle between the upper and the lower edge of its image `[deg]`.
     pub field_of_view_deg: f64,
 }
 
-/// A solid or surface in the frame of its body.
+/// Visible solid or surface of an object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShapeView {
-    /// `cuboid`, `sphere`, `cylinder`, `capsule` or `cone`; `plane` for everything below z = 0, `mesh` for triangles.
+    /// Kind: `cuboid`, `sphere`, `cylinder`, `capsule` or `cone`; `plane` for the half space z < 0, `mesh` for
+    /// triangles.
     pub kind: &'static str,
-    /// Edge lengths of a cuboid; radius and length of the others `[m]`; nothing for planes and meshes.
+    /// Dimensions `[m]`: edge lengths x, y, z of a cuboid; radius and length (along z) of the others, the length of a
+    /// sphere being 0; empty for planes and meshes.
     pub size: Vec<f64>,
-    /// Corners of a mesh `[m]`.
+    /// Corners of a mesh, x, y, z in the shape's frame `[m]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub vertices: Vec<[f32; 3]>,
-    /// Its triangles, counter-clockwise seen from outside.
+    /// Indices of the corners of each triangle of a mesh, counter-clockwise seen from outside.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub triangles: Vec<[u32; 3]>,
-    /// Its frame in that of its body: position `[m]`, quaternion w, x, y, z.
+    /// Pose of the shape's frame in that of its object: position x, y, z `[m]`, quaternion w, x, y, z.
     pub pose: [f64; 7],
-    /// Colour as `#rrggbb`; none: the viewer's own.
+    /// Colour as `#rrggbb`; `None`: chosen by the viewer.
     pub color: Option<String>,
 }
 
-/// Motion of a joint: its frame on the fixed side, axes and coordinates.
+/// Motion of a joint as it is drawn: its frame on the fixed side, axes, coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointView {
-    /// Link that carries it; none for the world.
+    /// Index of the mover on its fixed side; `None` for the world.
     pub base_mover: Option<usize>,
-    /// Frame of the joint on the fixed side, in that of the link that carries it: position `[m]`, quaternion w, x, y,
-    /// z.
+    /// Pose of the joint's frame on the fixed side in the frame of that mover: position x, y, z `[m]`, quaternion w, x,
+    /// y, z.
     pub base_pose: [f64; 7],
-    /// Axes in the joint's frame: none for fixed, ball and free joints, two for universal ones.
+    /// Unit vectors of its axes in the joint's frame: none for fixed, ball and free joints, two for universal ones.
     pub axes: Vec<[f64; 3]>,
-    /// First coordinate in q.
+    /// Index of its first coordinate in q.
     pub q_idx: usize,
-    /// Number of coordinates.
+    /// Number of its coordinates.
     pub n_q: usize,
-    /// First degree of freedom in v.
+    /// Index of its first degree of freedom in v.
     pub v_idx: usize,
-    /// Number of degrees of freedom.
+    /// Number of its degrees of freedom.
     pub n_v: usize,
-    /// Stiffness [N·m/rad] or [N/m] and rest `[rad]` or `[m]` of the springs that are there, with their degrees of
-    /// freedom.
+    /// Springs: index of the degree of freedom within the joint (from 0), stiffness `[N·m/rad]` or `[N/m]`, rest
+    /// position `[rad]` or `[m]`.
     pub springs: Vec<(usize, f64, f64)>,
-    /// True if it has a motor.
+    /// True if the joint has a motor.
     pub motor: bool,
 }
 
-/// Rotor data: thrust is along z of its frame.
+/// Rotor as it is drawn; thrust is along z of its frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RotorView {
-    /// Its index in the frames.
+    /// Index among the rotors of a frame.
     pub index: usize,
-    /// Radius of the disc `[m]`, if the law has one.
+    /// Radius of the disc `[m]`, if the rotor's law has one.
     pub radius: Option<f64>,
-    /// True if it turns counter-clockwise, seen from above.
+    /// True if it turns counter-clockwise, seen from above (with the thrust towards the viewer).
     pub is_ccw: bool,
 }
 
 impl SceneView {
-    /// Creates the view of a compiled scene.
+    /// Creates the view of a compiled scene, for its replay; poses relative to movers do not depend on the state.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let model = &*scene.model;
@@ -179,25 +184,29 @@ impl SceneView {
         }
     }
 
-    /// Index of the three numbers of rotor `k` in a frame: speed [rad/s], thrust `[N]`, torque [N·m].
+    /// Returns the index, in a frame of the trajectory, of the three numbers of rotor `k` (from 0): speed `[rad/s]`,
+    /// thrust `[N]`, torque `[N·m]`.
     #[must_use]
     pub fn rotor_at(&self, k: usize) -> usize {
         7 * self.n_movers + 3 * k
     }
 
-    /// Index of external force `k` `[N]` in a frame.
+    /// Returns the index, in a frame of the trajectory, of the first of three components of external force `k` (from
+    /// 0), in world axes `[N]`.
     #[must_use]
     pub fn force_at(&self, k: usize) -> usize {
         self.rotor_at(self.n_rotors + k)
     }
 
-    /// Index of the force of drag element `k` `[N]` in a frame.
+    /// Returns the index, in a frame of the trajectory, of the first of three components of the force of drag element
+    /// `k` (from 0), in world axes `[N]`.
     #[must_use]
     pub fn drag_at(&self, k: usize) -> usize {
         self.force_at(self.n_forces + k)
     }
 
-    /// Index of the wind [m/s] at link `winds[k]` in a frame.
+    /// Returns the index, in a frame of the trajectory, of the first of three components of the wind at mover
+    /// `winds[k]`, in world axes `[m/s]`.
     #[must_use]
     pub fn wind_at(&self, k: usize) -> usize {
         self.drag_at(self.n_drags + k)

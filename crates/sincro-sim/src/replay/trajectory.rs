@@ -30,7 +30,10 @@ const MAX_NUMBERS: u64 = 16_000_000;
 /// Points of contact that are expected in a frame at most, where there can be that many.
 const USUAL_CONTACTS: usize = 8;
 
-/// Layout of a frame.
+/// Layout of a frame of a [`Trajectory`], in this order: for each joint of the model the pose of its last link in the
+/// world (position x, y, z `[m]`, quaternion x, y, z, w); for each rotor speed `[rad/s]`, thrust `[N]`, torque `[N·m]`;
+/// for each external force and each drag element its components in world axes `[N]`; where there is wind, its velocity
+/// at each joint whose last link feels it `[m/s]`; coordinates q; velocities v.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// The link that each joint of the model moves last.
@@ -45,7 +48,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// For a model.
+    /// Creates the layout of the frames of a model, whose numbers of joints, rotors, forces and coordinates it keeps.
     #[must_use]
     pub fn new(model: &Model<f64>) -> Self {
         let last_link = |v_end: usize| {
@@ -69,7 +72,8 @@ impl Layout {
         }
     }
 
-    /// The link that each joint of the model moves last, in the order of the joints.
+    /// Returns the index of the link whose pose a frame has for each joint, the last one that the joint moves, in the
+    /// order of the model's joints.
     #[must_use]
     pub fn links(&self) -> &[usize] {
         &self.links
@@ -77,25 +81,29 @@ impl Layout {
 
     /// Joints whose last link feels the wind.
     #[must_use]
-    pub fn wind_links(&self) -> &[usize] {
+    pub(crate) fn wind_links(&self) -> &[usize] {
         &self.wind_links
     }
 
-    /// Count of numbers that make a frame.
+    /// Returns the number of entries of a frame, all parts together.
     #[must_use]
     pub fn width(&self) -> usize {
         let vectors = self.n_rotors + self.n_forces + self.n_drags + self.wind_links.len();
         7 * self.links.len() + 3 * vectors + self.n_q + self.n_v
     }
 
-    /// The coordinates q in a frame.
+    /// Returns the coordinates q in a frame of [`Layout::width`] entries: `n_q` numbers `[rad]`, `[m]`.
+    ///
+    /// # Panics
+    ///
+    /// If the frame is too short.
     #[must_use]
     pub fn coordinates<'a>(&self, frame: &'a [f32]) -> &'a [f32] {
         let end = self.width() - self.n_v;
         &frame[end - self.n_q..end]
     }
 
-    /// Adds what is seen at time `t` `[s]` to `out`; `width` numbers.
+    /// Appends the frame of the observed world at time `t` `[s]` to `out`: [`Layout::width`] numbers.
     pub fn write(&self, seen: &Observation<'_>, t: f64, out: &mut Vec<f32>) {
         let poses = seen.scratch().link_poses();
         for &link in &self.links {
@@ -127,25 +135,27 @@ impl Layout {
     }
 }
 
-/// The frames of a run, in the order of their times.
+/// Trajectory of a run for its replay: frames with the poses of all links, in single precision, at even distances in
+/// time. [`RunOptions::keyframes`](crate::run::RunOptions::keyframes) asks for one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
-    /// Layout of a frame.
+    /// Layout of the frames.
     pub layout: Layout,
-    /// Base steps from frame to frame.
+    /// Number of base steps between two frames.
     pub every: u64,
-    /// Base steps done, one entry a frame.
+    /// Number of base steps done at each frame, ascending.
     pub ticks: Vec<u64>,
-    /// Times `[s]`, one entry a frame.
+    /// Time of each frame `[s]`, ascending.
     pub times: Vec<f64>,
-    /// The frames, one after the other.
+    /// Frames one after the other, [`Layout::width`] numbers each.
     pub numbers: Vec<f32>,
-    /// Points of contact of the frames.
+    /// Contact points of each frame.
     pub contacts: Contacts,
 }
 
 impl Trajectory {
-    /// Creates an empty trajectory for a run of `model`.
+    /// Creates an empty trajectory for a run of `model`; the distance of the frames follows from duration and size of
+    /// the experiment.
     #[must_use]
     pub fn new(model: &Model<f64>, experiment: &Experiment) -> Self {
         let layout = Layout::new(model);
@@ -157,13 +167,13 @@ impl Trajectory {
         Self { layout, every, ticks: Vec::new(), times: Vec::new(), numbers: Vec::new(), contacts: Contacts::default() }
     }
 
-    /// Returns true if a frame is to be taken after so many base steps.
+    /// Returns true if a frame is to be recorded after `tick` base steps.
     #[must_use]
     pub fn is_due(&self, tick: u64) -> bool {
         tick.is_multiple_of(self.every)
     }
 
-    /// Takes a frame at time `t` `[s]`.
+    /// Appends the frame of the observed world after `tick` base steps, at time `t` `[s]`.
     pub fn record(&mut self, seen: &Observation<'_>, tick: u64, t: f64) {
         self.ticks.push(tick);
         self.times.push(t);
@@ -171,21 +181,25 @@ impl Trajectory {
         self.contacts.record(seen);
     }
 
-    /// Number of frames so far.
+    /// Returns the number of frames so far.
     #[must_use]
     pub fn n_frames(&self) -> usize {
         self.times.len()
     }
 
-    /// Numbers of frame `k`, in the order and the units of [`Layout`].
+    /// Returns frame `k` (from 0): [`Layout::width`] numbers, in the order and units of [`Layout`].
+    ///
+    /// # Panics
+    ///
+    /// If there is no such frame.
     #[must_use]
     pub fn frame(&self, k: usize) -> &[f32] {
         let width = self.layout.width();
         &self.numbers[k * width..(k + 1) * width]
     }
 
-    /// Indices of frames evenly over the run: at most `rate` a simulated second `[1/s]`, `most` in all, the first and
-    /// the last among them.
+    /// Returns the indices of frames at even distances over the run, ascending, for a film: at most `rate` per
+    /// simulated second `[1/s]` and `most` in all, the first and the last among them.
     #[must_use]
     pub fn evenly_spaced(&self, rate: f64, most: usize) -> Vec<usize> {
         let (Some(start), Some(end)) = (self.times.first(), self.times.last()) else { return Vec::new() };
@@ -196,14 +210,5 @@ impl Trajectory {
             self.times.partition_point(|known| *known <= t + 5e-10).max(1) - 1
         };
         (0..n).map(at).collect()
-    }
-
-    /// Forgets the frames after so many base steps.
-    pub fn truncate_after(&mut self, tick: u64) {
-        let n = self.ticks.partition_point(|known| *known <= tick);
-        self.ticks.truncate(n);
-        self.times.truncate(n);
-        self.numbers.truncate(n * self.layout.width());
-        self.contacts.truncate(n);
     }
 }

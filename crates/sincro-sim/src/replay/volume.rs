@@ -8,7 +8,7 @@ use sincro_math::elementary::sin_cos;
 /// Chords of a full circle.
 const N_CHORDS: usize = 24;
 
-/// A line between two points of the sensor's frame `[m]`.
+/// Edge of the volume of a proximity sensor: two points, x, y, z in the sensor's frame `[m]`.
 pub type Edge = [[f64; 3]; 2];
 
 /// Edges of a volume from `offset` to `offset` + `range` along z of its sensor.

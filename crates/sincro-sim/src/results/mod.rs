@@ -18,7 +18,7 @@ use crate::table::Table;
 use crate::validity::ValidityViolation;
 use sincro_scene::experiment::check::Sense;
 
-/// Content of `run.json`: the run, its settings, signals, checks and findings.
+/// Report of a run, the content of `run.json`: settings, status, signals with error bars, checks and findings.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -37,17 +37,17 @@ use sincro_scene::experiment::check::Sense;
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunReport {
-    /// Version of sincro that ran it.
+    /// Version of sincro that made the run.
     pub sincro_version: String,
     /// Name of the scene's folder.
     pub scene: String,
-    /// The scene's folder as it was given.
+    /// Path of the scene's folder as it was given.
     pub scene_path: String,
     /// Title of the experiment.
     pub title: String,
-    /// Status at the end of the run.
+    /// Status of the main run at its end.
     pub status: Status,
-    /// Settings of the run.
+    /// Settings of the main run.
     pub settings: Settings,
     /// Hash of the compiled model, hexadecimal.
     pub model_hash: String,
@@ -55,52 +55,52 @@ pub struct RunReport {
     pub trace_hash: String,
     /// Degrees of freedom of the mechanism at the start, closed loops counted.
     pub n_dof: usize,
-    /// The columns of `signals.csv`, in their order, `t` first.
+    /// Columns of `signals.csv`, in their order, `t` first.
     pub columns: Vec<ColumnReport>,
-    /// The balance of energy.
+    /// Energy balance of the main run.
     pub energy: Option<EnergyReport>,
     /// Audit of the main run.
     #[serde(default)]
     pub audit: AuditReport,
-    /// Checks with their measured values.
+    /// Checks of the main run with their verdicts, in their order.
     pub checks: Vec<CheckReport>,
-    /// The static characteristic, if the experiment has one.
+    /// Report of the sweep, if the experiment has one.
     pub sweep: Option<SweepReport>,
-    /// The same experiment with other settings.
+    /// Reports of the variants, in the order of the experiment.
     pub variants: Vec<VariantReport>,
-    /// Rotors outside the validity of their theory; left out if there are none.
+    /// Rotors outside the validity of their theory.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside_theory: Vec<ValidityReport>,
     /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
-    /// Messages of scripts, if there are any.
+    /// Messages of scripts and controllers, in the order of time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub messages: Vec<MessageReport>,
-    /// Changes of the model by clients and scripts, if there are any.
+    /// Changes of the model by clients and scripts, in the order of time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<ChangeReport>,
-    /// Wall time `[s]`.
+    /// Wall time of the main run `[s]`.
     #[serde(with = "number")]
     pub wall_time_s: f64,
-    /// Simulated time by wall time.
+    /// Simulated time divided by wall time (dimensionless).
     #[serde(with = "number")]
     pub real_time_factor: f64,
 }
 
-/// One rotor outside what its theory holds for, for one reason.
+/// Rotor that ran outside the validity of its theory, for one reason; part of a [`RunReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ValidityReport {
-    /// Its path.
+    /// Path of the rotor.
     pub rotor: String,
-    /// Reason in words: `steep descent`.
+    /// Reason in English, such as `steep descent`.
     pub reason: String,
-    /// Base steps that ended so.
+    /// Number of base steps that ended outside.
     pub steps: u64,
-    /// Their time in all `[s]`.
+    /// Total duration of these steps `[s]`.
     pub duration: f64,
-    /// End of the first such step `[s]`.
+    /// Time at the end of the first such step `[s]`.
     pub first: f64,
-    /// End of the last `[s]`.
+    /// Time at the end of the last such step `[s]`.
     pub last: f64,
 }
 
@@ -111,32 +111,32 @@ impl From<&ValidityViolation> for ValidityReport {
     }
 }
 
-/// Message of a script.
+/// Message of a script or controller, part of a [`RunReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MessageReport {
-    /// When `[s]`.
+    /// Simulated time of the message `[s]`.
     pub t: f64,
-    /// Path of the script's object.
+    /// Path of the script's object, or name of the controller.
     pub object: String,
     /// Text of the message.
     pub text: String,
 }
 
-/// A number of the model that a client or script has changed.
+/// Change of a number of the model by a client or script, part of a [`RunReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChangeReport {
-    /// From when on `[s]`; 0 also for what was changed before the run.
+    /// Simulated time from which the change holds `[s]`; 0 also for changes before the run.
     pub t: f64,
     /// Path of the object; `/` for the world.
     pub object: String,
-    /// Which number, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz), `limits`
-    /// (lower, upper), `coupling` (ratio, offset); `gravity`; `respondable` (0: it passes through all others).
+    /// Name of the quantity, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz),
+    /// `limits` (lower, upper), `coupling` (ratio, offset); `gravity`; `respondable` (0: no contact with others).
     pub quantity: String,
-    /// Present value.
+    /// New numbers, as many as the quantity has, in the units of the scene file.
     pub value: Vec<f64>,
 }
 
-/// Status of a run at its end.
+/// Status of a run at its end; part of [`Simulated`](crate::run::Simulated) and of the report.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -148,39 +148,40 @@ pub struct ChangeReport {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "state", rename_all = "kebab-case")]
 pub enum Status {
-    /// It lasted its duration.
+    /// The run lasted its duration.
     Completed,
-    /// It came to a bound at which it was to end: of `stop_when`, or of a check that wants a divergence.
+    /// The run ended as intended, at a bound of `stop_when` or of a check for divergence.
     Ended {
-        /// The tick.
+        /// Number of base steps done.
         tick: u64,
-        /// Its time `[s]`.
+        /// Simulated time `[s]`.
         time: f64,
-        /// Which signal left which bound.
+        /// Signal and bound in English.
         reason: String,
     },
-    /// It could not go on.
+    /// The run could not go on.
     Stopped {
-        /// The last good tick.
+        /// Number of base steps up to the last good state.
         tick: u64,
-        /// Its time `[s]`.
+        /// Simulated time of that state `[s]`.
         time: f64,
-        /// Cause, with the element concerned.
+        /// Cause in English, with the element concerned.
         reason: String,
-        /// The setting that mends it; may be empty.
+        /// Remedy, such as the setting that would help; may be empty.
         help: String,
     },
-    /// The user ended it.
+    /// The user ended the run.
     Interrupted {
-        /// The last tick.
+        /// Number of base steps done.
         tick: u64,
-        /// Its time `[s]`.
+        /// Simulated time `[s]`.
         time: f64,
     },
 }
 
 impl Status {
-    /// When it ended before its duration `[s]`, as [`crate::check::evaluate`] wants it.
+    /// Returns the time `[s]` at which the run stopped or was interrupted, the argument of [`crate::check::evaluate`];
+    /// `None` if it completed or ended as intended.
     #[must_use]
     pub fn stopped_at(&self) -> Option<f64> {
         match self {
@@ -189,55 +190,55 @@ impl Status {
         }
     }
 
-    /// Returns true if it came to its end, or to a bound at which it was to end.
+    /// Returns true if the run completed, or ended at a bound as intended.
     #[must_use]
     pub fn is_good(&self) -> bool {
         matches!(self, Self::Completed | Self::Ended { .. })
     }
 }
 
-/// Settings of a run.
+/// Settings with which a run was made, part of a [`RunReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// The integrator that ran, not `auto`.
+    /// Integration method that was used; never `auto`.
     pub integrator: String,
     /// Base step `[s]`.
     pub step: f64,
-    /// Local tolerance of variable-step methods.
+    /// Local error tolerance of the variable-step methods (dimensionless).
     pub accuracy: f64,
     /// Requested simulated time `[s]`.
     pub duration: f64,
-    /// Base steps a recorded row.
+    /// Number of base steps per recorded row.
     pub record_every: u64,
     /// Seed of everything random.
     pub seed: u64,
-    /// Overrides of the files, in the order of setting.
+    /// Overrides of the files, in the order in which they were applied.
     pub overrides: Vec<Override>,
 }
 
-/// A setting `--set PATH=VALUE` of the run.
+/// Setting `--set PATH=VALUE` of a run, part of its [`Settings`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Override {
-    /// Path of the number that was set.
+    /// Path of the value that was set.
     pub path: String,
-    /// To what, as it was written.
+    /// New value as it was written.
     pub value: String,
 }
 
-/// A recorded signal and how well it is known.
+/// Recorded signal with its error bar, part of a report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ColumnReport {
-    /// Its path: `/shoulder.position`.
+    /// Name of the signal, such as `/shoulder.position`.
     pub path: String,
-    /// Its unit.
+    /// Unit as text; may be empty.
     pub unit: String,
-    /// Estimated integration error, in the same unit; none if it was not estimated.
+    /// Estimated integration error, in `unit`; `None` if it was not estimated.
     pub error_bar: Option<f64>,
-    /// Method of the estimate, or the reason for its absence.
+    /// Method of the estimate in English, or the reason for its absence.
     pub error_bar_method: String,
 }
 
-/// The balance of energy over a run `[J]`.
+/// Energy balance of a run, all in `[J]`; part of a [`RunReport`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnergyReport {
     /// Kinetic energy at the start.
@@ -246,64 +247,64 @@ pub struct EnergyReport {
     /// Kinetic energy at the end.
     #[serde(with = "number")]
     pub kinetic_end: f64,
-    /// Potential energy at the start: gravity and springs.
+    /// Potential energy of gravity and springs at the start.
     #[serde(with = "number")]
     pub potential_start: f64,
     /// Potential energy at the end.
     #[serde(with = "number")]
     pub potential_end: f64,
-    /// Work done by motors and applied torques.
+    /// Work done by motors and applied forces.
     #[serde(with = "number")]
     pub work: f64,
-    /// Energy taken by dampers and friction.
+    /// Energy dissipated by dampers and friction.
     #[serde(with = "number")]
     pub dissipated: f64,
-    /// Greatest |total − total(0) − work + dissipated| during the run.
+    /// Largest magnitude of total − total at the start − work + dissipated during the run.
     #[serde(with = "number")]
     pub residual: f64,
 }
 
-/// A check of the experiment with its verdict.
+/// Check with its verdict and numbers, part of a report; see [`Outcome`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CheckReport {
-    /// Its name.
+    /// Name of the check.
     pub name: String,
-    /// Description of the comparison.
+    /// Description of the comparison in English.
     pub about: String,
-    /// The judgement.
+    /// Verdict on the check.
     pub verdict: VerdictReport,
-    /// Reason for which it was not made, or the number that is not finite.
+    /// Reason in English why it was not made, or which number is not finite.
     pub reason: Option<String>,
-    /// The value measured.
+    /// Measured value, in `unit`.
     pub measured: Option<f64>,
-    /// The value expected.
+    /// Expected value, in `unit`.
     pub expected: Option<f64>,
-    /// True if the expected value is a bound.
+    /// Comparison: equal, at most or at least.
     #[serde(default)]
     pub sense: Sense,
-    /// Deviation between them.
+    /// Deviation of the measured from the expected value, in `unit`, dimensionless if `relative`.
     pub deviation: Option<f64>,
-    /// Tolerance.
+    /// Largest deviation that holds, in the unit of `deviation`.
     pub limit: f64,
     /// True if deviation and limit are relative.
     pub relative: bool,
     /// Unit of measured and expected; empty if not known.
     pub unit: String,
-    /// Time `[s]` of the measured value; in a sweep, the value of the parameter.
+    /// Time `[s]` of the measured value; in a sweep, value of the parameter.
     pub at: Option<f64>,
-    /// Number of rows that entered.
+    /// Number of rows that were evaluated.
     pub n_rows: usize,
 }
 
-/// The judgement of a check.
+/// Verdict on a check, as `run.json` names it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum VerdictReport {
-    /// Within its limit.
+    /// The deviation is within its limit.
     Holds,
-    /// Beyond it, or not finite.
+    /// The deviation is beyond its limit or not finite.
     Fails,
-    /// Nothing to compare.
+    /// The check could not be made.
     NotMade,
 }
 
@@ -339,39 +340,40 @@ fn not_finite_reason(outcome: &Outcome) -> Option<String> {
     (!deviation.is_finite()).then(reason)
 }
 
-/// Final values over a swept parameter: the static characteristic.
+/// Report of a parameter sweep: which signals were recorded over the parameter, and the checks; part of a
+/// [`RunReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepReport {
-    /// Parameter that was varied.
+    /// Path of the parameter that was varied.
     pub parameter: String,
-    /// Its unit; may be empty.
+    /// Unit of the parameter; may be empty.
     pub unit: String,
     /// Number of runs.
     pub n_runs: usize,
-    /// The columns of `sweep.csv` after the parameter, in their order.
+    /// Columns of `sweep.csv` behind the parameter, in their order.
     pub columns: Vec<ColumnReport>,
-    /// The runs that stopped.
+    /// Runs that stopped, in the order in which they were run.
     pub stops: Vec<SweepStopReport>,
     /// Audit of its runs: of each law the worst value.
     #[serde(default)]
     pub audit: AuditReport,
-    /// Checks with their measured values.
+    /// Checks of the sweep with their verdicts, in their order.
     pub checks: Vec<CheckReport>,
 }
 
-/// A run of a sweep that stopped.
+/// Run of a sweep that stopped, part of a [`SweepReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepStopReport {
-    /// The value of the parameter.
+    /// Value of the parameter, in its unit.
     pub value: f64,
-    /// When `[s]`.
+    /// Simulated time at which it stopped `[s]`.
     pub time: f64,
-    /// Reason.
+    /// Reason in English.
     pub reason: String,
 }
 
 impl SweepReport {
-    /// Report of a sweep and of the outcomes of its checks; error bars are not estimated.
+    /// Creates the report of a sweep and of the outcomes of its checks; error bars are not estimated.
     #[must_use]
     pub fn new(sweep: &Sweep, outcomes: &[Outcome]) -> Self {
         let stops = sweep.stops.iter().map(|stop| SweepStopReport {
@@ -391,10 +393,10 @@ impl SweepReport {
     }
 }
 
-/// The same experiment with other settings.
+/// Report of a variant: the same experiment with other settings; part of a [`RunReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VariantReport {
-    /// Its name.
+    /// Name of the variant.
     pub name: String,
     /// Description of the difference.
     pub description: String,
@@ -408,14 +410,14 @@ pub struct VariantReport {
     pub trace_hash: String,
     /// The recorded columns, `t` first.
     pub columns: Vec<ColumnReport>,
-    /// The balance of energy.
+    /// Energy balance of the run.
     pub energy: Option<EnergyReport>,
-    /// Its audit.
+    /// Audit of the variant's run.
     #[serde(default)]
     pub audit: AuditReport,
-    /// Checks with their measured values.
+    /// Checks with their verdicts, in their order.
     pub checks: Vec<CheckReport>,
-    /// Rotors outside the validity of their theory; left out if there are none.
+    /// Rotors outside the validity of their theory.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside_theory: Vec<ValidityReport>,
     /// Warnings about the accuracy of the numbers.
@@ -428,11 +430,11 @@ pub struct VariantReport {
 impl ColumnReport {
     /// A column without an estimate of its error.
     #[must_use]
-    pub fn without_error_bar(path: &str, unit: &str) -> Self {
+    pub(crate) fn without_error_bar(path: &str, unit: &str) -> Self {
         Self { path: path.into(), unit: unit.into(), error_bar: None, error_bar_method: "not estimated".into() }
     }
 
-    /// All columns of a table, without estimates.
+    /// Creates the reports of all columns of a table, in their order, without error bars.
     #[must_use]
     pub fn of_table(table: &Table) -> Vec<Self> {
         table.columns.iter().map(|column| Self::without_error_bar(&column.name, &column.unit)).collect()
@@ -440,13 +442,13 @@ impl ColumnReport {
 }
 
 impl RunReport {
-    /// Audits of all runs: of the main run, of the sweep, of each variant.
+    /// Returns the audits of all runs, in this order: main run, sweep if there is one, each variant.
     pub fn audits(&self) -> impl Iterator<Item = &AuditReport> {
         let sweep = self.sweep.iter().map(|sweep| &sweep.audit);
         [&self.audit].into_iter().chain(sweep).chain(self.variants.iter().map(|variant| &variant.audit))
     }
 
-    /// Findings of all runs, each with the name of its run; empty for the main run.
+    /// Returns the findings of all runs, each with the name of its run; the name is empty for the main run.
     pub fn findings(&self) -> impl Iterator<Item = (&str, &Finding)> {
         let sweep = self.sweep.iter().map(|sweep| ("sweep", &sweep.audit));
         let variants = self.variants.iter().map(|variant| (variant.name.as_str(), &variant.audit));
@@ -454,26 +456,26 @@ impl RunReport {
         audits.flat_map(|(run, audit)| audit.findings.iter().map(move |finding| (run, finding)))
     }
 
-    /// Text of the file `run.json`.
+    /// Returns the text of `run.json`: the report as indented JSON.
     #[must_use]
     pub fn to_json(&self) -> String {
         number::to_json(self)
     }
 
-    /// Writes `run.json` into a folder, whole or not at all.
+    /// Writes `run.json` into the folder `out_dir`, atomically.
     ///
     /// # Errors
     ///
-    /// The file cannot be written.
+    /// [`FileError`] with the path of the file that cannot be written.
     pub fn write(&self, out_dir: &Path) -> Result<(), FileError> {
         file::write_atomically(&out_dir.join("run.json"), self.to_json().as_bytes())
     }
 
-    /// Reads `run.json` of a folder. A number that was not finite is NaN, or none.
+    /// Reads `run.json` of the folder `out_dir`. A number that was not finite is NaN, or `None` where it may be absent.
     ///
     /// # Errors
     ///
-    /// The file cannot be read or is none of ours.
+    /// [`FileError`] with the path of the file that cannot be read or is no report of this program.
     pub fn read(out_dir: &Path) -> Result<Self, FileError> {
         let path = out_dir.join("run.json");
         let text = std::fs::read_to_string(&path).map_err(|e| FileError::new("read", &path, e))?;

@@ -16,7 +16,7 @@ use crate::trace::Trace;
 use sincro_scene::record::float_signals;
 use sincro_scene::script::ScriptError;
 
-/// A world with its controller.
+/// Run of a scene, step by step: its world with the diagram, scripts and attached controllers that control it.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -54,16 +54,16 @@ pub struct LockStep {
     is_started: bool,
 }
 
-/// A copy of a lock-step to look ahead with, and what could not be copied.
+/// Copy of a lock-step to look ahead with; result of [`LockStep::fork`].
 #[derive(Debug)]
 pub struct Fork {
-    /// The copy.
+    /// Copy, independent of the original.
     pub lockstep: LockStep,
-    /// Controllers, or parts of them, that the copy goes on without.
+    /// Names of controllers, or parts of them, that the copy goes on without.
     pub not_copied: Vec<String>,
 }
 
-/// Cause of a stop.
+/// Reason why a [`LockStep`] cannot go on; [`Halt::explain`] makes a status for the user of it.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -85,37 +85,37 @@ pub struct Fork {
 pub enum Halt {
     /// The world could not be advanced from this tick.
     World {
-        /// The tick.
+        /// Number of base steps done.
         tick: u64,
-        /// Time `[s]`.
+        /// Time of the last state reached `[s]`.
         t: f64,
-        /// Reason.
+        /// Cause in the dynamics.
         cause: Stop,
     },
-    /// A block gave what is not a finite number.
+    /// A block of the diagram gave a number that is not finite.
     Block {
-        /// The tick at which it did, or after which, if it did between ticks.
+        /// Number of base steps done when it did; between ticks, that of the tick before.
         tick: u64,
-        /// Time `[s]`.
+        /// Simulated time `[s]`.
         t: f64,
-        /// The block.
+        /// Block with its inputs and outputs.
         culprit: NotFinite,
     },
-    /// A controller failed.
+    /// A controller or script failed.
     Controller {
-        /// The tick.
+        /// Number of base steps done.
         tick: u64,
-        /// Time `[s]`.
+        /// Simulated time `[s]`.
         t: f64,
-        /// True if the world has made the step.
+        /// True if the world had made the step already.
         is_after_step: bool,
-        /// Which, where and why.
+        /// Controller or script, line and cause.
         fault: Box<ScriptError>,
     },
 }
 
 impl Halt {
-    /// Returns true if the world has made the step all the same, so that the state is that of another tick.
+    /// Returns true if the world has made the step all the same, so that its state is that of the tick after.
     #[must_use]
     pub fn is_after_step(&self) -> bool {
         match self {
@@ -127,7 +127,9 @@ impl Halt {
 }
 
 impl LockStep {
-    /// Creates the lock-step of a scene before its first tick; `refined` runs it at the finer steps of the error bars.
+    /// Creates the lock-step of a scene before its first tick, with the integration method `method` (see
+    /// [`method_for`](crate::run::method_for)); `refined` runs it at the finer steps of the error bars.
+    /// [`LockStep::start`] comes next.
     #[must_use]
     pub fn new(loaded: &Loaded, method: MethodKind, refined: bool) -> Self {
         let Loaded { scene, experiment, controller, .. } = loaded;
@@ -165,11 +167,11 @@ impl LockStep {
         new
     }
 
-    /// Attaches a controller: it acts after those that are there, and its commands win over theirs.
+    /// Attaches a controller: it acts after those that are attached, and its commands win over theirs.
     ///
     /// # Panics
     ///
-    /// It has a continuous part: the world has no room for its states.
+    /// If the controller has a continuous part: the world has no room for its states.
     ///
     /// ```
     /// use sincro_sim::prelude::*;
@@ -196,7 +198,7 @@ impl LockStep {
         self.controllers.push(controller);
     }
 
-    /// The first controller of a type, with the world; none if there is none.
+    /// Returns the first attached controller of the type `C`, with the world; `None` if there is none.
     pub fn controller<C: Controller>(&mut self) -> Option<(&mut C, &mut World)> {
         let Self { controllers, world, .. } = self;
         let found = controllers.iter_mut().find_map(|controller| (&mut **controller as &mut dyn Any).downcast_mut());
@@ -208,7 +210,7 @@ impl LockStep {
         &mut self.controllers
     }
 
-    /// A copy to look ahead with, and the names of what it goes on without because it cannot be copied.
+    /// Returns a copy to look ahead with, and the names of what could not be copied.
     #[must_use]
     pub fn fork(&self) -> Fork {
         let (mut controllers, mut not_copied) = (Vec::new(), Vec::new());
@@ -236,24 +238,30 @@ impl LockStep {
         Fork { lockstep, not_copied }
     }
 
-    /// World that is advanced, to be changed between steps.
+    /// Returns the world, to be read or changed between steps; after a change of its state call
+    /// [`World::mark_changed`].
     pub fn world(&mut self) -> &mut World {
         &mut self.world
     }
 
-    /// State of the world: coordinates, velocities, actuators, in SI units.
+    /// Returns the state of the world: coordinates, velocities, actuators, in SI units.
     #[must_use]
     pub fn state(&self) -> &State<f64> {
         &self.world.state
     }
 
-    /// Brings everything to rest where it is.
+    /// Sets all velocities of the world to zero; coordinates and the state of the diagram stay.
     pub fn stop(&mut self) {
         self.world.state.v.fill(0.0);
         self.world.mark_changed();
     }
 
-    /// Sets the state of the world and the continuous states of the diagram; empty `continuous` leaves the latter.
+    /// Sets the state of the world, and the continuous states of the diagram to `continuous`, in their order; an empty
+    /// slice leaves the latter.
+    ///
+    /// # Panics
+    ///
+    /// If `continuous` is not empty and has another length than the diagram has continuous states.
     ///
     /// ```
     /// use sincro_sim::prelude::*;
@@ -281,36 +289,37 @@ impl LockStep {
         }
     }
 
-    /// Controller that runs the scene's diagram, if there is one.
+    /// Returns the controller that runs the scene's diagram; `None` if there is no diagram.
     #[must_use]
     pub fn control(&self) -> Option<&DiagramController<f64>> {
         self.control.as_ref()
     }
 
-    /// Base step `[s]`.
+    /// Returns the base step `[s]`.
     #[must_use]
     pub fn step(&self) -> f64 {
         self.step
     }
 
-    /// Number of base steps done.
+    /// Returns the number of base steps done.
     #[must_use]
     pub fn tick(&self) -> u64 {
         self.tick
     }
 
-    /// Present time `[s]`.
+    /// Returns the simulated time `[s]`: the tick times the base step.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.tick as f64 * self.step
     }
 
-    /// Evaluates the diagram for the first time. Its continuous commands are seen from then on: the speed of a rotor
-    /// that lags, the torque of a continuous controller.
+    /// Starts the controllers and evaluates the diagram for the first time; to be called once before
+    /// [`LockStep::advance`]. Continuous commands are seen from then on: the speed of a rotor that lags, the torque of
+    /// a continuous controller.
     ///
     /// # Errors
     ///
-    /// If a block gives what is not a finite number.
+    /// [`Halt::Controller`]: a controller cannot start. [`Halt::Block`]: a block gives a number that is not finite.
     pub fn start(&mut self) -> Result<(), Halt> {
         self.is_started = true;
         self.call(false, |controller, at| controller.start(at))?;
@@ -322,16 +331,16 @@ impl LockStep {
         Ok(())
     }
 
-    /// Lets the controllers clean up, if they were started. Nothing may be done after it.
+    /// Lets the controllers clean up, if they were started. The lock-step must not be advanced afterwards.
     ///
     /// # Errors
     ///
-    /// If a controller fails.
+    /// [`Halt::Controller`]: a controller fails.
     pub fn end(&mut self) -> Result<(), Halt> {
         if self.is_started { self.call(false, |controller, at| controller.finish(at)) } else { Ok(()) }
     }
 
-    /// Changes of the model by controllers.
+    /// Returns the changes of the model by controllers, controller by controller.
     #[must_use]
     pub fn changes(&self) -> Vec<Change> {
         self.controllers.iter().flat_map(|controller| controller.changes()).cloned().collect()
@@ -355,7 +364,7 @@ impl LockStep {
         Ok(())
     }
 
-    /// Messages of controllers, in the order of time, and the number of those that were too many to keep.
+    /// Returns the messages of controllers in the order of time, and the number of those that were too many to keep.
     #[must_use]
     pub fn messages(&self) -> (Vec<Message>, usize) {
         let (mut all, mut n_more) = (Vec::new(), 0);
@@ -368,7 +377,7 @@ impl LockStep {
         (all, n_more)
     }
 
-    /// Takes what controllers have asked for of the run as a whole; true if one asked to stop it.
+    /// Returns true if a controller has asked to stop the run since the last call, and forgets the requests.
     pub fn take_stop_request(&mut self) -> bool {
         // of all of them, not up to the first that asks
         let mut must_stop = false;
@@ -378,7 +387,7 @@ impl LockStep {
         must_stop
     }
 
-    /// One base step, from t_k to t_{k+1}.
+    /// Advances the run by one base step, from t_k to t_{k+1}.
     ///
     /// ```text
     /// step(k):
@@ -399,7 +408,8 @@ impl LockStep {
     ///
     /// # Errors
     ///
-    /// If the world cannot go on, if a block gives what is not a finite number, or if a controller fails.
+    /// [`Halt::World`]: the world cannot go on. [`Halt::Block`]: a block gives a number that is not finite.
+    /// [`Halt::Controller`]: a controller fails.
     pub fn advance(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
         // 1 actuate
@@ -432,7 +442,8 @@ impl LockStep {
         self.measure()
     }
 
-    /// Latches the commands of the present tick without advancing: the world under the inputs that it will have next.
+    /// Latches the commands of the present tick without advancing, so that the world is under the inputs of its next
+    /// step.
     pub fn latch(&mut self) {
         let t = self.t();
         let mut commands = Commands::of_scene(&mut self.world.state.commands, &mut self.sources);
@@ -450,14 +461,14 @@ impl LockStep {
         }
     }
 
-    /// Signals of the scene that give the commands, the weakest source of each.
+    /// Returns the scene's signals for the commands, the weakest source of each, in the order of the command vector.
     #[must_use]
     pub fn signals_of_scene(&self) -> &[Signal] {
         &self.commands
     }
 
-    /// Sets a command, in the unit of its actuator, in place of the scene's signal: it is latched from the next base
-    /// step on, unless the diagram or a controller sets that command.
+    /// Sets the command with the index `command` to the constant `value`, in the unit of its actuator, in place of the
+    /// scene's signal: it is latched from the next base step on, unless the diagram or a controller sets that command.
     ///
     /// # Panics
     ///
@@ -466,7 +477,7 @@ impl LockStep {
         self.commands[command] = Signal::Constant(value);
     }
 
-    /// Source of each command, as it was last latched.
+    /// Returns the source of each command as it was last latched, in the order of the command vector.
     #[must_use]
     pub fn sources(&self) -> &[Source] {
         &self.sources
@@ -493,9 +504,9 @@ impl LockStep {
         Ok(())
     }
 
-    /// Everything that can be looked at, at time `t` `[s]`: the world, and the diagram's signals with the recorded
-    /// float signals of scripts and clients and the values of all sensors after them. A float signal
-    /// that nobody has set is not a number.
+    /// Observes everything that can be recorded, at the present time `t` `[s]`: the world, and a list of the diagram's
+    /// signals, then the recorded float signals of scripts and clients (NaN if nobody has set one), then the values of
+    /// all sensors, each in its unit. For [`Recorder::row`](sincro_scene::record::Recorder::row).
     pub fn observe(&mut self, t: f64) -> (Observation<'_>, &[f64]) {
         let signals = self.control.as_ref().map_or(&[][..], DiagramController::signals);
         if !(self.sensors.values.is_empty() && self.floats.is_empty()) {
@@ -510,7 +521,7 @@ impl LockStep {
         (self.world.observe(t), signals)
     }
 
-    /// Hash of the present state.
+    /// Returns the hash of the present state alone, with which the trace of a run begins.
     #[must_use]
     pub fn trace(&self) -> Trace {
         let mut trace = Trace::start(&self.world.state);
@@ -518,13 +529,13 @@ impl LockStep {
         trace
     }
 
-    /// Adds the present state to a hash.
+    /// Adds the present state to the hash `trace` of a run.
     pub fn hash_into(&self, trace: &mut Trace) {
         trace.add(&self.world.state);
         trace.add_continuous(self.continuous());
     }
 
-    /// Everything needed to go on from here bit for bit, with the hash of the run so far.
+    /// Returns a snapshot: everything needed to go on from here bit for bit. `trace` is the hash of the run so far.
     #[must_use]
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
         let diagram = self.control.as_ref().and_then(Controller::save);
@@ -538,7 +549,11 @@ impl LockStep {
         }
     }
 
-    /// Goes back to a snapshot of the same scene and diagram.
+    /// Restores a snapshot of the same scene and diagram.
+    ///
+    /// # Panics
+    ///
+    /// If the snapshot has another number of sensor values, as one of another scene may have.
     ///
     /// ```
     /// use sincro_sim::prelude::*;
@@ -570,7 +585,7 @@ impl LockStep {
         }
     }
 
-    /// Notices of the diagram's blocks about the run so far.
+    /// Returns the notices of the diagram's blocks about the run so far, one sentence each.
     #[must_use]
     pub fn notices(&self) -> Vec<String> {
         let notices = self.control.iter().flat_map(|control| control.runner.notices());

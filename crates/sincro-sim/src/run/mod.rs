@@ -47,7 +47,7 @@ const FINER: f64 = 100.0;
 /// Smallest tolerance of that run: beyond, `stiff` makes ever shorter steps.
 const FINEST: f64 = 1e-15;
 
-/// Result of a single run.
+/// Result of a single run, by [`simulate`]: recorded signals, status, statistics.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -66,41 +66,41 @@ const FINEST: f64 = 1e-15;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Simulated {
-    /// The recorded signals.
+    /// Recorded signals.
     pub table: Table,
-    /// Status at the end.
+    /// Status at the end of the run.
     pub status: Status,
-    /// The method that ran.
+    /// Integration method that was used.
     pub method: MethodKind,
-    /// Hash of the states of all ticks.
+    /// Hash of the states of all ticks: equal hashes mean equal bits.
     pub trace: Trace,
-    /// Frames to show it again, if they were asked for.
+    /// Frames for the replay, if they were asked for.
     pub trajectory: Option<Trajectory>,
-    /// The balance of energy.
+    /// Energy balance.
     pub energy: EnergyReport,
     /// Laws of the mechanism and the solver, each with its worst value.
     pub laws: Vec<Finding>,
-    /// Energy balance of each recorded row `[J]`.
+    /// Error of the energy balance at each recorded row `[J]`.
     pub balances: Vec<f64>,
-    /// Largest energy that entered the balance `[J]`.
+    /// Largest energy that entered the balance `[J]`, to judge its error by.
     pub energy_scale: f64,
-    /// Sub-steps and events.
+    /// Statistics of the integrator: sub-steps and events.
     pub statistics: StepStatistics,
     /// Rotors outside the validity of their theory.
     pub outside: Vec<ValidityViolation>,
     /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
-    /// Messages of scripts.
+    /// Messages of scripts and controllers, in the order of time.
     pub messages: Vec<Message>,
     /// Changes of the model by clients and scripts.
     pub changes: Vec<Change>,
-    /// Columns of the table that streams of graphs made: its last ones.
+    /// Number of the table's last columns that come from data streams of controllers.
     pub n_streams: usize,
     /// Wall time `[s]`, recording included.
     pub wall_time: f64,
 }
 
-/// Monitor of a run: interruption and progress.
+/// Monitor of a run: takes interruptions, receives progress.
 ///
 /// ```
 /// use std::sync::atomic::AtomicBool;
@@ -118,13 +118,13 @@ pub struct Simulated {
 /// # }
 /// ```
 pub struct RunMonitor<'a> {
-    /// Set from outside to end the run after the present tick.
+    /// Flag to end the run after the present tick, set from outside.
     pub interrupt: &'a AtomicBool,
-    /// Told the share done, now and then.
+    /// Callback that receives the share of the run that is done, 0 to 1, from time to time.
     pub progress: &'a mut dyn FnMut(f64),
 }
 
-/// Options of a run: output file, refinement, keyframes.
+/// Options of a run; the default records in memory only.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -143,17 +143,17 @@ pub struct RunMonitor<'a> {
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RunOptions<'a> {
-    /// CSV file that rows are written to as they come.
+    /// Path of a CSV file to which rows are written as they come; `None`: no file.
     pub csv: Option<&'a Path>,
-    /// True if it is the finer run of an error estimate.
+    /// True for the finer run of an error estimate.
     pub refined: bool,
-    /// True if frames are taken to show it again.
+    /// True if frames for the replay are recorded.
     pub keyframes: bool,
-    /// The variant whose checks end it if they want a divergence; none: the main run.
+    /// Name of the variant whose checks for divergence end the run; `None`: those of the main run.
     pub variant: Option<&'a str>,
 }
 
-/// Error before the first step of a run.
+/// Error before the first step of a run, or in writing its results.
 ///
 /// ```
 /// use sincro_sim::prelude::*;
@@ -170,9 +170,9 @@ pub struct RunOptions<'a> {
 /// ```
 #[derive(Debug)]
 pub enum RunError {
-    /// Recorded signals that mean nothing.
+    /// Findings about the experiment, such as recorded signals that do not exist.
     Diagnostics(Diagnostics),
-    /// The results cannot be written.
+    /// A file of the results cannot be written.
     File(FileError),
 }
 
@@ -188,7 +188,8 @@ impl From<FileError> for RunError {
     }
 }
 
-/// The method for an experiment's integrator, and what there is to say about it.
+/// Chooses the integration method for the integrator of an experiment, `auto` resolved by the stiffness of the scene,
+/// and returns it with warnings about accuracy and stability.
 #[must_use]
 pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec<String>) {
     let fastest = stiffest(&scene.model, &scene.initial);
@@ -258,8 +259,8 @@ fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Opti
     }
 }
 
-/// As [`choose_method`], the diagram's continuous blocks considered too: by how fast each decays, and by the fastest
-/// pole of the loop that they close, which the linearisation gives exactly.
+/// As [`choose_method`], with the diagram's continuous blocks taken into account: by their own decay rates, and by the
+/// fastest pole of the loop that they close ([`Extensions::fastest_poles`](crate::load::Extensions::fastest_poles)).
 ///
 /// ```
 /// use sincro_dynamics::world::MethodKind;
@@ -328,7 +329,7 @@ fn describe(scene: &Scene, s: &Stiffness) -> String {
     )
 }
 
-/// The name of a method, as in the experiment file.
+/// Returns the name of a method as the experiment file has it, such as `rk4`.
 #[must_use]
 pub fn method_word(kind: MethodKind) -> &'static str {
     match kind {
@@ -340,7 +341,8 @@ pub fn method_word(kind: MethodKind) -> &'static str {
     }
 }
 
-/// The world of a scene, ready for its first tick, without the scene's diagram.
+/// Creates the world of a scene, ready for its first tick, with the integration method `kind` and without the scene's
+/// diagram; `refined` for the finer steps of the error bars.
 #[must_use]
 pub fn world_of(scene: &Scene, experiment: &Experiment, kind: MethodKind, refined: bool) -> World {
     let mut world = world_with_room(scene, experiment, kind, refined, 0);
@@ -368,8 +370,8 @@ pub(crate) fn finer_accuracy(accuracy: f64) -> f64 {
 ///
 /// # Errors
 ///
-/// If a recorded signal does not exist or the CSV file cannot be written. A run that stops is not an error: see
-/// [`Simulated::status`].
+/// [`RunError::Diagnostics`]: a recorded signal does not exist. [`RunError::File`]: the CSV file cannot be written. A
+/// run that stops is not an error: see [`Simulated::status`].
 ///
 /// ```
 /// use sincro_sim::prelude::*;

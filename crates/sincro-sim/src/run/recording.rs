@@ -22,7 +22,8 @@ use sincro_scene::record::Recorder;
 
 use super::streams::Streams;
 
-/// A run as it is recorded.
+/// Recording of a run that is driven from outside: rows, frames, audit and energy balance. Calls in order:
+/// [`Recording::new`], [`Recording::start`], [`Recording::tick`] after each step, [`Recording::finish`].
 pub struct Recording {
     recorder: Recorder,
     table: Table,
@@ -47,7 +48,7 @@ impl Recording {
     ///
     /// # Errors
     ///
-    /// Recorded signals that do not exist, or a CSV file that cannot be written.
+    /// [`RunError::Diagnostics`]: a recorded signal does not exist. [`RunError::File`]: the CSV file cannot be written.
     pub fn new(loaded: &Loaded, lockstep: &mut LockStep, options: RunOptions<'_>) -> Result<Self, RunError> {
         let Loaded { scene, experiment, controller, .. } = loaded;
         let entries = controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
@@ -81,17 +82,18 @@ impl Recording {
         })
     }
 
-    /// Hash of the states so far.
+    /// Returns the hash of all states so far, the start included, for a snapshot or comparison.
     #[must_use]
     pub fn trace(&self) -> Trace {
         self.trace
     }
 
-    /// The state before the first tick, the controllers having looked at it once. A text says why the run ends here.
+    /// Records the state before the first tick, after [`LockStep::start`]. Returns a sentence if a stop condition ends
+    /// the run here; else `None`.
     ///
     /// # Errors
     ///
-    /// The CSV file cannot be written.
+    /// [`FileError`]: the CSV file cannot be written.
     pub fn start(&mut self, lockstep: &mut LockStep) -> Result<Option<String>, FileError> {
         // scripts may have changed what the run starts with
         self.ledger = Ledger::start(lockstep.world(), self.ledger.balances.capacity());
@@ -100,12 +102,12 @@ impl Recording {
         Ok(end)
     }
 
-    /// The state after one more tick; a row is written if one is due, or if it is the last one that there will be. A
-    /// text says why the run ends here.
+    /// Records the state after one more tick, after [`LockStep::advance`]: its hash always, a row if one is due or
+    /// `is_last`. Returns a sentence if a stop condition ends the run here; else `None`.
     ///
     /// # Errors
     ///
-    /// The CSV file cannot be written.
+    /// [`FileError`]: the CSV file cannot be written.
     pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<Option<String>, FileError> {
         let mut end = None;
         lockstep.hash_into(&mut self.trace);
@@ -138,11 +140,12 @@ impl Recording {
         Ok(self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table)))
     }
 
-    /// The run is over.
+    /// Completes the recording and returns the result of the run; `status` and `method` are those of the run,
+    /// `warnings` those found before it.
     ///
     /// # Errors
     ///
-    /// The CSV file cannot be written.
+    /// [`FileError`]: the CSV file cannot be written.
     pub fn finish(
         self,
         lockstep: &mut LockStep,

@@ -12,7 +12,8 @@ use crate::results::Status;
 use sincro_scene::experiment::Experiment;
 
 impl Halt {
-    /// The stop in words; for a world, from the last state that was still finite.
+    /// Explains the stop of a run as its status: tick, time, likely physical cause and remedy; for a world from the
+    /// last state that was finite. `method` is the integration method of the run.
     #[must_use]
     pub fn explain(self, lockstep: &mut LockStep, experiment: &Experiment, method: MethodKind) -> Status {
         match self {

@@ -25,36 +25,41 @@ pub use plan::Plan;
 use crate::load::Loaded;
 use sincro_scene::diagnostic::Diagnostics;
 
-/// Treatment of a world whose episode has ended.
+/// Treatment of a world of a task whose episode has ended (autoreset mode of Gymnasium).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Autoreset {
-    /// It begins anew at its next step, which ignores the action and has the reward 0.
+    /// The world begins a new episode at its next step, which ignores the action and has the reward 0.
     NextStep,
-    /// It begins anew in the step that ends it; the last observation of the old episode is kept apart.
+    /// The world begins a new episode in the step that ends the old one, whose last observation is in
+    /// [`Step::final_observations`].
     SameStep,
-    /// It stays as it is until it is reset; its steps do nothing.
+    /// The world stays as it is until it is reset; its steps do nothing.
     Disabled,
 }
 
-/// Results of a step, world by world.
+/// Results of one step of [`TaskWorlds`], world by world. An observation has one number for each formula of
+/// [`Task::observations`](sincro_scene::experiment::task::Task::observations), in their order.
 #[derive(Clone, Debug, Default)]
 pub struct Step {
-    /// Observations, `n_worlds × n_observations` row by row.
+    /// Observations, `n_worlds × n_observations`, row by row, one row per world; in the units of the formulas.
     pub observations: Vec<f64>,
-    /// Rewards.
+    /// Reward of each world, the value of [`Task::reward`](sincro_scene::experiment::task::Task::reward).
     pub rewards: Vec<f64>,
-    /// True where the episode came to its end.
+    /// True for each world whose episode terminated: the value of
+    /// [`Task::terminated`](sincro_scene::experiment::task::Task::terminated) is not 0.
     pub terminated: Vec<bool>,
-    /// True where it was cut off by its time limit, or because the world could not go on.
+    /// True for each world whose episode was truncated, by its time limit or because the world could not go on.
     pub truncated: Vec<bool>,
-    /// True where the world could not go on: its state is not finite, a block or the solver failed.
+    /// True for each world that could not go on: its state is not finite, a block or the solver failed.
     pub stopped: Vec<bool>,
-    /// Last observations of the episodes that ended, where worlds begin anew in the same step.
+    /// Last observations of the episodes that ended in this step, `n_worlds × n_observations` as `observations`, if
+    /// worlds begin anew in the same step; rows of other worlds have no meaning.
     pub final_observations: Vec<f64>,
 }
 
 impl Step {
-    /// Room for `n` worlds with `n_observations` numbers each.
+    /// Creates results, all zero, for `n` worlds with observations of `n_observations` numbers each
+    /// ([`Plan::n_observations`]).
     #[must_use]
     pub fn new(n: usize, n_observations: usize) -> Self {
         Self {
@@ -68,7 +73,8 @@ impl Step {
     }
 }
 
-/// Many worlds of a task.
+/// Worlds of a reinforcement learning task that are stepped together, in SIMD lanes and threads. The results of each
+/// world are those that it would have alone.
 #[derive(Debug)]
 pub struct TaskWorlds {
     plan: Arc<Plan>,
@@ -78,11 +84,13 @@ pub struct TaskWorlds {
 }
 
 impl TaskWorlds {
-    /// `n` worlds of the task of an experiment, on `threads` threads (0: one a processor), not started yet.
+    /// Creates `n` worlds of the task of an experiment, on `threads` threads (0: one per processor);
+    /// [`TaskWorlds::reset`] begins their episodes.
     ///
     /// # Errors
     ///
-    /// The experiment has no task, or a number that is drawn cannot be set.
+    /// Diagnostics: the experiment has no task, a signal of it does not exist, or the scene refuses a number that is
+    /// drawn.
     pub fn new(loaded: &Loaded, n: usize, threads: usize) -> Result<Self, Diagnostics> {
         let plan = Arc::new(Plan::new(loaded)?);
         let width = if plan.lanes_refused().is_none() { sincro_math::lanes::width() } else { 1 };
@@ -91,30 +99,36 @@ impl TaskWorlds {
         Ok(Self { plan, groups, n, threads: if threads == 0 { available } else { threads } })
     }
 
-    /// The task with its names resolved.
+    /// Returns the task, resolved against its scene; it has the lengths of observations and actions.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Number of worlds that are stepped together.
+    /// Returns the number of worlds that are stepped together.
     #[must_use]
     pub fn n_worlds(&self) -> usize {
         self.n
     }
 
-    /// Coordinates of a world (n_q) `[rad]`, `[m]`, for pictures of it.
+    /// Returns the coordinates of world `world` (from 0), `n_q` numbers `[rad]`, `[m]` in the order of the model's
+    /// state, for images of it.
     ///
     /// # Panics
     ///
-    /// There is no such world.
+    /// If there is no such world.
     pub fn coordinates(&mut self, world: usize) -> Vec<f64> {
         let width = self.groups[0].n_worlds();
         self.groups[world / width].coordinates(&self.plan, world % width)
     }
 
-    /// Begins new episodes in the worlds of the mask, by their seeds, and writes the observations of these worlds, row
-    /// by row in the units of the task. A world without a seed goes on with the draws of the one it has.
+    /// Begins new episodes in the worlds whose entry of `mask` is true, and writes their observations into
+    /// `observations`, `n_worlds × n_observations` row by row; rows of other worlds stay. `seeds` has one entry per
+    /// world: the seed of its random numbers, or `None` to draw the next episode of the seed it has.
+    ///
+    /// # Panics
+    ///
+    /// If `seeds`, `mask` or `observations` are shorter than that.
     pub fn reset(&mut self, seeds: &[Option<u64>], mask: &[bool], observations: &mut [f64]) {
         let n_observations = self.plan.n_observations();
         self.share(seeds, mask, observations, n_observations);
@@ -135,11 +149,14 @@ impl TaskWorlds {
         });
     }
 
-    /// Steps all worlds by one action each (`n_worlds × n_actions` row by row, all finite) and writes what came of it.
+    /// Steps all worlds by one action each and writes the results into `out`. `actions` has `n_worlds × n_actions`
+    /// finite numbers, row by row, one row per world: one for each of
+    /// [`Task::actions`](sincro_scene::experiment::task::Task::actions), in their order and in the units of their
+    /// commands. They are clamped to their ranges; of an action with discrete values the nearest counts.
     ///
     /// # Panics
     ///
-    /// The actions are not as many as that, or `out` was made for another number of worlds.
+    /// If `actions` has another length, or `out` was made for another number of worlds.
     pub fn step(&mut self, actions: &[f64], autoreset: Autoreset, out: &mut Step) {
         let (n_actions, n_observations) = (self.plan.n_actions(), self.plan.n_observations());
         assert_eq!(actions.len(), self.n * n_actions, "one action a world");

@@ -59,7 +59,8 @@ enum StartAt {
     Rate(usize),
 }
 
-/// A task, resolved against its scene.
+/// Task of an experiment, resolved against its scene: names of signals and commands replaced by indices. Part of
+/// [`TaskWorlds`](super::TaskWorlds).
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub(super) loaded: Loaded,
@@ -96,7 +97,8 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// The experiment has no task, or a number that is drawn cannot be set.
+    /// Diagnostics: the experiment has no task, a signal of it does not exist, or the scene refuses a number that is
+    /// drawn.
     pub fn new(loaded: &Loaded) -> Result<Self, Diagnostics> {
         let Some(task) = loaded.experiment.task.clone() else {
             let found = Diagnostic::without_location("the experiment has no task");
@@ -169,37 +171,38 @@ impl Plan {
         obstacle_to_lanes(model)
     }
 
-    /// Reason why lanes cannot advance the worlds; none if they do.
+    /// Returns the reason in English why SIMD lanes cannot advance the worlds, such as a diagram, so that each is
+    /// advanced alone; `None` if lanes do.
     #[must_use]
     pub fn lanes_refused(&self) -> Option<&str> {
         self.lanes_refused.as_deref()
     }
 
-    /// The scene of all worlds.
+    /// Returns the scene of all worlds, as its files describe it before random numbers are drawn.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.loaded.scene
     }
 
-    /// Numbers that the agent sees.
+    /// Returns the number of entries of an observation: the formulas of [`Task::observations`].
     #[must_use]
     pub fn n_observations(&self) -> usize {
         self.observations.len()
     }
 
-    /// Count of numbers that an action has, over all commands.
+    /// Returns the number of entries of an action: those of [`Task::actions`].
     #[must_use]
     pub fn n_actions(&self) -> usize {
         self.task.actions.len()
     }
 
-    /// Task of the experiment, with names resolved.
+    /// Returns the task as the experiment has it: formulas, actions, random numbers.
     #[must_use]
     pub fn task(&self) -> &Task {
         &self.task
     }
 
-    /// Time from one action to the next `[s]`.
+    /// Returns the time between two actions `[s]`.
     #[must_use]
     pub fn period(&self) -> f64 {
         self.task.ticks as f64 * self.loaded.experiment.step

@@ -13,8 +13,9 @@ use sincro_math::Real;
 use super::{Context, Item, MODEL, Robot, SET, check_widths, frame};
 use crate::record::probe::attached;
 
-/// Pose of a body or frame in the world: position `[m]`, quaternion (w, x, y, z), and with velocities also angular
-/// velocity [rad/s] and velocity [m/s] in world axes.
+/// Block `forward-kinematics`: input `q` (n_q coordinates), outputs `position` of a body or frame in the world (3,
+/// `[m]`) and its `quaternion` (w, x, y, z). With velocities: also an input `v` (n_v), and outputs `velocity` of its
+/// origin (3, `[m/s]`) and `angular_velocity` (3, `[rad/s]`), both in world axes.
 #[derive(Clone, Debug)]
 pub struct ForwardKinematics {
     model: Arc<Model<f64>>,
@@ -31,8 +32,8 @@ pub(super) const ITEM: Item = Item {
 };
 
 impl ForwardKinematics {
-    /// Creates the block for the frame with this number in the model's names; `velocity`: with an input `v` and outputs
-    /// for velocities.
+    /// Creates the block for the frame with index `frame` among the frames of the model's names; `velocity`: with the
+    /// input `v` and the outputs of velocities.
     #[must_use]
     pub fn new(context: &Context, frame: usize, velocity: bool) -> Self {
         Self { model: context.model.clone(), frame, velocity }

@@ -11,7 +11,8 @@ use sincro_math::Real;
 
 use super::{Context, Item, MODEL, Robot, SET, check_widths};
 
-/// The joint torques [N·m] or forces `[N]` that hold the model still against gravity.
+/// Block `gravity-torque`: input `q` (n_q coordinates), output `y` (n_v), the generalized forces that hold the model at
+/// rest against gravity `[N·m]` or `[N]`, in the order of the velocities.
 #[derive(Clone, Debug)]
 pub struct GravityTorque {
     model: Arc<Model<f64>>,
@@ -21,7 +22,7 @@ pub(super) const ITEM: Item =
     Item { kind: GravityTorque::KIND, read: |_, context| Box::new(GravityTorque::new(context)) };
 
 impl GravityTorque {
-    /// Creates the block for the scene's model.
+    /// Creates the block; it computes with the model of `context`, that of the scene.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

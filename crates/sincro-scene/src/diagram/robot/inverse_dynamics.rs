@@ -11,7 +11,8 @@ use sincro_math::Real;
 
 use super::{Context, Item, MODEL, Robot, SET, check_widths};
 
-/// The joint torques [N·m] or forces `[N]` that given accelerations take, gravity included.
+/// Block `inverse-dynamics`: inputs `q` (n_q), `v` and `a` (n_v each), output `y` (n_v), the generalized forces that
+/// cause these accelerations, gravity included, `[N·m]` or `[N]`.
 #[derive(Clone, Debug)]
 pub struct InverseDynamics {
     model: Arc<Model<f64>>,
@@ -21,7 +22,7 @@ pub(super) const ITEM: Item =
     Item { kind: InverseDynamics::KIND, read: |_, context| Box::new(InverseDynamics::new(context)) };
 
 impl InverseDynamics {
-    /// Creates the block for the scene's model.
+    /// Creates the block; it computes with the model of `context`, that of the scene.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

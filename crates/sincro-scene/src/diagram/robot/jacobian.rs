@@ -12,8 +12,8 @@ use sincro_math::Real;
 use super::{Context, Item, MODEL, Robot, SET, check_widths, frame};
 use crate::record::probe::attached;
 
-/// The Jacobian of a frame: from joint velocities to its angular velocity [rad/s] and the velocity of its origin [m/s],
-/// world axes.
+/// Block `jacobian`: input `q` (n_q), output `y`, the Jacobian of a body or frame row by row: angular velocity (3 rows,
+/// `[rad/s]` per unit of velocity), then velocity of the origin (3 rows, `[m/s]`), both in world axes, n_v columns.
 #[derive(Clone, Debug)]
 pub struct Jacobian {
     model: Arc<Model<f64>>,
@@ -21,14 +21,14 @@ pub struct Jacobian {
     rows: Rows,
 }
 
-/// Which rows of the Jacobian.
+/// Choice of rows of the Jacobian of a [`Jacobian`] block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rows {
-    /// Angular velocity, then velocity of the origin.
+    /// Six rows: angular velocity, then velocity of the origin.
     All,
-    /// Angular velocity.
+    /// Three rows: angular velocity.
     Angular,
-    /// Velocity of the origin.
+    /// Three rows: velocity of the origin.
     Linear,
 }
 
@@ -51,7 +51,7 @@ pub(super) const ITEM: Item = Item {
 };
 
 impl Jacobian {
-    /// Creates the block for the frame with this number in the model's names.
+    /// Creates the block for the frame with index `frame` among the frames of the model's names.
     #[must_use]
     pub fn new(context: &Context, frame: usize, rows: Rows) -> Self {
         Self { model: context.model.clone(), frame, rows }

@@ -11,7 +11,8 @@ use sincro_math::Real;
 
 use super::{Context, Item, MODEL, Robot, SET, check_widths};
 
-/// The joint-space mass matrix [kg·m²], armature on its diagonal, row by row.
+/// Block `mass-matrix`: input `q` (n_q), output `y`, the mass matrix row by row (n_v × n_v): `[kg·m²]`, `[kg·m]` or
+/// `[kg]` by the kinds of the two degrees of freedom.
 #[derive(Clone, Debug)]
 pub struct MassMatrix {
     model: Arc<Model<f64>>,
@@ -20,7 +21,7 @@ pub struct MassMatrix {
 pub(super) const ITEM: Item = Item { kind: MassMatrix::KIND, read: |_, context| Box::new(MassMatrix::new(context)) };
 
 impl MassMatrix {
-    /// Creates the block for the scene's model.
+    /// Creates the block; it computes with the model of `context`, that of the scene.
     #[must_use]
     pub fn new(context: &Context) -> Self {
         Self { model: context.model.clone() }

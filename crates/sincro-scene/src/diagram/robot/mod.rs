@@ -29,14 +29,14 @@ pub use inverse_dynamics::InverseDynamics;
 pub use jacobian::{Jacobian, Rows as JacobianRows};
 pub use mass_matrix::MassMatrix;
 
-/// Context from which robot blocks are created.
+/// Context from which robot blocks are created: the model, and loaders of what this crate cannot read.
 #[derive(Clone, Debug)]
 pub struct Context {
-    /// Parser of laws that are written in a script's language, if this program has one.
+    /// Parser of laws written in a scripting language; `None`: the program has none.
     pub parser: Option<&'static dyn ScriptParser>,
-    /// Loader of FMUs, if this program has one.
+    /// Loader of FMUs; `None`: the program has none.
     pub fmus: Option<&'static dyn FmuLoader>,
-    /// The scene's model.
+    /// Model whose kinematics and dynamics the blocks compute.
     pub model: Arc<Model<f64>>,
 }
 
@@ -54,7 +54,7 @@ const SET: Parameter = Parameter::optional(
 
 /// A kind of block and how one is made from parameters and the model.
 #[derive(Clone, Copy, Debug)]
-pub struct Item {
+pub(crate) struct Item {
     /// Its description.
     pub kind: &'static Kind,
     /// Makes one.
@@ -62,7 +62,7 @@ pub struct Item {
 }
 
 /// All blocks that are made here and not in the library.
-pub fn all() -> impl Iterator<Item = &'static Item> {
+pub(crate) fn all() -> impl Iterator<Item = &'static Item> {
     const ROBOT_BLOCKS: &[Item] = &[
         forward_kinematics::ITEM,
         jacobian::ITEM,
@@ -77,11 +77,12 @@ pub fn all() -> impl Iterator<Item = &'static Item> {
 
 /// The block of a name.
 #[must_use]
-pub fn find(name: &str) -> Option<&'static Item> {
+pub(crate) fn find(name: &str) -> Option<&'static Item> {
     all().find(|item| item.kind.name == name)
 }
 
-/// The model on the numbers that a diagram runs on, with memory for its algorithms; made when the block is.
+/// Working memory of a robot block: its model in the number type of the diagram, with scratch for the algorithms. Made
+/// with the block by the framework, not by users.
 #[derive(Clone, Debug, Default)]
 pub struct Robot<R>(Option<Box<Parts<R>>>);
 

@@ -25,19 +25,19 @@ const RLE: i64 = 3;
 const REQUIRED: i64 = 0;
 const MAGIC: &[u8; 4] = b"PAR1";
 
-/// Values of a column.
+/// Values of a column of a Parquet file, of one of three types, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// Doubles.
+    /// Floating-point numbers (physical type `DOUBLE`).
     Doubles(Vec<f64>),
-    /// Whole numbers.
+    /// Whole numbers (physical type `INT64`).
     Ints(Vec<i64>),
-    /// Texts.
+    /// Strings (physical type `BYTE_ARRAY`, UTF-8).
     Texts(Vec<String>),
 }
 
 impl Values {
-    /// Number of values.
+    /// Returns the number of values, one per row.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -47,13 +47,13 @@ impl Values {
         }
     }
 
-    /// Returns true if there is no value.
+    /// Returns true if there are no values: the column has no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Empty list of values of the same type.
+    /// Returns an empty list of the same type, as [`Writer::new`] takes it for a column.
     #[must_use]
     pub fn emptied(&self) -> Self {
         match self {
@@ -83,7 +83,8 @@ impl Values {
     }
 }
 
-/// A file that is being written.
+/// Writer of a Parquet file, group by group, without compression: [`Writer::new`], [`Writer::group`] any number of
+/// times, [`Writer::finish`].
 #[derive(Debug)]
 pub struct Writer<W: Write> {
     sink: W,
@@ -98,21 +99,22 @@ pub struct Writer<W: Write> {
 }
 
 impl<W: Write> Writer<W> {
-    /// Begins a file of the table `root` with columns of these names and types, whose values are not looked at.
+    /// Begins a file in `sink` with a table named `root`. `columns` gives name and type of each column; the values in
+    /// it are ignored.
     ///
     /// # Errors
     ///
-    /// The sink takes nothing.
+    /// The error of the sink that takes no bytes.
     pub fn new(mut sink: W, root: &str, columns: Vec<(String, Values)>) -> io::Result<Self> {
         sink.write_all(MAGIC)?;
         Ok(Self { sink, root: root.to_owned(), offset: 4, columns, groups: Vec::new(), n_rows: 0 })
     }
 
-    /// Writes a row group: of each column its values.
+    /// Writes a row group: the values of each column, in the order of [`Writer::new`], all of the same length.
     ///
     /// # Errors
     ///
-    /// The sink does not take them.
+    /// The error of the sink that takes no bytes.
     ///
     /// # Panics
     ///
@@ -150,11 +152,11 @@ impl<W: Write> Writer<W> {
         Ok(())
     }
 
-    /// Ends the file with names and values for its footer, and gives the sink back.
+    /// Writes the metadata with the pairs `footer` of key and value, which completes the file, and returns the sink.
     ///
     /// # Errors
     ///
-    /// The sink does not take it.
+    /// The error of the sink that takes no bytes.
     pub fn finish(mut self, footer: &[(String, String)]) -> io::Result<W> {
         let root = Struct::default().text(4, &self.root).int(5, I32, self.columns.len() as i64).end();
         let columns = self.columns.iter().map(|(name, kind)| {

@@ -11,12 +11,12 @@ use super::{BYTE_ARRAY, DOUBLE, INT64, MAGIC, PLAIN, Values};
 /// Largest footer that is read: one of a million row groups.
 const MAX_FOOTER: u64 = 1 << 30;
 
-/// A file that cannot be read.
+/// Error of reading a Parquet file.
 #[derive(Debug)]
 pub enum ParquetError {
     /// Error of the operating system.
     File(io::Error),
-    /// It is not whole, or not of this kind; the reason.
+    /// The file is cut off, damaged, or uses features that this program does not write; the reason in English.
     Content(String),
 }
 
@@ -44,15 +44,15 @@ struct Chunk {
     size: u64,
 }
 
-/// An open file: its columns, its footer, and its row groups to be read one by one.
+/// Open Parquet file as [`Writer`](super::Writer) writes it: columns, metadata, and row groups to be read one by one.
 #[derive(Debug)]
 pub struct ParquetFile {
     file: File,
-    /// Names of the columns, and an empty column of each type.
+    /// Name of each column, with an empty list of its type.
     pub columns: Vec<(String, Values)>,
-    /// Names and values of the footer.
+    /// Key–value pairs of the metadata.
     pub footer: Vec<(String, String)>,
-    /// Number of rows of all groups.
+    /// Number of rows of all groups together.
     pub n_rows: u64,
     groups: Vec<(u64, Vec<Chunk>)>,
 }
@@ -62,11 +62,12 @@ fn content(reason: impl Into<String>) -> ParquetError {
 }
 
 impl ParquetFile {
-    /// Opens a file and reads its footer.
+    /// Opens a file and reads its metadata.
     ///
     /// # Errors
     ///
-    /// It cannot be read, is cut off, or has pages of another kind than this program writes.
+    /// [`ParquetError::File`]: it cannot be read. [`ParquetError::Content`]: it is cut off, damaged, or of a kind that
+    /// this program does not write.
     pub fn open(path: &Path) -> Result<Self, ParquetError> {
         let mut file = File::open(path)?;
         let length = file.metadata()?.len();
@@ -97,23 +98,23 @@ impl ParquetFile {
         Ok(Self { file, columns, footer, n_rows, groups })
     }
 
-    /// The value of a name in the footer.
+    /// Returns the value of a key of the metadata; `None` if there is no such key.
     #[must_use]
     pub fn footer(&self, key: &str) -> Option<&str> {
         self.footer.iter().find(|(known, _)| known == key).map(|(_, value)| value.as_str())
     }
 
-    /// Number of row groups.
+    /// Returns the number of row groups.
     #[must_use]
     pub fn n_groups(&self) -> usize {
         self.groups.len()
     }
 
-    /// Reads a row group: of each column its values.
+    /// Reads row group `group_idx` (from 0): the values of each column, in the order of `columns`.
     ///
     /// # Errors
     ///
-    /// The file cannot be read or is damaged.
+    /// [`ParquetError`], if the file cannot be read or is damaged.
     ///
     /// # Panics
     ///
