@@ -23,6 +23,20 @@ pub struct ConnectionLimits {
 
 /// Table of the open connections of a server: each takes a slot with [`Connections::admit`], so that one peer cannot
 /// lock out the others.
+///
+/// ```
+/// use sincro_access::{ConnectionLimits, Connections};
+/// use std::time::Duration;
+///
+/// let limits = ConnectionLimits { total: 2, per_address: 1, idle_under_pressure: Duration::from_secs(60) };
+/// let connections = Connections::new(limits);
+/// let first = connections.admit("10.0.0.1".parse()?, || { /* ends this connection */ }).expect("a slot is free");
+/// first.mark_message();
+/// assert!(connections.admit("10.0.0.1".parse()?, || ()).is_none(), "the address has its one connection");
+/// drop(first);
+/// assert!(connections.is_empty());
+/// # Ok::<(), std::net::AddrParseError>(())
+/// ```
 pub struct Connections {
     limits: ConnectionLimits,
     start: Instant,

@@ -15,6 +15,19 @@ const TOKEN_BYTES: usize = 16;
 
 /// Admission rules of one server for HTTP requests and WebSocket handshakes, with its token (128 random bits); made
 /// when its address is bound. A link or query with the token is what the owner gives to whoever may enter.
+///
+/// ```
+/// use sincro_access::{Guard, Request};
+///
+/// let guard = Guard::for_api("127.0.0.1:23050".parse()?);
+/// let program = Request { host: Some("127.0.0.1:23050"), origin: None, query: None };
+/// assert!(guard.check(&program).is_ok());
+/// let query = guard.token_query();
+/// let page = Request { origin: Some("http://example.org"), ..program };
+/// assert!(guard.check(&page).is_err(), "a page needs the token");
+/// assert!(guard.check(&Request { query: Some(&query), ..page }).is_ok());
+/// # Ok::<(), std::net::AddrParseError>(())
+/// ```
 #[derive(Debug)]
 pub struct Guard {
     address: SocketAddr,

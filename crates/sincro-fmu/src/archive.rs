@@ -20,6 +20,14 @@ pub type ArchiveFile = (String, Vec<u8>);
 
 /// Packs files into a zip archive, in their order; the same files give the same bytes.
 ///
+/// ```
+/// use sincro_fmu::archive::{pack, unpack};
+///
+/// let files = [("resources/sincro.json".to_owned(), b"{}".to_vec())];
+/// assert_eq!(unpack(&pack(&files)?)?, files);
+/// # Ok::<(), String>(())
+/// ```
+///
 /// # Errors
 ///
 /// Two files have the same path, or one is too large for the format (the message names it).

@@ -34,6 +34,17 @@ impl std::error::Error for CborError {}
 /// Decodes a message of the ZeroMQ or WebSocket remote API in CBOR (RFC 8949), which must be one value and nothing
 /// else. Numbers of all widths, indefinite lengths and tags (ignored) are read; `undefined` is nil.
 ///
+/// ```
+/// use sincro_coppelia::api::Value;
+/// use sincro_remote::cbor::{decode, encode};
+///
+/// let mut bytes = Vec::new();
+/// encode(&Value::reals([0.5, 1.0]), &mut bytes);
+/// assert_eq!(decode(&bytes)?, Value::reals([0.5, 1.0]));
+/// assert_eq!(decode(&bytes[..3]).unwrap_err().at, 2);
+/// # Ok::<(), sincro_remote::cbor::CborError>(())
+/// ```
+///
 /// # Errors
 ///
 /// The bytes are cut short, nested deeper than [`DEPTH`], followed by others, or no CBOR; the error has the offset.

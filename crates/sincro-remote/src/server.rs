@@ -121,6 +121,19 @@ pub struct Ports {
 
 /// Server of the remote APIs of V-REP and CoppeliaSim over one session; it serves in threads of its own until it is
 /// dropped.
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// use sincro_coppelia::session::Session;
+/// use sincro_remote::{Options, Server};
+///
+/// let session = Session::open(&scene, &[], Default::default(), None)?;
+/// // the ZeroMQ API alone, on free ports of loopback
+/// let server = Server::start(session, &Options { legacy: Vec::new(), zmq: Some(0), ws: None, ..Options::default() })?;
+/// assert!(server.ports().zmq.is_some_and(|address| address.ip().is_loopback()));
+/// assert_eq!(server.hub().enter().n_clients(), 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Server {
     hub: Arc<Hub>,
     ports: Ports,

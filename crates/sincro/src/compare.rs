@@ -56,7 +56,7 @@ pub struct Difference {
 /// ```
 /// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
 /// # let out = std::env::temp_dir().join(format!("sincro-doc-compare-{}", std::process::id()));
-/// # let loaded = sincro::load(&scene, &[sincro::Override::new("duration", "0.1")])?;
+/// # let loaded = sincro::load(&scene, &[])?;
 /// # let request = sincro::RunRequest { scene: &scene, overrides: &[], loaded: &loaded, index: None };
 /// # request.run(&out, &std::sync::atomic::AtomicBool::new(false), &mut |_, _| {})?;
 /// use sincro::compare::{Comparison, FinishedRun};

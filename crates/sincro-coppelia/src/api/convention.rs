@@ -10,6 +10,13 @@ const GIMBAL: f64 = 0.999_995;
 
 /// Euler angles α, β, γ `[rad]` of a rotation `R = Rx(α) Ry(β) Rz(γ)`, the convention of V-REP; β is within ±π/2. Where
 /// cos β is almost zero, α and γ cannot be told apart: α is then 0.
+///
+/// ```
+/// use sincro_coppelia::api::convention::{euler_of, rotation_of_euler};
+///
+/// let angles = euler_of(&rotation_of_euler([0.1, -0.2, 0.3]));
+/// assert!(angles.iter().zip([0.1, -0.2, 0.3]).all(|(got, want)| (got - want).abs() < 1e-15));
+/// ```
 #[must_use]
 pub fn euler_of(rot: &Mat3<f64>) -> [f64; 3] {
     let m = &rot.0;

@@ -12,8 +12,8 @@ pub(super) const STATIC: &str = "what is made at run time is static and touches 
 
 impl SimApi<'_> {
     /// Whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control loop on,
-    /// 2039 control mode of a joint, 3003 static, 3004 respondable of a shape, those of vision sensors (resolution in
-    /// pixels); see `docs/compatibility.md`.
+    /// 2039 control mode of a joint, 3003 static and 3004 respondable of a shape, 1002 and 1003 columns and rows of a
+    /// vision sensor `[px]`; all are in `docs/compatibility.md`.
     ///
     /// # Errors
     ///
@@ -80,10 +80,14 @@ impl SimApi<'_> {
         self.set_joint_mode(handle, mode)
     }
 
-    /// Real parameter of an object by V-REP's number `id`, in SI units: 11–14 velocity x, y, z and its magnitude
-    /// `[m/s]`, 2002 position gain `[1/s]`, 2012 joint velocity, 2017 its limit `[rad/s]` or `[m/s]`, 2018 stiffness,
-    /// 2019 damping, 3005 mass `[kg]`, 3000–3002 velocity `[m/s]` and 3020–3022 angular velocity `[rad/s]` of a body's
-    /// centre of mass, world axes; those of vision sensors.
+    /// Real parameter of an object by V-REP's number `id`, in SI units.
+    ///
+    /// - Any object: 11–13 velocity x, y, z, world axes, and 14 its magnitude `[m/s]`.
+    /// - Joint: 2002 position gain `[1/s]`, 2012 velocity and 2017 its limit `[rad/s]` or `[m/s]`, 2018 stiffness
+    ///   `[N·m/rad]` or `[N/m]`, 2019 damping `[N·m·s/rad]` or `[N·s/m]`.
+    /// - Body: 3005 mass `[kg]`, 3000–3002 velocity `[m/s]` and 3020–3022 angular velocity `[rad/s]` of its centre of
+    ///   mass, world axes.
+    /// - Vision sensor: 1000 near and 1001 far end of its view `[m]`, 1004 view angle `[rad]`, 1005 view size `[m]`.
     ///
     /// # Errors
     ///

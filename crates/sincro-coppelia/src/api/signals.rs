@@ -12,6 +12,16 @@ const MAX_BYTES: usize = 64 << 20;
 
 /// Signals of one value type (whole numbers, reals or bytes): named values by which scripts and clients exchange data.
 /// The registry holds one for each type.
+///
+/// ```
+/// use sincro_coppelia::api::Signals;
+///
+/// let mut floats = Signals::default();
+/// floats.set("height", 0.25, false)?;
+/// assert_eq!(floats.get("height"), Some(&0.25));
+/// assert_eq!((floats.clear("height"), floats.get("height")), (1, None));
+/// # Ok::<(), sincro_coppelia::api::ApiError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Signals<T> {
     by_name: BTreeMap<String, Held<T>>,

@@ -10,6 +10,21 @@ use super::{ApiError, Phase, convention};
 
 /// Typed functions of the API on the object registry and its world: poses, joints, forces, sensors, parameters. Get one
 /// from [`Session::sim`](crate::session::Session::sim) for one call or phase; nothing in it outlives the step.
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// use sincro_coppelia::api::{Kind, Reference};
+/// use sincro_coppelia::session::Session;
+///
+/// let mut session = Session::open(&scene, &[], sincro_sim::Extensions::default(), None)?;
+/// let is_body = |e: &&sincro_coppelia::api::Entry| matches!(e.kind, Kind::Body(_));
+/// let body = session.registry().entries().find(is_body).expect("the scene has a body").handle;
+/// let mut sim = session.sim();
+/// assert!(sim.mass(body)?.mass > 0.0); // [kg]
+/// let pose = sim.pose(body, Reference::World)?;
+/// assert!(sim.pose(body, Reference::Object(body))?.pos.norm() < 1e-12, "at {:?} m", pose.pos);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct SimApi<'a> {
     /// Objects, signals and setpoints.
     pub registry: &'a mut ObjectRegistry,

@@ -163,6 +163,17 @@ impl From<&str> for Value {
 
 /// Positional arguments of a call by name, counted from 0; those that were not given read as nil. The accessors below
 /// check their types, and their error messages count from 1.
+///
+/// ```
+/// use sincro_coppelia::api::{Arguments, Value};
+///
+/// let given = [Value::from(3_i64), Value::reals([0.0, 0.5, 1.0])];
+/// let arguments = Arguments(&given);
+/// assert_eq!((arguments.int(0)?, arguments.reals::<3>(1)?), (3, [0.0, 0.5, 1.0]));
+/// assert_eq!(arguments.int_or(2, -1)?, -1);
+/// assert!(arguments.text(0).unwrap_err().0.contains("argument 1 is a whole number"));
+/// # Ok::<(), sincro_coppelia::api::ApiError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a>(pub &'a [Value]);
 

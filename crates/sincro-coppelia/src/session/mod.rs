@@ -219,6 +219,17 @@ impl Session {
     /// Calls a function of the API by name, with or without `sim.` before it, then carries out what it requested
     /// (start, pause, stop, load). Returns its results in the order of its call tip.
     ///
+    /// ```
+    /// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+    /// # use sincro_coppelia::session::Session;
+    /// use sincro_coppelia::api::Value;
+    ///
+    /// let mut session = Session::open(&scene, &[], sincro_sim::Extensions::default(), None)?;
+    /// session.call("sim.startSimulation", &[])?;
+    /// assert_eq!(session.call("sim.getSimulationTime", &[])?, [Value::Real(0.0)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     ///
     /// No function of that name is offered, it has refused its arguments, or what it requested failed; the message

@@ -242,7 +242,7 @@ impl Size {
         Self { width: 880.0, height }
     }
 
-    /// Size at which a figure reads well on a phone, higher if it has more than one panel.
+    /// Size at which a figure reads well on a phone: 400 px wide, higher if it has more than one panel.
     pub fn narrow(figure: &Figure) -> Self {
         let height = if figure.space.is_some() { 400.0 } else { 150.0 + 210.0 * total_share(figure) };
         Self { width: 400.0, height }

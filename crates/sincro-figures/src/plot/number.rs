@@ -44,6 +44,13 @@ pub fn fixed(x: f64, decimals: usize) -> String {
 
 /// Formats a number with `digits` significant digits: `0.0123`, `4.56×10⁻⁹`, `∞`, `not a number`. The caller adds the
 /// unit.
+///
+/// ```
+/// use sincro_figures::plot::number::{fixed, short, significant};
+///
+/// assert_eq!((significant(0.5, 3), short(0.5, 3)), ("0.500".to_owned(), "0.5".to_owned()));
+/// assert_eq!((significant(4.56e-9, 3), fixed(-0.5, 2)), ("4.56×10⁻⁹".to_owned(), "−0.50".to_owned()));
+/// ```
 pub fn significant(x: f64, digits: usize) -> String {
     if let Some(text) = special(x) {
         return text;

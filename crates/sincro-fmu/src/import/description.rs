@@ -29,7 +29,8 @@ pub struct ForeignDescription {
     pub variables: Vec<ForeignVariable>,
 }
 
-/// Variable of a foreign FMU.
+/// Variable of a foreign FMU, from its model description: what an input or output of a diagram or of a
+/// [`Wiring`](super::Wiring) is connected to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForeignVariable {
     /// Name of the variable.
