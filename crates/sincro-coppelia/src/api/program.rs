@@ -174,8 +174,8 @@ impl SimApi<'_> {
         }
     }
 
-    /// Accepts a setting of a whole-number parameter of the simulator (`sim.intparam_…`) without effect, so that
-    /// programs which set windows or verbosity run.
+    /// Accepts a setting of the whole-number parameter of the simulator with V-REP's number `id` (`sim.intparam_…`)
+    /// without effect, so that programs which set windows or verbosity run.
     ///
     /// # Errors
     ///
@@ -207,7 +207,8 @@ impl SimApi<'_> {
         }
     }
 
-    /// Sets a real parameter of the simulator (`sim.floatparam_…`): 1, the step of clients `[s]`, while stopped.
+    /// Sets the real parameter of the simulator with V-REP's number `id` (`sim.floatparam_…`): 1, the step of clients
+    /// `[s]`, while stopped.
     ///
     /// # Errors
     ///
@@ -233,8 +234,8 @@ impl SimApi<'_> {
         fixed(TRUTHS, id, "truth")
     }
 
-    /// Accepts a setting of a truth value of the simulator (`sim.boolparam_…`) without effect, so that programs which
-    /// turn the display off run.
+    /// Accepts a setting of the truth value of the simulator with V-REP's number `id` (`sim.boolparam_…`) without
+    /// effect, so that programs which turn the display off run.
     ///
     /// # Errors
     ///
@@ -260,7 +261,8 @@ impl SimApi<'_> {
         if id == GRAVITY { Ok(self.world.model().gravity().0) } else { Err(unknown("vector", id)) }
     }
 
-    /// Sets a vector parameter of the simulator (`sim.arrayparam_…`): 0, gravity `[m/s²]` as x, y, z in world axes.
+    /// Sets the vector parameter of the simulator with V-REP's number `id` (`sim.arrayparam_…`): 0, gravity `[m/s²]` as
+    /// x, y, z in world axes.
     ///
     /// # Errors
     ///

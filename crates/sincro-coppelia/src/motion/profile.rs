@@ -5,9 +5,9 @@
 pub struct Point {
     /// Position `[u]`.
     pub p: f64,
-    /// Velocity [u/s].
+    /// Velocity `[u/s]`.
     pub v: f64,
-    /// Acceleration [u/s²].
+    /// Acceleration `[u/s²]`.
     pub a: f64,
 }
 
@@ -34,13 +34,13 @@ impl Point {
 /// Largest values are positive, lowest ones negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Largest velocity [u/s].
+    /// Largest velocity `[u/s]`.
     pub max_velocity: f64,
-    /// Lowest velocity [u/s].
+    /// Lowest velocity `[u/s]`.
     pub min_velocity: f64,
-    /// Largest acceleration [u/s²].
+    /// Largest acceleration `[u/s²]`.
     pub max_acceleration: f64,
-    /// Lowest acceleration [u/s²].
+    /// Lowest acceleration `[u/s²]`.
     pub min_acceleration: f64,
     /// Largest magnitude of the jerk `[u/s³]`.
     pub max_jerk: f64,

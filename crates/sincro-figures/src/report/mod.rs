@@ -64,7 +64,7 @@ pub struct Mechanism {
     pub sketch: String,
     /// Structure of the equations of motion: `M(q) v̇ + c(q, v) = τ`.
     pub equation: String,
-    /// Symbols of the equation, with size and meaning.
+    /// Symbols of the equation, each with its size and meaning as one text.
     pub sizes: Vec<(String, String)>,
     /// Joints that move, in the order of the scene.
     pub joints: Vec<JointRow>,
