@@ -10,10 +10,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Limits of a server.
+/// Limits of the connections of one server, given to [`Connections::new`].
 #[derive(Clone, Copy, Debug)]
 pub struct ConnectionLimits {
-    /// Connections at once.
+    /// Connections at once from all addresses together.
     pub total: usize,
     /// Connections at once from one address (IPv4 address; /64 network of IPv6; the loopback networks count as one).
     pub per_address: usize,
@@ -21,7 +21,22 @@ pub struct ConnectionLimits {
     pub idle_under_pressure: Duration,
 }
 
-/// The connections of a server.
+/// Table of the open connections of a server: each takes a slot with [`Connections::admit`], so that one peer cannot
+/// lock out the others.
+///
+/// ```
+/// use sincro_access::{ConnectionLimits, Connections};
+/// use std::time::Duration;
+///
+/// let limits = ConnectionLimits { total: 2, per_address: 1, idle_under_pressure: Duration::from_secs(60) };
+/// let connections = Connections::new(limits);
+/// let first = connections.admit("10.0.0.1".parse()?, || { /* ends this connection */ }).expect("a slot is free");
+/// first.mark_message();
+/// assert!(connections.admit("10.0.0.1".parse()?, || ()).is_none(), "the address has its one connection");
+/// drop(first);
+/// assert!(connections.is_empty());
+/// # Ok::<(), std::net::AddrParseError>(())
+/// ```
 pub struct Connections {
     limits: ConnectionLimits,
     start: Instant,
@@ -54,7 +69,7 @@ struct Activity {
     last: AtomicU64,
 }
 
-/// A slot in use; dropping it frees the slot.
+/// Slot that a connection holds in [`Connections`]; keep it as long as the connection, dropping it frees the slot.
 pub struct Permit {
     connections: Arc<Connections>,
     id: u64,
@@ -62,7 +77,7 @@ pub struct Permit {
 }
 
 impl Connections {
-    /// Creates the table of connections to one server, without any; `limits` holds their greatest numbers.
+    /// Creates the empty table of one server, shared by the threads that serve it.
     #[must_use]
     pub fn new(limits: ConnectionLimits) -> Arc<Self> {
         Arc::new(Self { limits, start: Instant::now(), slots: Mutex::default() })
@@ -74,14 +89,15 @@ impl Connections {
         self.lock().open.values().filter(|slot| !slot.is_closing).count()
     }
 
-    /// True while no connection is open.
+    /// Returns true if no connection is open that was not told to close.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Takes a slot for a connection from `peer`; `close` must end that connection and may be called at any time from
-    /// any thread. Returns none if all slots are in use.
+    /// Takes a slot for a new connection from the IP address `peer`. If none is free, the connection that is least
+    /// missed is closed; none if all are in use, and the newcomer is to be refused. `close` must end the new
+    /// connection; it may be called at any time from any thread.
     pub fn admit(self: &Arc<Self>, peer: IpAddr, close: impl Fn() + Send + Sync + 'static) -> Option<Permit> {
         let network = network_of(peer);
         let now = self.now();
@@ -131,7 +147,8 @@ impl Connections {
 }
 
 impl Permit {
-    /// Notes that a whole message has come.
+    /// Records that a whole message has arrived on the connection just now: it counts as in use, no longer as idle or
+    /// unused.
     pub fn mark_message(&self) {
         self.activity.is_proven.store(true, Ordering::Relaxed);
         self.activity.last.store(self.connections.now(), Ordering::Relaxed);

@@ -13,7 +13,21 @@ use crate::terminal::printable;
 /// Bytes of randomness in a token.
 const TOKEN_BYTES: usize = 16;
 
-/// Rules of one server, fixed when its address is bound.
+/// Admission rules of one server for HTTP requests and WebSocket handshakes, with its token (128 random bits); made
+/// when its address is bound. A link or query with the token is what the owner gives to whoever may enter.
+///
+/// ```
+/// use sincro_access::{Guard, Request};
+///
+/// let guard = Guard::for_api("127.0.0.1:23050".parse()?);
+/// let program = Request { host: Some("127.0.0.1:23050"), origin: None, query: None };
+/// assert!(guard.check(&program).is_ok());
+/// let query = guard.token_query();
+/// let page = Request { origin: Some("http://example.org"), ..program };
+/// assert!(guard.check(&page).is_err(), "a page needs the token");
+/// assert!(guard.check(&Request { query: Some(&query), ..page }).is_ok());
+/// # Ok::<(), std::net::AddrParseError>(())
+/// ```
 #[derive(Debug)]
 pub struct Guard {
     address: SocketAddr,
@@ -32,18 +46,18 @@ enum Kind {
     Api,
 }
 
-/// Parts of a request that decide about its admission.
+/// Parts of an HTTP request or WebSocket handshake that decide about its admission; none: the request has no such part.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Request<'a> {
-    /// Header `Host`.
+    /// Value of the header `Host`.
     pub host: Option<&'a str>,
-    /// Header `Origin`.
+    /// Value of the header `Origin`, which browsers send for pages.
     pub origin: Option<&'a str>,
-    /// Query of the address, without `?`.
+    /// Query of the request's address, without `?`: `token=…`.
     pub query: Option<&'a str>,
 }
 
-/// Refusal of a request, with the reason as a sentence that may be sent back.
+/// Refusal of a request by a [`Guard`]: the reason as a sentence that may be sent back, to be answered with status 403.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refused(pub String);
 
@@ -56,22 +70,23 @@ impl std::fmt::Display for Refused {
 impl std::error::Error for Refused {}
 
 impl Guard {
-    /// Guard of a server that shows its own page: every request needs the token, on loopback too (other users of the
-    /// machine).
+    /// Creates the guard of a server that shows its own page on `address`: every request needs the token, on loopback
+    /// too, against other users of the machine.
     ///
     /// # Panics
     ///
-    /// If the operating system gives no randomness.
+    /// The operating system gives no random numbers.
     #[must_use]
     pub fn for_page(address: SocketAddr) -> Self {
         Self::new(address, Kind::Page)
     }
 
-    /// Guard of a server for programs: a page needs the token, a program only beyond loopback.
+    /// Creates the guard of a server for programs on `address`: a request of a page needs the token, that of a program
+    /// only beyond loopback.
     ///
     /// # Panics
     ///
-    /// If the operating system gives no randomness.
+    /// The operating system gives no random numbers.
     #[must_use]
     pub fn for_api(address: SocketAddr) -> Self {
         Self::new(address, Kind::Api)
@@ -81,19 +96,20 @@ impl Guard {
         Self { address, token: random(), kind, ticket: Mutex::new(None) }
     }
 
-    /// Address that was bound.
+    /// IP address and TCP port that the server has bound, as given to the constructor.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// Query that carries the token: `token=` and 32 hexadecimal digits.
+    /// Query that carries the token, without `?`: `token=` and 32 hexadecimal digits.
     #[must_use]
     pub fn token_query(&self) -> String {
         format!("token={}", self.token)
     }
 
-    /// Link with the token, for a scheme such as `http` or `ws`.
+    /// Link to the server with its token, for a scheme such as `http` or `ws`: `ws://127.0.0.1:23050/?token=…`.
+    /// Loopback stands in place of "all addresses".
     #[must_use]
     pub fn link(&self, scheme: &str) -> String {
         format!("{scheme}://{}/?{}", self.reachable(), self.token_query())
@@ -109,12 +125,12 @@ impl Guard {
         address
     }
 
-    /// Link that works once and leads to the one with the token: it may stand in the argument list of a process, which
-    /// every user of the machine can read. An earlier one that was not used is void.
+    /// Link `http://…/?ticket=…` that admits once, see [`Guard::redeem`]. It may stand in the argument list of a
+    /// process, which every user of the machine can read. An earlier one that was not used becomes void.
     ///
     /// # Panics
     ///
-    /// If the operating system gives no randomness.
+    /// The operating system gives no random numbers.
     #[must_use]
     pub fn single_use_link(&self) -> String {
         let ticket = random();
@@ -123,7 +139,9 @@ impl Guard {
         link
     }
 
-    /// Redeems the ticket of a request; returns true the first time that it is right.
+    /// Redeems the ticket of [`Guard::single_use_link`] in the query of a request; returns true the first time, after
+    /// which the server is to lead the browser to [`Guard::link`]. False if `Host` is wrong, or the ticket is absent,
+    /// wrong or used.
     #[must_use]
     pub fn redeem(&self, request: &Request<'_>) -> bool {
         let Some(given) = parameter(request.query, "ticket=") else { return false };
@@ -138,11 +156,12 @@ impl Guard {
         is_right
     }
 
-    /// Admits a request, or says why not.
+    /// Checks a request against the rules: `Host` names this server, `Origin` is its own page or absent, the token is
+    /// right where it is needed.
     ///
     /// # Errors
     ///
-    /// The first rule that the request breaks: `Host`, `Origin`, token.
+    /// The first rule that the request breaks, as a sentence for the client.
     pub fn check(&self, request: &Request<'_>) -> Result<(), Refused> {
         self.check_host(request.host)?;
         let has_token =
@@ -168,12 +187,12 @@ impl Guard {
         }
     }
 
-    /// Admits a request for something that carries no secret (the page's own program and style): `Host` and `Origin`
-    /// only.
+    /// Checks `Host` and `Origin` of a request for something that carries no secret, such as the program and style of a
+    /// page.
     ///
     /// # Errors
     ///
-    /// The first rule that the request breaks.
+    /// The first rule that the request breaks, as a sentence for the client.
     pub fn check_without_token(&self, request: &Request<'_>) -> Result<(), Refused> {
         self.check_host(request.host)?;
         self.check_own_page(request)

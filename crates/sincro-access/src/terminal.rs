@@ -1,7 +1,7 @@
 //! Texts of clients on a terminal.
 
-/// A text without what could drive a terminal or forge a line: control characters (tabulators excepted) and marks of
-/// writing direction are shown as escapes such as `\u{1b}`.
+/// Makes a text of a client safe for a terminal: control characters (tabulators excepted) and marks of writing
+/// direction, which could drive the terminal or forge a line, become escapes such as `\u{1b}`.
 ///
 /// ```
 /// assert_eq!(sincro_access::printable("t = 1 s\u{1b}[2J\nforged"), "t = 1 s\\u{1b}[2J\\nforged");

@@ -26,7 +26,8 @@ use figures::{FigureKind, Session};
 use peer::{Against, Peer};
 use table::say;
 
-/// Options of a measurement.
+/// Options of `sincro bench`, parsed from its command line by `clap`: which figures of which robots are measured, and
+/// beside which peers.
 #[derive(Debug, clap::Args)]
 pub struct Options {
     /// Measure a peer in turn with us; may be given twice. Needs Python with the peer's package
@@ -67,11 +68,12 @@ fn extensions() -> Extensions {
     Extensions { scripts: Some(sincro_lua::engine()), ..Extensions::default() }
 }
 
-/// Measures and prints. A peer that cannot be had is said so, and the rest goes on.
+/// Measures speed, memory and accuracy on this machine and prints a table. Peers (MuJoCo, Pinocchio) that cannot be
+/// started are reported as warnings, and the rest goes on.
 ///
 /// # Errors
 ///
-/// If a robot is unknown or the JSON file cannot be written, in words.
+/// A robot is unknown, or the JSON file cannot be written; the text says which.
 pub fn run(options: &Options) -> Result<(), String> {
     let clock = Instant::now();
     let robots = models::robots(&options.only)?;

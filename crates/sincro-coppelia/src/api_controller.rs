@@ -14,7 +14,8 @@ use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
 use sincro_sim::run::{Halt, LockStep};
 
-/// The object registry with the scripts of the scene, if it has any.
+/// Controller of a lock-step that holds the object registry, on which clients and scripts act, and the scripts of the
+/// scene, if it has any. Commands that are held in the registry win over those of scene and diagram.
 #[derive(Debug)]
 pub struct ApiController {
     /// None while a script has it.
@@ -23,13 +24,15 @@ pub struct ApiController {
 }
 
 impl ApiController {
-    /// A table for clients, without scripts.
+    /// Creates a controller that clients act on through its registry, without scripts; attach it to a lock-step with
+    /// [`ApiController::set_registry`].
     #[must_use]
     pub fn new(registry: ObjectRegistry) -> Self {
         Self { registry: Some(Box::new(registry)), scripts: None }
     }
 
-    /// The scripts of a scene, with a registry of their own; `start` makes their host.
+    /// Creates a controller for the scripts of a scene, with a registry of its own. `start` makes their host from the
+    /// scripts, in the order in which they are called (descendants before ancestors), and the settings.
     pub fn with_scripts(loaded: &Loaded, start: impl FnOnce(&Arc<[Script]>, Setting) -> Box<dyn Host>) -> Self {
         let ticks = loaded.experiment.simulation_ticks;
         let setting = Setting { step: loaded.experiment.step * ticks as f64, seed: loaded.experiment.seed };
@@ -40,11 +43,12 @@ impl ApiController {
     }
 
     /// That of a lock-step with its world, if it has one.
-    pub fn of(lockstep: &mut LockStep) -> Option<(&mut Self, &mut World)> {
+    pub(crate) fn of(lockstep: &mut LockStep) -> Option<(&mut Self, &mut World)> {
         lockstep.controller::<Self>()
     }
 
-    /// Gives a lock-step another object registry: commands that are held in it are latched from the next tick on.
+    /// Replaces the object registry of a lock-step, or attaches a controller with it: commands that it holds are
+    /// latched from the next tick on.
     pub fn set_registry(lockstep: &mut LockStep, registry: ObjectRegistry) {
         if let Some((api, _)) = Self::of(lockstep) {
             api.registry = Some(Box::new(registry));
@@ -54,11 +58,12 @@ impl ApiController {
     }
 
     /// Takes the object registry away from a lock-step.
-    pub fn take_registry(lockstep: &mut LockStep) -> Option<Box<ObjectRegistry>> {
+    pub(crate) fn take_registry(lockstep: &mut LockStep) -> Option<Box<ObjectRegistry>> {
         Self::of(lockstep).and_then(|(api, _)| api.registry.take())
     }
 
-    /// The object registry of a lock-step with its world; none if nobody asked for one.
+    /// Typed functions of the API on the registry and world of a lock-step, at its present time; none if it has no
+    /// registry.
     pub fn sim(lockstep: &mut LockStep) -> Option<SimApi<'_>> {
         let t = lockstep.t();
         let (api, world) = Self::of(lockstep)?;
@@ -70,7 +75,7 @@ impl ApiController {
     /// # Errors
     ///
     /// If a script fails.
-    pub fn notify_scripts(lockstep: &mut LockStep, phase: Phase) -> Result<(), Halt> {
+    pub(crate) fn notify_scripts(lockstep: &mut LockStep, phase: Phase) -> Result<(), Halt> {
         let (tick, t) = (lockstep.tick(), lockstep.t());
         let Some((api, world)) = Self::of(lockstep) else { return Ok(()) };
         if !api.is_started() {
@@ -85,7 +90,7 @@ impl ApiController {
     /// # Errors
     ///
     /// There is no script or no such function, or it failed.
-    pub fn call_script(
+    pub(crate) fn call_script(
         lockstep: &mut LockStep,
         (object, kind): (Handle, Option<Kind>),
         function: &str,
@@ -101,7 +106,7 @@ impl ApiController {
     /// # Errors
     ///
     /// There is no script, or the text failed.
-    pub fn evaluate(
+    pub(crate) fn evaluate(
         lockstep: &mut LockStep,
         (object, kind): (Handle, Option<Kind>),
         text: &str,

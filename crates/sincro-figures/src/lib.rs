@@ -1,7 +1,7 @@
 //! Figures and report pages as SVG and HTML text.
 //!
 //! - [`plot`]: line charts, from plain data;
-//! - [`draw`]: block diagrams in a layered layout;
+//! - `draw`: block diagrams in a layered layout;
 //! - [`linear`]: Bode diagrams, maps of poles and zeros, step responses and tables of a linear system;
 //! - [`report`]: the pages of one run, of two runs and of many, from plain data;
 //! - [`campaign`]: from the results of a run to its figures and its page.
@@ -19,7 +19,7 @@
 //! ```
 
 pub mod campaign;
-pub mod draw;
+mod draw;
 pub mod linear;
 pub mod plot;
 pub mod report;

@@ -15,14 +15,22 @@ const MAX_RATIO: u64 = 200;
 /// Unpacked size up to which the ratio does not matter `[bytes]`: 64 MiB.
 const HARMLESS_BYTES: u64 = 64 << 20;
 
-/// A file of an archive: its path, with `/`, and its content.
+/// File of an archive: its path inside, with `/` between the parts, and its content.
 pub type ArchiveFile = (String, Vec<u8>);
 
-/// Packs files in their order.
+/// Packs files into a zip archive, in their order; the same files give the same bytes.
+///
+/// ```
+/// use sincro_fmu::archive::{pack, unpack};
+///
+/// let files = [("resources/sincro.json".to_owned(), b"{}".to_vec())];
+/// assert_eq!(unpack(&pack(&files)?)?, files);
+/// # Ok::<(), String>(())
+/// ```
 ///
 /// # Errors
 ///
-/// A name twice, or a file too large for the format.
+/// Two files have the same path, or one is too large for the format (the message names it).
 pub fn pack(files: &[ArchiveFile]) -> Result<Vec<u8>, String> {
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     // no clock: the same files give the same archive
@@ -40,12 +48,14 @@ pub fn pack(files: &[ArchiveFile]) -> Result<Vec<u8>, String> {
     Ok(done.into_inner())
 }
 
-/// Unpacks all files of an archive.
+/// Unpacks all files of a zip archive into memory, in its order, folders left out. Made for archives that may be
+/// hostile.
 ///
 /// # Errors
 ///
-/// It is no archive or is damaged; an entry would lie outside the folder that it is unpacked to; or it unpacks to more
-/// than memory should hold.
+/// The bytes are no zip archive or damaged; an entry is a symbolic link or would lie outside the folder; there are more
+/// than 100,000 entries; or they unpack to more than 2 GiB, or 200 times the archive if that is more than 64 MiB. The
+/// text says which.
 pub fn unpack(bytes: &[u8]) -> Result<Vec<ArchiveFile>, String> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| format!("it is no zip archive: {error}"))?;
     if archive.len() > MAX_ENTRIES {
@@ -95,11 +105,11 @@ fn inner_path(name: &str) -> Result<String, String> {
     Ok(parts.join("/"))
 }
 
-/// Writes unpacked files below a folder, which must be there.
+/// Writes unpacked files below a folder, which must exist; folders inside it are made.
 ///
 /// # Errors
 ///
-/// A file cannot be written.
+/// A file or folder cannot be written; the text has its path. Files before it have been written.
 pub fn write_files(folder: &Path, files: &[ArchiveFile]) -> Result<(), String> {
     for (name, bytes) in files {
         let path: PathBuf = folder.join(name);

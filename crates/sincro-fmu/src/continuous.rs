@@ -6,7 +6,7 @@ use sincro_sim::Loaded;
 
 /// A continuous state of an FMU of model exchange, with its unit and initial value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ContinuousState {
+pub(crate) struct ContinuousState {
     /// Name of the signal that it is, or of its block.
     pub name: String,
     /// Unit; empty if none is known.
@@ -17,7 +17,7 @@ pub struct ContinuousState {
 
 /// States in the order q, v, speeds of rotors with a lag, continuous blocks.
 #[must_use]
-pub fn states(loaded: &Loaded) -> Vec<ContinuousState> {
+pub(crate) fn states(loaded: &Loaded) -> Vec<ContinuousState> {
     let (model, initial) = (&loaded.scene.model, &loaded.scene.initial);
     let entries = catalogue(model);
     let named = |probe: Probe, start: f64| {

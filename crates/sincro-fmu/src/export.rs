@@ -19,40 +19,40 @@ use crate::platform::Platform;
 use crate::switching;
 use crate::variables::{Catalogue, Outputs, Role};
 
-/// A scene to be exported.
+/// Scene to be exported as an FMU, with the choices of the export: the argument of [`export()`].
 #[derive(Debug)]
 pub struct ExportRequest<'a> {
-    /// The loaded scene.
+    /// Loaded scene, whose files go into the FMU as resources.
     pub loaded: &'a Loaded,
-    /// Settings that it was loaded with.
+    /// Overrides that the scene was loaded with; the FMU applies them again.
     pub overrides: &'a [Override],
-    /// Name of the model: that of the scene's folder.
+    /// Name of the model, usually that of the scene's folder.
     pub name: &'a str,
-    /// Version of the standard.
+    /// Version of the FMI standard.
     pub version: FmiVersion,
-    /// Interface types.
+    /// Interface types that the FMU offers.
     pub kinds: Kinds,
     /// Signals that become outputs.
     pub outputs: Outputs,
-    /// Shared libraries, one for each platform.
+    /// Content of the shared libraries of the crate `sincro-fmi`, one for each platform.
     pub libraries: &'a [Vec<u8>],
-    /// Files of the documentation, by their names in that folder.
+    /// Files for the folder `documentation` of the FMU, by their paths in it.
     pub documentation: &'a [ArchiveFile],
 }
 
-/// An exported FMU: the file, its variables and its platforms.
+/// Exported FMU, the result of [`export()`]: the file, its variables and its platforms.
 #[derive(Debug)]
 pub struct Exported {
-    /// The file's bytes.
+    /// Content of the `.fmu` file.
     pub bytes: Vec<u8>,
-    /// Its variables.
+    /// Variables of the FMU, in the order of their value references.
     pub catalogue: Catalogue,
-    /// Folders of the platforms that it has a library for.
+    /// Folders below `binaries`, one for each library of the request, in its order: `linux64`.
     pub platforms: Vec<&'static str>,
 }
 
 impl Exported {
-    /// Numbers of parameters, inputs and outputs.
+    /// Number of parameters, of inputs and of outputs, in this order.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let count = |is: fn(&Role) -> bool| self.catalogue.variables.iter().filter(|v| is(&v.role)).count();
@@ -64,11 +64,12 @@ impl Exported {
     }
 }
 
-/// Packs a scene as an FMU.
+/// Packs a loaded scene as an FMU, in memory: model description, shared libraries, documentation, files of the scene.
 ///
 /// # Errors
 ///
-/// Model exchange of a scene that switches, a library of an unknown platform, or two of one platform.
+/// Model exchange is asked for and the scene switches (with the reasons), a library is for no platform that FMI names,
+/// two are for one platform, a recorded signal does not exist, or a file is too large for the archive.
 pub fn export(request: &ExportRequest<'_>) -> Result<Exported, String> {
     let ExportRequest { loaded, overrides, name, version, kinds, outputs, .. } = *request;
     if kinds.model_exchange {

@@ -6,22 +6,22 @@
 //!
 //! | modules | hold |
 //! |---|---|
-//! | [`variables`], [`numbers`](mod@numbers), [`tunable`] | variables of a scene: parameters, inputs, outputs |
+//! | [`variables`], [`tunable`] | variables of a scene: parameters, inputs, outputs |
 //! | [`description`], [`platform`], [`archive`] | the model description, platforms of libraries, zip files |
-//! | [`export`](mod@export), [`manifest`] | a scene as an FMU, and what its library must know of the export |
+//! | [`export`](mod@export) | a scene as an FMU |
 //! | [`instance`] | an FMU at work, and its saved states |
 //! | [`import`] | FMUs of other tools, loaded for co-simulation |
-//! | [`continuous`], [`switching`] | model exchange: states, and scenes that it cannot follow |
+//! | [`switching`] | scenes that model exchange cannot follow |
 
 pub mod archive;
-pub mod continuous;
+mod continuous;
 pub mod description;
 pub mod export;
 pub mod import;
 pub mod instance;
-pub mod manifest;
+mod manifest;
 mod names;
-pub mod numbers;
+mod numbers;
 pub mod platform;
 pub mod switching;
 pub mod tunable;

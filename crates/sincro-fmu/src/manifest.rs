@@ -12,7 +12,7 @@ pub(crate) const FILE: &str = "sincro.json";
 
 /// Choices of the export, which the shared library must know to have the same variables.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Manifest {
+pub(crate) struct Manifest {
     /// Version of sincro that exported the FMU.
     pub version: String,
     /// Globally unique identifier, or instantiation token.
@@ -33,7 +33,7 @@ impl Manifest {
     /// # Errors
     ///
     /// There is none, or it is damaged.
-    pub fn read(resources: &Path) -> Result<Self, String> {
+    pub(crate) fn read(resources: &Path) -> Result<Self, String> {
         let path = resources.join(FILE);
         let text = std::fs::read_to_string(&path).map_err(|error| {
             format!("`{}` cannot be read: {error}; the resources of the FMU are incomplete", path.display())
@@ -43,7 +43,7 @@ impl Manifest {
 
     /// The settings that the scene is loaded with.
     #[must_use]
-    pub fn overrides(&self) -> Vec<Override> {
+    pub(crate) fn overrides(&self) -> Vec<Override> {
         self.settings.iter().map(|(path, value)| Override::new(path, value)).collect()
     }
 

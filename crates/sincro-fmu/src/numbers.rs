@@ -21,7 +21,7 @@ const MAX_ENTRIES: usize = 16;
 
 /// A number that a setting reaches.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Number {
+pub(crate) struct Number {
     /// Path as for `--set`.
     pub path: String,
     /// Its value in the files, under the settings given.
@@ -37,7 +37,7 @@ pub struct Number {
 /// # Errors
 ///
 /// The files cannot be read or the settings do not fit: not after the folder was opened with the same settings.
-pub fn numbers(folder: &Folder, overrides: &[Override]) -> Result<Vec<Number>, Diagnostics> {
+pub(crate) fn numbers(folder: &Folder, overrides: &[Override]) -> Result<Vec<Number>, Diagnostics> {
     let mut list = Vec::new();
     let experiment = prepared(Document::parse(&folder.read("experiment.toml")?)?, Target::Experiment, overrides)?;
     let parameters = experiment.get("/parameters").and_then(Value::as_object);

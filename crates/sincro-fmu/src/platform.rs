@@ -2,7 +2,7 @@
 
 use crate::description::FmiVersion;
 
-/// Platform of a shared library.
+/// Operating system and processor that a shared library is for, as the folders of an FMU name them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Platform {
     system: System,
@@ -44,7 +44,7 @@ impl Platform {
 
     /// Platform of a shared library, by the head of the file; none if it is no library of a platform that FMI names.
     #[must_use]
-    pub fn of_library(bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn of_library(bytes: &[u8]) -> Option<Self> {
         let half = |at: usize| Some(u16::from_le_bytes(bytes.get(at..at + 2)?.try_into().ok()?));
         let word = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
         if bytes.starts_with(b"\x7fELF") {
@@ -77,7 +77,8 @@ impl Platform {
         None
     }
 
-    /// Name of the folder below `binaries` in the archive.
+    /// Name of the platform's folder below `binaries` in an FMU of a version: `linux64` in FMI 2.0, `x86_64-linux` in
+    /// 3.0.
     #[must_use]
     pub fn folder(self, version: FmiVersion) -> &'static str {
         use {Machine as M, System as S};
@@ -98,7 +99,7 @@ impl Platform {
         }
     }
 
-    /// Ending of the names of its shared libraries.
+    /// Ending of the file name of a shared library, without the dot: `so`, `dll` or `dylib`.
     #[must_use]
     pub fn ending(self) -> &'static str {
         match self.system {

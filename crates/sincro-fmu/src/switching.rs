@@ -3,7 +3,8 @@
 use sincro_dynamics::actuation::DriveKind;
 use sincro_sim::Loaded;
 
-/// Reasons for which a scene cannot be exported for model exchange; empty if it can.
+/// Reasons why a scene cannot be exported for model exchange, one sentence each with the name of the element (friction,
+/// joint limits, contacts, closed loops, sampled sensors, scripts); empty if it can.
 #[must_use]
 pub fn reasons(loaded: &Loaded) -> Vec<String> {
     let mut reasons = Vec::new();

@@ -6,26 +6,32 @@ use sincro_dynamics::world::World;
 use sincro_scene::scene::ObjectKind;
 use sincro_sim::Loaded;
 
-/// A number of the world that can be changed while it runs.
+/// Quantity of a running world behind a tunable parameter of an FMU: what
+/// [`Role::Tunable`](crate::variables::Role::Tunable) changes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tunable {
-    /// Component of gravity.
+    /// Component of gravity `[m/s²]`, world axes: 0 x, 1 y, 2 z.
     Gravity(usize),
-    /// Number of the mass properties of a body: 0 its mass, 1–3 its centre, 4–9 its inertia (xx, xy, xz, yy, yz, zz);
-    /// by the body's index among the frames.
+    /// Mass property of a body: the body's index among the model's frames, then 0 for the mass `[kg]`, 1–3 for the
+    /// centre of mass x, y, z `[m]`, 4–9 for the inertia xx, xy, xz, yy, yz, zz `[kg·m²]`.
     Mass(usize, usize),
-    /// Number of a motor.
+    /// Parameter of a motor, by the motor's index among the model's.
     Motor(usize, MotorNumber),
 }
 
-/// Number of a motor that can be changed.
+/// Parameter of a motor that can be changed while the world runs; the units are those of a revolute or of a prismatic
+/// joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum MotorNumber {
+    /// Gain of position control `[1/s]`.
     Kp,
+    /// Stiffness of spring-damper control `[N·m/rad]` or `[N/m]`.
     Stiffness,
+    /// Damping of spring-damper control `[N·m·s/rad]` or `[N·s/m]`.
     Damping,
+    /// Largest effort `[N·m]` or `[N]`.
     MaxTorque,
+    /// Largest velocity `[rad/s]` or `[m/s]`.
     MaxVelocity,
 }
 

@@ -22,68 +22,71 @@ use crate::names::Names;
 use crate::numbers::{Number, numbers};
 use crate::tunable::{Tunable, tunable};
 
-/// Recorded signals that become outputs.
+/// Choice of the signals that become outputs of an FMU.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outputs {
-    /// The experiment's `record` list.
+    /// The signals of the experiment's `record` list.
     #[default]
     Recorded,
-    /// Everything that the scene and its diagram offer.
+    /// All signals that the scene and its diagram offer, those of the `record` list first.
     All,
 }
 
-/// Meaning of a variable.
+/// Meaning of a variable of an FMU for the scene: which quantity its value reference reads or sets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Role {
-    /// The time.
+    /// Simulation time `[s]`, the independent variable.
     Time,
-    /// A number of the files, set before the start; its path as for `--set`.
+    /// Parameter that is set before the start: a number of the scene's files, by its path as for `--set`.
     Fixed(String),
-    /// The same, which can be set while the FMU runs, too.
+    /// Parameter that can also be set while the FMU runs: its path, and the quantity of the world.
     Tunable(String, Tunable),
-    /// A command, by its index.
+    /// Input: a command of the scene that nothing drives, by its index among the model's.
     Input(usize),
-    /// A recorded signal, by its place among the outputs.
+    /// Output: a recorded signal, by its index among the outputs.
     Output(usize),
-    /// A continuous state, by its place.
+    /// Continuous state of model exchange, by its index among the states.
     State(usize),
-    /// The derivative of a continuous state.
+    /// Time derivative of a continuous state, by the index of that state.
     Derivative(usize),
 }
 
-/// A variable. Its value reference is its place in the list.
+/// Variable of an FMU. Its value reference is its index in [`Catalogue::variables`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Structured name.
+    /// Name in the structured form of FMI: `arm.joint.position`.
     pub name: String,
-    /// Meaning.
+    /// Meaning for the scene.
     pub role: Role,
     /// Unit as sincro writes it; empty for none.
     pub unit: String,
-    /// Start value, of everything that can be set.
+    /// Start value in `unit`, of parameters, inputs and states; none for other variables.
     pub start: Option<f64>,
-    /// Description; the name that sincro has for it comes first.
+    /// Description; the name of the signal or number in sincro comes first where it differs from `name`.
     pub description: String,
 }
 
-/// All variables of a scene.
+/// All variables of an exported scene: the same list when the FMU is written and when it runs.
 #[derive(Clone, Debug)]
 pub struct Catalogue {
-    /// The variables, by their value references.
+    /// Variables in the order of their value references, from 0.
     pub variables: Vec<Variable>,
-    /// Names of the recorded signals behind the outputs.
+    /// Names of the recorded signals behind the outputs, in the order of [`Role::Output`].
     pub recorded: Vec<Located<String>>,
-    /// Number of continuous states; none unless model exchange was asked for.
+    /// Number of continuous states; 0 unless model exchange was asked for.
     pub n_states: usize,
 }
 
 impl Catalogue {
-    /// The variables of a loaded scene; `overrides` are those that it was loaded with.
+    /// Lists the variables of a loaded scene; `overrides` are those that it was loaded with, `has_states` adds the
+    /// continuous states and their derivatives for model exchange. The order is time, parameters, inputs, outputs,
+    /// states.
     ///
     /// # Errors
     ///
-    /// A recorded signal does not exist.
+    /// A recorded signal does not exist, or the files of the scene have changed since and cannot be read; each with its
+    /// place.
     pub fn new(
         loaded: &Loaded,
         overrides: &[Override],
@@ -123,7 +126,8 @@ impl Catalogue {
         Ok(Self { variables: list.variables, recorded, n_states: states.len() })
     }
 
-    /// Value references and variables with a role that `pick` knows.
+    /// Selects variables by their role: value reference, variable and what `pick` returned, in the order of the value
+    /// references; those for which `pick` returns none are left out.
     pub fn with_role<T>(&self, pick: impl Fn(&Role) -> Option<T>) -> impl Iterator<Item = (u32, &Variable, T)> {
         let numbered = self.variables.iter().enumerate();
         numbered.filter_map(move |(k, variable)| Some((u32::try_from(k).ok()?, variable, pick(&variable.role)?)))

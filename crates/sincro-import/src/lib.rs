@@ -69,24 +69,24 @@ use source::{Element, Ledger, SourceFile};
 /// Most links, joints and geoms of a file: what is larger is no robot.
 const MAX_LINKS: usize = 20_000;
 
-/// Drives of joints where the source names no actuators.
+/// Motors that an import gives the joints where the source names no actuators.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Motors {
-    /// Position motors that hold the joints where they start.
+    /// Position motors that hold the joints at their initial positions.
     #[default]
     Hold,
-    /// Torque motors without command.
+    /// Torque motors, whose command is zero.
     Torque,
-    /// None.
+    /// No motors: the joints move freely.
     None,
 }
 
-/// Repairs of mass properties that can be asked for.
+/// Repair of mass properties that no rigid body has; made only if [`Options::repairs`] asks for it, and reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repair {
-    /// Gives moving links without mass or inertia a small one.
+    /// Gives moving links without mass or inertia a small one, so that the mass matrix is regular.
     MinInertia,
-    /// Raises principal moments that are not positive.
+    /// Raises principal moments of inertia that are not positive to small positive ones.
     PositiveInertia,
 }
 
@@ -94,7 +94,7 @@ impl Repair {
     /// All repairs, in the order of the command line's help.
     pub const ALL: [Self; 2] = [Self::MinInertia, Self::PositiveInertia];
 
-    /// Name of the repair on the command line.
+    /// Name of the repair on the command line, for `--repair`: `min-inertia`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -104,25 +104,25 @@ impl Repair {
     }
 }
 
-/// Settings of an import.
+/// Options of [`import`]. By default the base is fixed, joints are held and nothing is repaired.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Folders in which packages are searched, before those of the environment.
+    /// Folders in which `package://` addresses of meshes are searched, in this order, before those of the environment.
     pub package_paths: Vec<PathBuf>,
-    /// True if the base of the robot moves freely.
+    /// True if the base link moves freely, by a joint of six degrees of freedom; else it is fixed in the world.
     pub free_base: bool,
-    /// Drives of joints.
+    /// Motors of joints for which the source names no actuator.
     pub motors: Motors,
-    /// Repairs that may be made.
+    /// Repairs of mass properties that may be made; without them such a robot is refused.
     pub repairs: Vec<Repair>,
 }
 
-/// A robot as a scene folder in memory.
+/// Robot as a scene folder in memory with the report of its import: the result of [`import`].
 #[derive(Debug)]
 pub struct Imported {
-    /// Fate of every element, comparison, warnings.
+    /// Status of every element of the source, comparison with the scene, warnings.
     pub report: Report,
-    /// Warnings with their places in the source.
+    /// Warnings with their places in the source, in its order.
     pub warnings: Vec<Diagnostic>,
     scene: String,
     experiment: String,
@@ -131,18 +131,21 @@ pub struct Imported {
     verified: Option<verify::Temporary>,
 }
 
-/// Returns true for a file that [`import`] reads, judged by its name.
+/// Returns true for a file that [`import`] reads, by the ending of its name: `.urdf`, `.xacro`, `.sdf`, `.world`,
+/// `.mjcf` or `.xml`, in any case.
 #[must_use]
 pub fn is_robot_file(path: &Path) -> bool {
     let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().to_lowercase());
     [".urdf", ".xacro", ".sdf", ".xml", ".mjcf", ".world"].iter().any(|ending| name.ends_with(ending))
 }
 
-/// Reads a robot and makes a scene folder of it, in memory.
+/// Reads a robot from a URDF, xacro, SDF or MJCF file and makes a scene folder of it, in memory; [`Imported::write`]
+/// writes it. The head of this crate has an example.
 ///
 /// # Errors
 ///
-/// Everything that keeps the robot from being a scene, each with its line.
+/// Everything that keeps the robot from being a scene, each with its file and line: the file cannot be read, is no
+/// robot, refers to what is not there, or has mass properties that no body has.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
     let main = if path.to_string_lossy().to_lowercase().ends_with(".xacro") {
         xacro::expanded(path)?
@@ -226,11 +229,12 @@ impl Imported {
         &self.scene
     }
 
-    /// Writes the scene folder with its report; the folder is made if it is not there.
+    /// Writes the scene folder (scene, experiment, meshes) with the import report as JSON and HTML; the folder is made
+    /// if it does not exist, files of these names are replaced.
     ///
     /// # Errors
     ///
-    /// A file cannot be written or copied.
+    /// A file cannot be written or copied; those before it are there.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         self.write_scene(folder)?;
         std::fs::write(folder.join("import-report.json"), self.report.json())?;

@@ -149,7 +149,7 @@ impl Lines {
     }
 }
 
-/// Fate of an element of the source.
+/// Status of an element or attribute of the source after an import.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ElementStatus {
@@ -223,16 +223,17 @@ impl Ledger {
 /// Reason why the element or attribute (`@name`) of a path of element names is not read.
 pub(crate) type Reason = fn(&[&str]) -> Option<&'static str>;
 
-/// Fate of an element or of an attribute.
+/// Element of the source, or attribute that is not read, with its status: a row of the import
+/// [`Report`](crate::Report).
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Entry {
-    /// File.
+    /// Path of the source file.
     pub file: String,
-    /// Line, counted from 1.
+    /// Line in the source file, from 1.
     pub line: usize,
     /// Path of the element, names in brackets; attributes begin with `@`.
     pub element: String,
-    /// Fate.
+    /// Status after the import.
     pub status: ElementStatus,
     /// Form in the scene, or reason of the loss; empty for what is kept.
     pub words: String,

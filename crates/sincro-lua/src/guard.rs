@@ -37,7 +37,7 @@ const BUDGET_WITHIN_TIME_LIMIT: u64 = 100_000_000;
 static IS_ABORTED: AtomicBool = AtomicBool::new(false);
 
 /// Ends every script that is running in this process, and every one that runs later, at its next check: within a
-/// thousand instructions.
+/// thousand instructions. Their runs stop with an error that says so.
 ///
 /// For a program that is asked to end (Ctrl-C) while a script computes. It may be called from a signal handler's
 /// thread, and cannot be undone.

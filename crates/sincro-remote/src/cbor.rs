@@ -14,12 +14,12 @@ pub use sincro_coppelia::api::cbor::encode;
 
 use crate::limits::DEPTH;
 
-/// Error of decoding CBOR, with the offset of the byte.
+/// Error of [`decode`]: place and reason in the encoded message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CborError {
-    /// Offset from the start of the message.
+    /// Offset from the start of the message `[bytes]`.
     pub at: usize,
-    /// Reason.
+    /// Reason, in words.
     pub what: &'static str,
 }
 
@@ -31,11 +31,23 @@ impl fmt::Display for CborError {
 
 impl std::error::Error for CborError {}
 
-/// The value of a message: all of it.
+/// Decodes a message of the ZeroMQ or WebSocket remote API in CBOR (RFC 8949), which must be one value and nothing
+/// else. Numbers of all widths, indefinite lengths and tags (ignored) are read; `undefined` is nil.
+///
+/// ```
+/// use sincro_coppelia::api::Value;
+/// use sincro_remote::cbor::{decode, encode};
+///
+/// let mut bytes = Vec::new();
+/// encode(&Value::reals([0.5, 1.0]), &mut bytes);
+/// assert_eq!(decode(&bytes)?, Value::reals([0.5, 1.0]));
+/// assert_eq!(decode(&bytes[..3]).unwrap_err().at, 2);
+/// # Ok::<(), sincro_remote::cbor::CborError>(())
+/// ```
 ///
 /// # Errors
 ///
-/// It is cut short, too deep, has something after it, or is not CBOR.
+/// The bytes are cut short, nested deeper than [`DEPTH`], followed by others, or no CBOR; the error has the offset.
 pub fn decode(bytes: &[u8]) -> Result<Value, CborError> {
     let mut reader = Reader { bytes, at: 0 };
     let value = reader.value(0)?;

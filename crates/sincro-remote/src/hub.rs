@@ -24,20 +24,20 @@ const MAX_RUNS: usize = 64;
 
 /// A client, as the hub knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ClientId(u64);
+pub(crate) struct ClientId(u64);
 
-/// Events for the owner of the server.
+/// Event for the owner of a [`Server`](crate::Server), taken from [`Server::events`](crate::Server::events).
 #[derive(Debug)]
 pub enum Event {
-    /// A run has ended.
+    /// A run of the session has ended, with its results.
     Finished(Box<Finished>),
-    /// A line for the terminal: level as in V-REP, and text.
+    /// Message for the operator: verbosity level as in V-REP (200 error, 300 warning, 450 script, 500 info), text.
     Log(i64, String),
 }
 
 /// Options of the hub.
 #[derive(Clone, Debug)]
-pub struct HubOptions {
+pub(crate) struct HubOptions {
     /// True if the simulation runs no faster than the clock when nobody steps it.
     pub real_time: bool,
     /// Time after which a silent client that holds the simulation is released.
@@ -46,9 +46,10 @@ pub struct HubOptions {
     pub deadlines: Deadlines,
 }
 
-/// Session with its attached clients; access is through the lock of the [`Hub`].
+/// Session of a server with its attached clients, for as long as the lock of the [`Hub`] is held: [`Hub::enter`] gives
+/// it.
 pub struct SessionGuard {
-    /// The session.
+    /// Session that all clients act on.
     pub session: Session,
     clients: BTreeMap<ClientId, Client>,
     /// Steps since the run began.
@@ -64,7 +65,7 @@ pub struct SessionGuard {
 }
 
 /// Opens a port that a script asked for; gives the line for the terminal.
-pub type OpenPort = Box<dyn FnMut(u16) -> Result<String, String> + Send>;
+pub(crate) type OpenPort = Box<dyn FnMut(u16) -> Result<String, String> + Send>;
 
 struct Client {
     key: String,
@@ -76,7 +77,8 @@ struct Client {
     connections: u32,
 }
 
-/// The session behind its lock, shared by all clients.
+/// Session of a server behind its lock, shared by all clients, with the rule of when it steps; see
+/// [`Server::hub`](crate::Server::hub).
 pub struct Hub {
     guard: Mutex<SessionGuard>,
     moved: Condvar,
@@ -90,7 +92,7 @@ pub struct Hub {
 impl Hub {
     /// Creates a hub over a session; events go to `events`.
     #[must_use]
-    pub fn new(session: Session, options: HubOptions, events: SyncSender<Event>) -> Arc<Self> {
+    pub(crate) fn new(session: Session, options: HubOptions, events: SyncSender<Event>) -> Arc<Self> {
         let guard = SessionGuard {
             session,
             clients: BTreeMap::new(),
@@ -116,7 +118,8 @@ impl Hub {
         })
     }
 
-    /// Locks the session; waits while another thread holds it, which is a step at most.
+    /// Locks the session for the caller; waits while another thread holds it, which is one step of clients at most. No
+    /// step is made until the result is dropped.
     pub fn enter(&self) -> MutexGuard<'_, SessionGuard> {
         self.waiting.fetch_add(1, Ordering::SeqCst);
         // a panic of another thread is a bug of ours that has been printed; the session is still the best there is
@@ -125,8 +128,8 @@ impl Hub {
         guard
     }
 
-    /// Locks the session if it becomes free within `timeout` (a length of time, in any unit of [`Duration`]): a script
-    /// that does not return may hold it.
+    /// Locks the session as [`Hub::enter`] does, if it becomes free within `timeout`; else none. For callers that must
+    /// not wait for a script that does not return.
     pub fn try_enter(&self, timeout: Duration) -> Option<MutexGuard<'_, SessionGuard>> {
         let begin = Instant::now();
         self.waiting.fetch_add(1, Ordering::SeqCst);
@@ -143,23 +146,23 @@ impl Hub {
     }
 
     /// Wakes the threads that wait for a step; to be called after anything that may allow the simulation to advance.
-    pub fn wake(&self) {
+    pub(crate) fn wake(&self) {
         self.moved.notify_all();
     }
 
     /// Returns true if the server is being closed.
     #[must_use]
-    pub fn is_closing(&self) -> bool {
+    pub(crate) fn is_closing(&self) -> bool {
         self.closing.load(Ordering::SeqCst)
     }
 
     /// Ends the free run and every wait.
-    pub fn close(&self) {
+    pub(crate) fn close(&self) {
         self.closing.store(true, Ordering::SeqCst);
         self.wake();
     }
 
-    /// The connections of all ports.
+    /// Open connections of all ports of the server together.
     #[must_use]
     pub fn connections(&self) -> &Arc<Connections> {
         &self.connections
@@ -167,12 +170,12 @@ impl Hub {
 
     /// Deadlines of connections.
     #[must_use]
-    pub fn deadlines(&self) -> &Deadlines {
+    pub(crate) fn deadlines(&self) -> &Deadlines {
         &self.options.deadlines
     }
 
     /// Detaches a connection of a client; with the last one everything that it holds is released.
-    pub fn detach(&self, id: ClientId) {
+    pub(crate) fn detach(&self, id: ClientId) {
         let mut guard = self.enter();
         let Some(client) = guard.clients.get_mut(&id) else { return };
         client.connections -= 1;
@@ -190,7 +193,7 @@ impl Hub {
     /// # Errors
     ///
     /// The run has ended by itself: why.
-    pub fn step(&self, id: ClientId) -> Result<(), ApiError> {
+    pub(crate) fn step(&self, id: ClientId) -> Result<(), ApiError> {
         let mut guard = self.enter();
         let Some(target) = guard.ask_step(id) else { return Ok(()) };
         let advanced = guard.advance_if_ready();
@@ -210,7 +213,7 @@ impl Hub {
     }
 
     /// The free run, and the watch over silent clients: a thread of its own, until the hub is closed.
-    pub fn run(&self) {
+    pub(crate) fn run(&self) {
         let (mut due, mut watched) = (Instant::now(), Instant::now());
         while !self.is_closing() {
             // waiting threads come first
@@ -273,7 +276,7 @@ impl Hub {
 
 impl SessionGuard {
     /// A connection of the client of a key; connections of the same key are one client.
-    pub fn attach(&mut self, key: &str) -> ClientId {
+    pub(crate) fn attach(&mut self, key: &str) -> ClientId {
         if let Some((id, client)) = self.clients.iter_mut().find(|(_, c)| c.key == key) {
             client.connections += 1;
             return *id;
@@ -286,19 +289,19 @@ impl SessionGuard {
     }
 
     /// Notes a sign of life of a client.
-    pub fn seen(&mut self, id: ClientId) {
+    pub(crate) fn seen(&mut self, id: ClientId) {
         if let Some(client) = self.clients.get_mut(&id) {
             client.last_seen = Instant::now();
         }
     }
 
-    /// Number of clients attached.
+    /// Number of clients that are attached; several connections of one client count once.
     #[must_use]
     pub fn n_clients(&self) -> usize {
         self.clients.len()
     }
 
-    /// Clients that step the simulation.
+    /// Number of clients that step the simulation (`sim.setStepping`, `simxSynchronous`) and for which it waits.
     #[must_use]
     pub fn n_stepping(&self) -> usize {
         self.clients.values().filter(|c| c.level > 0).count()
@@ -306,13 +309,13 @@ impl SessionGuard {
 
     /// Returns true if a client steps the simulation.
     #[must_use]
-    pub fn is_stepping(&self, id: ClientId) -> bool {
+    pub(crate) fn is_stepping(&self, id: ClientId) -> bool {
         self.clients.get(&id).is_some_and(|c| c.level > 0)
     }
 
     /// A client begins to step, or gives it up once; gives the level before. The levels add up as in the official
     /// server.
-    pub fn set_stepping(&mut self, id: ClientId, on: bool) -> u32 {
+    pub(crate) fn set_stepping(&mut self, id: ClientId, on: bool) -> u32 {
         let step = self.step;
         let Some(client) = self.clients.get_mut(&id) else { return 0 };
         let before = client.level;
@@ -329,7 +332,7 @@ impl SessionGuard {
     }
 
     /// A client gives up stepping altogether.
-    pub fn stop_stepping(&mut self, id: ClientId) {
+    pub(crate) fn stop_stepping(&mut self, id: ClientId) {
         if let Some(client) = self.clients.get_mut(&id) {
             client.level = 0;
         }
@@ -337,21 +340,21 @@ impl SessionGuard {
     }
 
     /// While a client holds a lock no step is made.
-    pub fn lock(&mut self, id: ClientId, on: bool) {
+    pub(crate) fn lock(&mut self, id: ClientId, on: bool) {
         if let Some(client) = self.clients.get_mut(&id) {
             client.locks = if on { client.locks.saturating_add(1) } else { client.locks.saturating_sub(1) };
         }
         self.try_advance();
     }
 
-    /// Steps since the run began.
+    /// Number of steps of clients since the run began; after a run has ended, that of this run.
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.step
     }
 
     /// Asks for the next step; the count at which it is done, none if nothing runs.
-    pub fn ask_step(&mut self, id: ClientId) -> Option<u64> {
+    pub(crate) fn ask_step(&mut self, id: ClientId) -> Option<u64> {
         if self.session.phase() != Phase::Running {
             return None;
         }
@@ -377,7 +380,7 @@ impl SessionGuard {
     /// # Errors
     ///
     /// The run has ended by itself.
-    pub fn advance_if_ready(&mut self) -> Result<(), ApiError> {
+    pub(crate) fn advance_if_ready(&mut self) -> Result<(), ApiError> {
         let is_stepped = self.clients.values().any(|c| c.level > 0);
         if is_stepped && self.is_ready() && self.session.phase() == Phase::Running { self.advance() } else { Ok(()) }
     }
@@ -409,12 +412,12 @@ impl SessionGuard {
 
     /// Sets the function that is called with the number of the step, at the start of a run, after every step and at the
     /// end.
-    pub fn on_step(&mut self, publish: Box<dyn FnMut(u64) + Send>) {
+    pub(crate) fn on_step(&mut self, publish: Box<dyn FnMut(u64) + Send>) {
         self.publish = Some(publish);
     }
 
     /// Sets the function that opens ports of the legacy API for scripts, beside those that are open.
-    pub fn on_port(&mut self, ports: LegacyPorts, open: OpenPort) {
+    pub(crate) fn on_port(&mut self, ports: LegacyPorts, open: OpenPort) {
         self.session.set_served(ports);
         self.open_port = Some(open);
     }
@@ -433,11 +436,12 @@ impl SessionGuard {
         }
     }
 
-    /// Does something with the session, and keeps the clients in step with what that did to the run.
+    /// Does something with the session, such as starting or stopping a run, and then releases the clients that waited
+    /// if the run began or ended. Use it in place of [`SessionGuard::session`] for whatever may change the phase.
     ///
     /// # Errors
     ///
-    /// Those of `act`.
+    /// Those of `act`, unchanged.
     pub fn act<T>(&mut self, act: impl FnOnce(&mut Session) -> Result<T, ApiError>) -> Result<T, ApiError> {
         let before = self.session.phase();
         let result = act(&mut self.session);
@@ -447,7 +451,7 @@ impl SessionGuard {
 
     /// Tells all clients of a change of phase, after something was done with the session while it was in phase
     /// `before`.
-    pub fn update_clients(&mut self, before: Phase) {
+    pub(crate) fn update_clients(&mut self, before: Phase) {
         match (before, self.session.phase()) {
             (Phase::Stopped, Phase::Running) => {
                 (self.step, self.failure) = (0, None);

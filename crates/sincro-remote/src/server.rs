@@ -19,25 +19,26 @@ use crate::{legacy, listen, ws, zmq};
 /// Events that wait to be taken.
 const EVENTS: usize = 1_024;
 
-/// Options of the server.
+/// Options of a [`Server`]. By default it serves all three remote APIs on loopback at the ports of V-REP and
+/// CoppeliaSim, as fast as it can.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Address to listen on; the loopback one unless others are to come in.
+    /// Address to listen on; loopback by default, so that no other machine reaches it.
     pub bind: IpAddr,
-    /// Ports of the legacy API; 0 for any free one.
+    /// TCP ports of the legacy API, 0 for any free one; empty: it is not served.
     pub legacy: Vec<u16>,
-    /// Port of the ZeroMQ API, the one after it for version 1; 0 for any free ones.
+    /// TCP port of the ZeroMQ API, the one after it for its version 1, 0 for any free ones; none: it is not served.
     pub zmq: Option<u16>,
-    /// Port of the WebSocket API; 0 for any free one.
+    /// TCP port of the WebSocket API, 0 for any free one; none: it is not served.
     pub ws: Option<u16>,
-    /// True if the simulation runs no faster than the clock when nobody steps it.
+    /// True if the simulation runs no faster than the clock when no client steps it.
     pub real_time: bool,
-    /// Time after which a silent client that holds the simulation is released.
+    /// Time after which a silent client that holds the simulation is released; 10 min by default.
     pub client_timeout: Duration,
-    /// Deadlines of connections.
+    /// Deadlines of connections; one that misses them is closed.
     pub deadlines: Deadlines,
-    /// Lets everybody who reaches the ports of the legacy and the ZeroMQ API in, beyond loopback: their clients have no
-    /// way to show that they may.
+    /// True to serve the legacy and the ZeroMQ API beyond loopback although their clients cannot authenticate: whoever
+    /// reaches the ports may then drive the simulation.
     pub unauthenticated: bool,
 }
 
@@ -88,12 +89,12 @@ impl Options {
     }
 }
 
-/// Error of starting the server.
+/// Error of [`Server::start`]: the first port or option that keeps the server from starting.
 #[derive(Debug)]
 pub struct ServeError {
-    /// Reason, with the port.
+    /// Reason, with the port or address.
     pub message: String,
-    /// Remedy.
+    /// Remedy, with the options of `sincro serve`.
     pub help: String,
 }
 
@@ -105,20 +106,34 @@ impl fmt::Display for ServeError {
 
 impl std::error::Error for ServeError {}
 
-/// The addresses that are listened on.
+/// Addresses (IP address and TCP port) that a [`Server`] listens on; ports that were given as 0 are the ones it got.
 #[derive(Clone, Debug, Default)]
 pub struct Ports {
-    /// Ports of the legacy API.
+    /// Addresses of the legacy API, in the order of the options; empty if it is not served.
     pub legacy: Vec<SocketAddr>,
-    /// Port of the ZeroMQ API.
+    /// Address of the ZeroMQ API; none if it is not served.
     pub zmq: Option<SocketAddr>,
-    /// Port of its step counter, for clients of version 1.
+    /// Address of its step counter, for clients of version 1; none if it is not served.
     pub zmq_steps: Option<SocketAddr>,
-    /// Port of the WebSocket API.
+    /// Address of the WebSocket API; none if it is not served.
     pub ws: Option<SocketAddr>,
 }
 
-/// A server that runs until it is dropped.
+/// Server of the remote APIs of V-REP and CoppeliaSim over one session; it serves in threads of its own until it is
+/// dropped.
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// use sincro_coppelia::session::Session;
+/// use sincro_remote::{Options, Server};
+///
+/// let session = Session::open(&scene, &[], Default::default(), None)?;
+/// // the ZeroMQ API alone, on free ports of loopback
+/// let server = Server::start(session, &Options { legacy: Vec::new(), zmq: Some(0), ws: None, ..Options::default() })?;
+/// assert!(server.ports().zmq.is_some_and(|address| address.ip().is_loopback()));
+/// assert_eq!(server.hub().enter().n_clients(), 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Server {
     hub: Arc<Hub>,
     ports: Ports,
@@ -132,12 +147,13 @@ pub struct Server {
 type ScriptPorts = Arc<Mutex<Vec<(SocketAddr, JoinHandle<()>)>>>;
 
 impl Server {
-    /// Opens the ports and starts to serve.
+    /// Opens the ports and starts to serve a session; the simulation begins when a client starts it.
     ///
     /// # Errors
     ///
-    /// A port cannot be had, or the ports that know no token would be open to other machines without
-    /// [`Options::unauthenticated`]; then nothing is served.
+    /// No port is asked for, a port is in use or not allowed, the address is not one of this machine, no thread can be
+    /// started, or ports without authentication would be open to other machines without [`Options::unauthenticated`].
+    /// Nothing is served then; the error has a remedy.
     pub fn start(session: Session, options: &Options) -> Result<Self, ServeError> {
         options.check()?;
         let open = |port: u16, flag: &str| open(options.bind, port, flag);
@@ -192,25 +208,27 @@ impl Server {
         Ok(Self { hub, ports, ws_guard, threads, script_ports, events })
     }
 
-    /// The addresses that are listened on.
+    /// Addresses that the server listens on.
     #[must_use]
     pub fn ports(&self) -> &Ports {
         &self.ports
     }
 
-    /// Link of the WebSocket API with its token, which pages need everywhere and programs beyond loopback.
+    /// Link of the WebSocket API with its token, `ws://…/?token=…`: pages need the token everywhere, programs beyond
+    /// loopback only. None if that API is not served.
     #[must_use]
     pub fn ws_link(&self) -> Option<String> {
         self.ws_guard.as_ref().map(|guard| guard.link("ws"))
     }
 
-    /// The hub of the clients.
+    /// Session behind its lock, for an owner that looks at it or acts on it beside the clients.
     #[must_use]
     pub fn hub(&self) -> &Arc<Hub> {
         &self.hub
     }
 
-    /// Events: messages, runs that have ended.
+    /// Events for the owner, in their order: messages and runs that have ended. Take them regularly: while 1,024 of
+    /// them wait, further messages are dropped, and of further runs the newest 64 are kept.
     #[must_use]
     pub fn events(&self) -> &Receiver<Event> {
         &self.events

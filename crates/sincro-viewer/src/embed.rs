@@ -1,19 +1,20 @@
 //! The page inside another page: `report.html` opens without a server.
 
 /// The page's program, built from `page/`.
-pub const SCRIPT: &str = include_str!("../page/dist/viewer.js");
+pub(crate) const SCRIPT: &str = include_str!("../page/dist/viewer.js");
 /// Style sheet of the viewer's page.
-pub const STYLE: &str = include_str!("../page/dist/viewer.css");
+pub(crate) const STYLE: &str = include_str!("../page/dist/viewer.css");
 
-/// HTML of a replay with all that it takes to show it.
+/// HTML element that shows a replay, with the viewer's program and style in it, for a page that opens without a server.
+/// `film_json` is the text of [`Replay::to_json`](crate::replay::Replay::to_json).
 #[must_use]
 pub fn replay(film_json: &str) -> String {
     let script = SCRIPT.replace("</script", "<\\/script");
     section(film_json, "", &format!("<style>{STYLE}</style>"), &format!("<script>{script}</script>"))
 }
 
-/// HTML of a replay whose program and style stand in files ([`assets`]) in `folder`, relative to the page: for many
-/// pages that stand together.
+/// HTML element that shows a replay as [`replay`] does, for many pages that stand together: program and style are the
+/// files of [`assets`] in `folder`, a path relative to the page.
 #[must_use]
 pub fn linked_replay(film_json: &str, folder: &str) -> String {
     let lacks = format!(
@@ -36,7 +37,8 @@ fn section(film_json: &str, before: &str, style: &str, script: &str) -> String {
 const SCRIPT_FILE: &str = "viewer.js";
 const STYLE_FILE: &str = "viewer.css";
 
-/// Files that pages with a linked replay need, as names and contents.
+/// Files that pages with a [`linked_replay`] need in its folder: name and content of the program, then of the style
+/// sheet.
 #[must_use]
 pub fn assets() -> [(&'static str, &'static str); 2] {
     [(SCRIPT_FILE, SCRIPT), (STYLE_FILE, STYLE)]
@@ -44,7 +46,7 @@ pub fn assets() -> [(&'static str, &'static str); 2] {
 
 /// JSON that no HTML parser finds a tag in.
 #[must_use]
-pub fn escape_for_html(json: &str) -> String {
+pub(crate) fn escape_for_html(json: &str) -> String {
     json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 

@@ -15,7 +15,7 @@ use sincro_sim::table::Table;
 
 use crate::encoding;
 
-/// Format identifier that the page checks.
+/// Identifier of the format of `replay.json`; replays with another one are refused.
 pub const FORMAT: &str = "sincro-film-2";
 
 /// Bytes that the frames of all runs in a replay may have, before base 64.
@@ -23,10 +23,11 @@ const MAX_FRAME_BYTES: usize = 450_000;
 /// Bytes that the signals of all runs in a replay may have, before base 64.
 const MAX_SIGNAL_BYTES: usize = 450_000;
 
-/// Content of a replay: the scene and its runs, as the page reads them.
+/// Replay of finished runs: scene, frames and signals, as the page of the viewer reads them. [`Replay::of_campaign`]
+/// makes it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Replay {
-    /// [`FORMAT`].
+    /// Identifier of the format, [`FORMAT`].
     pub format: &'static str,
     /// Title of the experiment.
     pub title: String,
@@ -36,15 +37,15 @@ pub struct Replay {
     pub scene: String,
     /// Base step `[s]`.
     pub step: f64,
-    /// Simulated time `[s]`.
+    /// Simulated time that the experiment asks for `[s]`.
     pub duration: f64,
-    /// The scenes of the runs, each once.
+    /// Scenes of the runs (objects and their shapes), each once.
     pub views: Vec<SceneView>,
-    /// Every number of the files.
+    /// Numbers of the scene's files, with path and unit.
     pub properties: Vec<Property>,
     /// Titles and signals of the experiment's plots.
     pub plots: Vec<(String, Vec<String>)>,
-    /// Signals that the experiment records, in its order.
+    /// Names of the signals that the experiment records, in its order.
     pub record: Vec<String>,
     /// The diagram's drawing as SVG, if there is one.
     pub diagram: Option<String>,
@@ -52,57 +53,59 @@ pub struct Replay {
     pub runs: Vec<ReplayRun>,
 }
 
-/// One run of a replay.
+/// Run of a [`Replay`].
 #[derive(Clone, Debug, Serialize)]
 pub struct ReplayRun {
     /// `main`, or the variant's name.
     pub name: String,
-    /// Description of the difference.
+    /// Description of the variant; empty for the main run.
     pub about: String,
     /// Index of its scene in [`Replay::views`].
     pub view: usize,
     /// Reason for an early end; empty if there was none.
     pub stop: String,
-    /// Hash of its states.
+    /// Trace hash of the run (hexadecimal).
     pub trace: String,
-    /// Its frames.
+    /// Positions of everything that moves, at the times of the frames.
     pub frames: Frames,
-    /// Its signals.
+    /// Recorded signals.
     pub signals: Signals,
 }
 
-/// Frames of a run.
+/// Frames of a [`ReplayRun`]. Lists of numbers are little-endian bytes in base 64, of 64 bits (doubles) or 32 bits
+/// (singles).
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Frames {
-    /// Numbers a frame.
+    /// Number of numbers in a frame.
     pub width: usize,
-    /// Times `[s]`: doubles.
+    /// Times of the frames `[s]`, ascending: doubles.
     pub times: String,
-    /// Frames: singles.
+    /// Frames, one after the other, each as in a [`Trajectory`]: singles.
     pub numbers: String,
     /// Number of points of contact of each frame: singles; empty if nothing ever touches.
     pub counts: String,
-    /// The points, [`CONTACT`] singles each.
+    /// Points of contact of all frames, [`CONTACT`] singles each: two surfaces, point `[m]`, force `[N]`, world axes.
     pub contacts: String,
 }
 
-/// Recorded signals of a run.
+/// Recorded signals of a [`ReplayRun`], thinned to a size. Lists of numbers are little-endian doubles in base 64.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Signals {
-    /// Every how many rows of `signals.csv` are here.
+    /// Stride: every how many rows of `signals.csv` one is here; the last row always is.
     pub every: usize,
-    /// Names, units and error bars, `t` left out.
+    /// Name, unit and error bar (in that unit) of each column, the time left out.
     pub columns: Vec<(String, String, Option<f64>)>,
-    /// Times `[s]`: doubles.
+    /// Times of the rows `[s]`.
     pub times: String,
-    /// The columns, one after the other: doubles.
+    /// Values of the columns, one column after the other, in their order and units.
     pub numbers: String,
-    /// Expected values of checks: signal, times and values.
+    /// Expected values of checks: name of the signal, times `[s]`, values in its unit.
     pub references: Vec<(String, String, String)>,
 }
 
 impl Replay {
-    /// Creates the replay of a campaign; `diagram` is its drawing.
+    /// Creates the replay of the main run and the variants of an experiment, in this order; `diagram` is the drawing of
+    /// its block diagram as SVG.
     #[must_use]
     pub fn of_campaign(loaded: &Loaded, campaign: &Campaign, diagram: Option<String>) -> Self {
         let variants = campaign.variants.iter().map(|(v, done)| (v.name.as_str(), v.description.as_str(), done));
@@ -127,7 +130,7 @@ impl Replay {
         }
     }
 
-    /// Text of the replay in JSON, as the page reads it.
+    /// Text of the replay in JSON, the content of `replay.json`.
     #[must_use]
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("plain data has a JSON form")

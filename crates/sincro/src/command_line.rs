@@ -114,8 +114,9 @@ impl From<Exit> for u8 {
     }
 }
 
-/// Runs the command line on its arguments, the first of which is the name of the program, and returns its exit status.
-/// Unlike the rest of this library it prints, and ends the process at a second Ctrl-C.
+/// Runs the command line `sincro` on its arguments, the first of which is the name of the program, and returns the exit
+/// status: 0 done and all checks hold, 1 a check fails, 2 bad input, 3 a run stopped. Unlike the rest of this library
+/// it prints, and ends the process at a second Ctrl-C.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let command = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli.command,

@@ -13,14 +13,14 @@ use sincro_sim::table::Table;
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
-/// Results of a finished run, read back from its folder.
+/// Results of a finished run, read back from its folder for a [`Comparison`].
 #[derive(Clone, Debug)]
 pub struct FinishedRun {
-    /// The folder.
+    /// Folder that holds the files.
     pub folder: PathBuf,
-    /// The content of `run.json`.
+    /// Settings, hashes, checks and signals of the run: the content of `run.json`.
     pub report: RunReport,
-    /// The content of `signals.csv`.
+    /// Recorded signals over time: the content of `signals.csv`.
     pub table: Table,
 }
 
@@ -29,7 +29,7 @@ impl FinishedRun {
     ///
     /// # Errors
     ///
-    /// A file is absent or cannot be read.
+    /// A file is absent, cannot be read, or is not of its format; the error has its path.
     pub fn read(folder: &Path) -> Result<Self, FileError> {
         let folder = find_result(folder);
         let (report, table) = (RunReport::read(&folder)?, Table::read_csv(&folder.join("signals.csv"))?);
@@ -37,32 +37,47 @@ impl FinishedRun {
     }
 }
 
-/// A signal of both runs.
+/// Difference of one signal between two runs, at the rows that both have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// Its path: `/shoulder.position`.
+    /// Path of the signal: `/shoulder.position`.
     pub name: String,
-    /// Its unit.
+    /// Unit of the signal; may be empty.
     pub unit: String,
-    /// First time `[s]` at which the bits differ, with both values; `None`: they are the same everywhere.
+    /// First time `[s]` at which the bits differ, then the values of the first and of the second run, in `unit`;
+    /// `None`: the bits are the same everywhere.
     pub first: Option<(f64, f64, f64)>,
-    /// Greatest difference, in the unit of the signal, and its time `[s]`. Infinite if only one value is not a number.
+    /// Greatest magnitude of the difference, in `unit`, and its time `[s]`. Infinite if only one value is not a number.
     pub greatest: (f64, f64),
 }
 
-/// Two runs, compared at the rows that both have.
+/// Comparison of two finished runs at the rows that both have.
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// # let out = std::env::temp_dir().join(format!("sincro-doc-compare-{}", std::process::id()));
+/// # let loaded = sincro::load(&scene, &[])?;
+/// # let request = sincro::RunRequest { scene: &scene, overrides: &[], loaded: &loaded, index: None };
+/// # request.run(&out, &std::sync::atomic::AtomicBool::new(false), &mut |_, _| {})?;
+/// use sincro::compare::{Comparison, FinishedRun};
+///
+/// let run = FinishedRun::read(&out)?;
+/// assert!(Comparison::of(&run, &run).is_same());
+/// # std::fs::remove_dir_all(&out)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Comparison<'a> {
     first: &'a FinishedRun,
     second: &'a FinishedRun,
     /// The signals that both runs recorded, in the order of the first.
     pub signals: Vec<Difference>,
-    /// Settings, hashes and versions in which the runs differ: name, value of the first, value of the second.
+    /// Settings, hashes and versions in which the runs differ: name, value in the first, value in the second.
     pub settings: Vec<(String, String, String)>,
 }
 
 impl<'a> Comparison<'a> {
-    /// Compares two runs.
+    /// Compares two runs signal by signal, at rows of the same time.
     #[must_use]
     pub fn of(first: &'a FinishedRun, second: &'a FinishedRun) -> Self {
         let signals = compare(&first.table, &second.table, &first.report);
@@ -75,15 +90,15 @@ impl<'a> Comparison<'a> {
         is_same(self.first, self.second, &self.signals)
     }
 
-    /// Result of the comparison in one sentence, without a full stop.
+    /// Result of the comparison in one sentence, without a full stop: where the runs part first, or that they are the
+    /// same.
     #[must_use]
     pub fn verdict(&self) -> String {
         verdict(self.first, self.second, &self.signals)
     }
 
-    /// Page with both replays over each other and a table of the signals, as HTML.
-    ///
-    /// The replay is left out if a folder has none, or one of another version.
+    /// HTML page with both replays over each other and a table of the signals. The replay is left out if a folder has
+    /// none, or one of another version.
     #[must_use]
     pub fn html(&self) -> String {
         let row = |d: &Difference| DifferenceRow {

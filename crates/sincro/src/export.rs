@@ -11,33 +11,33 @@ use sincro_sim::Loaded;
 
 pub use sincro_fmu::{Exported, FmiVersion, Kinds, Outputs};
 
-/// A scene to be exported as an FMU.
+/// Scene to be exported as an FMU, with the choices of the export: the argument of [`export_fmu`].
 #[derive(Debug)]
 pub struct FmuRequest<'a> {
-    /// The loaded scene.
+    /// Loaded scene, from [`load`](crate::load).
     pub loaded: &'a Loaded,
-    /// Settings that it was loaded with.
+    /// Overrides that the scene was loaded with.
     pub overrides: &'a [Override],
-    /// Name of the model.
+    /// Name of the model, usually [`scene_name`](crate::scene_name).
     pub name: &'a str,
-    /// Version of the standard.
+    /// Version of the FMI standard.
     pub version: FmiVersion,
-    /// Interface types.
+    /// Interface types that the FMU offers: co-simulation, model exchange or both.
     pub kinds: Kinds,
     /// Signals that become outputs.
     pub outputs: Outputs,
-    /// Shared libraries; empty for the one beside this program.
+    /// Paths of the shared libraries of `sincro-fmi`, one for each platform; empty for the one beside this program.
     pub binaries: &'a [PathBuf],
-    /// FMUs whose libraries are taken over.
+    /// Paths of FMUs whose libraries are packed too, to serve several platforms.
     pub merged: &'a [PathBuf],
 }
 
-/// Refusal of an export.
+/// Refusal of an export by [`export_fmu`]; nothing is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refused {
-    /// Message.
+    /// Reason, with the file or element concerned.
     pub message: String,
-    /// Advice, if there is any.
+    /// Advice on what to change, if there is any.
     pub help: Option<String>,
 }
 
@@ -47,11 +47,13 @@ impl From<String> for Refused {
     }
 }
 
-/// Packs a scene as an FMU.
+/// Packs a scene as an FMU in memory ([`Exported::bytes`] is the content of the `.fmu` file), with a page of
+/// documentation.
 ///
 /// # Errors
 ///
-/// There is no shared library, or the scene cannot be exported in this way.
+/// There is no shared library beside this program and none is named, a file cannot be read, a library is of an unknown
+/// or a repeated platform, or model exchange is asked for and the scene switches.
 pub fn export_fmu(request: &FmuRequest<'_>) -> Result<Exported, Refused> {
     let FmuRequest { loaded, overrides, name, version, kinds, outputs, .. } = *request;
     let mut libraries = Vec::new();

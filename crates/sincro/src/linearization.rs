@@ -14,12 +14,13 @@ use sincro_sim::table::CsvWriter;
 
 use crate::results::write_text;
 
-/// Writes all files of a linear system into a folder, which is created if it is absent; `reduction` says what was
-/// eliminated before.
+/// Writes a linear system into a folder, which is created if it is absent: `linearization.json`, `bode.csv`,
+/// `step.csv`, `report.html` and the figures as SVG files. `reduction` describes the constraints that were eliminated
+/// before.
 ///
 /// # Errors
 ///
-/// A file cannot be written.
+/// A folder or file cannot be written; the error has its path.
 pub fn write(analysis: &Analysis, reduction: Option<&Reduction>, out: &Path) -> Result<(), FileError> {
     let folder = out.join("figures");
     prepare(out)?;
@@ -104,7 +105,9 @@ struct At {
     value: f64,
 }
 
-/// Text of `linearization.json`: matrices by rows, names and units of states, inputs and outputs, poles, margins.
+/// Text of `linearization.json`: matrices A, B, C, D by rows, names and units of states, inputs and outputs, poles
+/// `[1/s]`, gain margins `[dB]` and phase margins `[°]` at their frequencies `[rad/s]`, and the constraints eliminated
+/// before (`reduction`).
 #[must_use]
 pub fn json(analysis: &Analysis, reduction: Option<&Reduction>) -> String {
     let s = analysis.system;

@@ -26,9 +26,9 @@ pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Diagnostics>
     sincro_sim::load(scene, overrides, extensions())
 }
 
-/// Parts above the lock-step that a scene may need: Lua for its scripts, and the linearisation that warns of loops that
-/// are too fast for their step. Without the feature `adapters` there is no Lua, and scenes with scripts or FMUs are
-/// refused.
+/// Extensions with which [`load`] opens scenes: Lua for scripts, the loader of FMUs, and the linearisation that warns
+/// of control loops that are too fast for their step. Without the feature `adapters` there is neither Lua nor the
+/// loader, and scenes that need them are refused.
 #[must_use]
 pub fn extensions() -> Extensions {
     #[cfg(feature = "adapters")]
@@ -38,7 +38,8 @@ pub fn extensions() -> Extensions {
     Extensions { scripts, fmus, fastest_poles: Some(sincro_analysis::linearize::fastest_poles) }
 }
 
-/// Name of a scene: that of its folder. `path` is the folder or a file in it.
+/// Name of a scene, which results and reports have: that of its folder, or `scene` if that has none. `path` is the
+/// folder or a file in it.
 #[must_use]
 pub fn scene_name(path: &Path) -> String {
     let folder = if path.is_file() { path.parent().unwrap_or(path) } else { path };
@@ -46,11 +47,12 @@ pub fn scene_name(path: &Path) -> String {
     whole.file_name().map_or_else(|| "scene".into(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Index among the objects of a scene of the camera with that path, or with that last part of the path.
+/// Finds a camera by its path or the last part of that: its index in the objects of the scene, for
+/// [`results::write_camera_frames`](crate::results::write_camera_frames).
 ///
 /// # Errors
 ///
-/// The paths of all cameras of the scene, if none has that name.
+/// No camera has that name; the error has the paths of all cameras, in the order of the scene.
 pub fn camera(scene: &Scene, name: &str) -> Result<usize, Vec<String>> {
     let objects = &scene.objects;
     let is_camera = |k: &usize| matches!(objects[*k].kind, ObjectKind::Camera { .. });

@@ -24,31 +24,31 @@ const CARD: (f64, f64) = (320.0, 150.0);
 /// Size of the labelled picture of a report `[px]`.
 const SKETCH: (f64, f64) = (880.0, 420.0);
 
-/// Link to another page.
+/// Link of a page to another one, such as from a report back to its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Link<'a> {
-    /// Text of the link.
+    /// Text of the link, without markup.
     pub label: &'a str,
     /// Address, relative to the page that has the link.
     pub href: &'a str,
 }
 
-/// Writes `report.html`, `replay.json` and the figures as SVG files into a folder of results; `index` is the page that
-/// the report links back to.
+/// Writes `report.html`, `replay.json` and the figures as SVG files of an experiment that was run into the folder
+/// `out`, which must exist; `index` is the page that the report links back to.
 ///
 /// # Errors
 ///
-/// A file cannot be written.
+/// A file cannot be written; the error has its path.
 pub fn write(loaded: &Loaded, campaign: &Campaign, out: &Path, index: Option<Link<'_>>) -> Result<(), FileError> {
     write_with(loaded, campaign, out, index, embed::replay)
 }
 
-/// As [`write()`], for one of many runs whose folders stand beside each other: the program that shows the replays
-/// stands once, above them, and a report is as long as what it shows.
+/// Writes what [`write()`] writes, for one of many runs whose folders stand beside each other: the program that shows
+/// the replays is written once, beside `out`, and the report refers to it.
 ///
 /// # Errors
 ///
-/// A file cannot be written.
+/// A file cannot be written; the error has its path.
 pub fn write_one_of_many(loaded: &Loaded, campaign: &Campaign, out: &Path) -> Result<(), FileError> {
     for (name, content) in embed::assets() {
         let path = out.with_file_name(name);
@@ -81,7 +81,8 @@ fn write_with(
     write_text(&out.join("report.html"), &report::html(&page))
 }
 
-/// Page of a run as HTML, with its replay and the program that shows it.
+/// Report of an experiment that was run as one HTML text that needs no other file, with its replay and the program that
+/// shows it.
 #[must_use]
 pub fn report_html(loaded: &Loaded, campaign: &Campaign) -> String {
     let replay = embed::replay(&replay(loaded, campaign).to_json());
@@ -98,14 +99,15 @@ fn with_sketch(mut page: Page, campaign: &Campaign) -> Page {
     page
 }
 
-/// Replay of a campaign, with the drawing of its diagram.
+/// Replay of an experiment that was run, with the drawing of its block diagram: the content of `replay.json`.
 #[must_use]
 pub fn replay(loaded: &Loaded, campaign: &Campaign) -> Replay {
     let draw = |controller| campaign::diagram(controller, "", &campaign.report.scene, true);
     Replay::of_campaign(loaded, campaign, loaded.controller.as_ref().map(draw))
 }
 
-/// Card of a run for an index of many runs; `href` is the address of its report, relative to the index.
+/// Card of an experiment that was run for an index page of many, with a picture of the scene half way through the run;
+/// `href` is the address of its report, relative to the index.
 #[must_use]
 pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
     let card = campaign::card(loaded, campaign, href);
@@ -119,12 +121,12 @@ fn half_way(campaign: &Campaign) -> String {
     main.simulated.trajectory.as_ref().filter(|trajectory| trajectory.n_frames() > 0).map(still).unwrap_or_default()
 }
 
-/// Writes pictures of a run as SVG files `frames/0001.svg` … into a folder of results: 30 per simulated second, 1800 at
-/// most.
+/// Writes pictures of a run as SVG files `frames/0001.svg` … into the folder `out`: 30 per simulated second, 1800 at
+/// most. Nothing if the run has no trajectory.
 ///
 /// # Errors
 ///
-/// A file cannot be written.
+/// A file cannot be written; the error has its path.
 pub fn write_frames(done: &CompletedRun, out: &Path) -> Result<(), FileError> {
     let Some(trajectory) = &done.simulated.trajectory else { return Ok(()) };
     let folder = out.join("frames");
@@ -135,12 +137,13 @@ pub fn write_frames(done: &CompletedRun, out: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Writes pictures of a run, taken by a camera of the scene, as PNG files `frames/0001.png` …; `camera` is its index
-/// among the objects (see [`camera`](crate::camera)).
+/// Writes pictures of a run, taken by a camera of the scene, as PNG files `frames/0001.png` … into the folder `out`: 30
+/// per simulated second, 1800 at most. `camera` is its index in the objects of the scene (see
+/// [`camera`](crate::camera)); nothing if it is none or the run has no trajectory.
 ///
 /// # Errors
 ///
-/// A file cannot be written.
+/// A file cannot be written; the error has its path.
 pub fn write_camera_frames(loaded: &Loaded, done: &CompletedRun, camera: usize, out: &Path) -> Result<(), FileError> {
     let Some(trajectory) = &done.simulated.trajectory else { return Ok(()) };
     let resolution = [FRAME.0 as usize, FRAME.1 as usize];
@@ -156,21 +159,21 @@ pub fn write_camera_frames(loaded: &Loaded, done: &CompletedRun, camera: usize, 
     Ok(())
 }
 
-/// Writes a run as an MCAP file, for Foxglove, Lichtblick or Rerun.
+/// Writes a run as an MCAP file at `path`, for Foxglove, Lichtblick or Rerun. A file that is there is replaced.
 ///
 /// # Errors
 ///
-/// The file cannot be written.
+/// The file cannot be written; the error has its path.
 #[cfg(feature = "adapters")]
 pub fn write_mcap(done: &CompletedRun, path: &Path) -> Result<(), FileError> {
     sincro_viewer::mcap::write(done, path)
 }
 
-/// Writes a text file, whole or not at all.
+/// Writes a text file, whole or not at all: a file of that name that is there is replaced at once or stays as it was.
 ///
 /// # Errors
 ///
-/// The file cannot be written.
+/// The file cannot be written; the error has its path.
 pub fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
     file::write_atomically(path, text.as_bytes())
 }

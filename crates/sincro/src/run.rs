@@ -17,10 +17,10 @@ use sincro_sim::run::{RunError, RunMonitor, RunOptions, Simulated};
 
 use crate::results::{Link, write};
 
-/// An experiment to be run.
+/// Experiment to be run, with its results to be written: [`RunRequest::run`] does both.
 #[derive(Clone, Copy, Debug)]
 pub struct RunRequest<'a> {
-    /// The scene folder that `loaded` was read from: variants and sweep points are read from it again.
+    /// Path of the scene folder that `loaded` was read from: variants and sweep points are read from it again.
     pub scene: &'a Path,
     /// The overrides that `loaded` was read with.
     pub overrides: &'a [Override],
@@ -100,12 +100,13 @@ impl RunRequest<'_> {
         Ok(campaign)
     }
 
-    /// As [`run`](Self::run), into a folder that is there, such as the [path](ResultFolder::path) of a
-    /// [`ResultFolder`] to which more is then added before it is published.
+    /// Runs the experiment as [`run`](Self::run) does, into a folder that exists, such as the
+    /// [path](ResultFolder::path) of a [`ResultFolder`] to which more is then added before it is published.
     ///
     /// # Errors
     ///
-    /// See [`RunFailure`].
+    /// [`RunFailure::Diagnostics`], [`RunFailure::Recording`] or [`RunFailure::Results`]; what was written stays in the
+    /// folder.
     pub fn run_into(&self, out: &Path, interrupt: &AtomicBool, progress: Progress<'_>) -> Result<Campaign, RunFailure> {
         let Self { scene, overrides, loaded, .. } = *self;
         let mut campaign = run_campaign(scene, overrides, loaded, Some(out), interrupt, progress)?;
@@ -147,17 +148,20 @@ fn mark_references(campaign: &mut Campaign, loaded: &Loaded, overrides: &[Overri
     }
 }
 
-/// Runs the main run of an experiment in memory: no variants, no sweep, no checks, no files.
+/// Runs the main run of an experiment in memory: no variants, no sweep, no checks, no files. The head of this crate has
+/// an example.
 ///
 /// # Errors
 ///
-/// A recorded signal does not exist. A run that stops is not an error: see [`Simulated::status`].
+/// [`RunFailure::Diagnostics`]: a recorded signal does not exist. A run that stops is not an error: see
+/// [`Simulated::status`].
 pub fn simulate(loaded: &Loaded) -> Result<Simulated, RunFailure> {
     let mut watch = RunMonitor { interrupt: &AtomicBool::new(false), progress: &mut |_| {} };
     Ok(sincro_sim::run::simulate(loaded, RunOptions::default(), &mut watch)?)
 }
 
-/// Judgement of a run with its variants and its sweep.
+/// Judgement of an experiment that was run, over the main run, its variants and its sweep; the exit status of
+/// `sincro run` follows from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// All checks hold, and the audit has no findings.
@@ -169,7 +173,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Judges all runs of a campaign; the worst of them counts.
+    /// Judges all runs of an experiment; the worst of them counts, and a stop is worse than a check that fails.
     #[must_use]
     pub fn of(campaign: &Campaign) -> Self {
         let report = &campaign.report;

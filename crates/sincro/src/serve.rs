@@ -22,20 +22,21 @@ pub use sincro_remote::{Options, Server};
 use crate::load::extensions;
 use crate::results;
 
-/// Opens a scene for clients, stopped. A step of a client lasts `sample_time` `[s]`, or `simulation_step` of the
-/// experiment.
+/// Opens a scene for clients, stopped, for [`Server::start`]. A step of a client lasts `sample_time` `[s]`, or
+/// `simulation_step` of the experiment for none.
 ///
 /// # Errors
 ///
-/// All problems of the scene and the overrides, or a sample time that is no whole multiple of the base step.
+/// All problems of the scene and the overrides, each with its place in the file, or a sample time that is no whole
+/// multiple of the base step.
 pub fn open(scene: &Path, overrides: &[Override], sample_time: Option<f64>) -> Result<Session, Diagnostics> {
     Session::open(scene, overrides, extensions(), sample_time)
 }
 
-/// Extent of what is kept of a run that clients made.
+/// Extent of the results that a [`RunArchive`] keeps of a run that clients made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ArchiveLevel {
-    /// Nothing.
+    /// Nothing is written.
     None,
     /// `signals.csv` and `run.json`.
     Signals,
@@ -44,8 +45,8 @@ pub enum ArchiveLevel {
     Full,
 }
 
-/// Folders `run-1`, `run-2` … of the runs that clients made, the newest ones kept. Folders that were there before are
-/// neither written into nor deleted: numbers go on behind them.
+/// Archive of the runs that clients made, in folders `run-1`, `run-2` …, of which the newest are kept. Folders that
+/// were there before are neither written into nor deleted: numbers go on behind them.
 #[derive(Debug)]
 pub struct RunArchive {
     out: PathBuf,
@@ -58,27 +59,29 @@ pub struct RunArchive {
     kept: VecDeque<PathBuf>,
 }
 
-/// Outcome of [`RunArchive::store`].
+/// Outcome of [`RunArchive::store`] for one run.
 #[derive(Debug)]
 pub struct ArchivedRun {
-    /// Number of the run among those of this recorder, from 1.
+    /// Number of the run among those of this archive, from 1.
     pub number: usize,
-    /// File to look at first; none if nothing is kept.
+    /// File to look at first, the report or the signals; none if nothing is kept.
     pub path: Option<PathBuf>,
 }
 
 impl RunArchive {
-    /// RunArchive into folders below `out`; of the runs that it stores the newest `keep` stay.
+    /// Creates an archive in folders below `out`; of the runs that it stores the newest `keep` stay. Nothing is written
+    /// yet.
     #[must_use]
     pub fn new(out: PathBuf, record: ArchiveLevel, keep: NonZeroUsize) -> Self {
         Self { out, record, keep: keep.get(), n_runs: 0, next: 1, kept: VecDeque::new() }
     }
 
-    /// Judges a run, writes it into the next free folder and deletes the oldest of its own that is too many.
+    /// Judges a run, writes it into the next free folder and deletes the oldest folder of this archive beyond those to
+    /// be kept.
     ///
     /// # Errors
     ///
-    /// A file cannot be written, or the oldest folder not be deleted.
+    /// A file cannot be written, or the oldest folder cannot be deleted; the error has the path.
     pub fn store(&mut self, finished: &Finished) -> Result<ArchivedRun, FileError> {
         self.n_runs += 1;
         let number = self.n_runs;
@@ -113,8 +116,8 @@ fn file_error(error: FolderError) -> FileError {
     }
 }
 
-/// The first of `received`, `received-2` … below a folder of which nothing is there: files of an earlier server are not
-/// those of this one's clients.
+/// Path for the files that clients send: the first of `received`, `received-2` … below `out` that does not exist, so
+/// that files of an earlier server do not mix with those of this one's clients. It is not created.
 #[must_use]
 pub fn received_folder(out: &Path) -> PathBuf {
     let name = |k: usize| if k == 1 { "received".to_owned() } else { format!("received-{k}") };

@@ -16,12 +16,12 @@ pub use sincro_viewer::server::{Server, ViewerContent};
 use crate::load::{extensions, load, scene_name};
 use crate::run::RunRequest;
 
-/// Reason why a folder cannot be shown as a finished run.
+/// Error of [`replay`]: a folder cannot be shown as a finished run.
 #[derive(Debug)]
 pub struct ReplayError {
-    /// Description of the failure, the file named.
+    /// Reason, with the path of the file.
     pub message: String,
-    /// A way to mend it.
+    /// Remedy, in words.
     pub help: &'static str,
 }
 
@@ -33,7 +33,8 @@ impl fmt::Display for ReplayError {
 
 impl std::error::Error for ReplayError {}
 
-/// Returns true if a folder holds a finished run, or numbered ones, and no scene.
+/// Returns true if a folder holds a finished run, or numbered ones, and no scene: show it with [`replay`], else with
+/// [`live`].
 #[must_use]
 pub fn is_finished_run(folder: &Path) -> bool {
     find_result(folder).join("replay.json").is_file() && !folder.join("experiment.toml").is_file()
@@ -44,7 +45,7 @@ pub fn is_finished_run(folder: &Path) -> bool {
 ///
 /// # Errors
 ///
-/// The folder has no `replay.json`, or one of another version.
+/// The folder has no `replay.json`, or one of another version of the format; the error has a remedy.
 pub fn replay(run: &Path) -> Result<ViewerContent, ReplayError> {
     let file = find_result(run).join("replay.json");
     let text = std::fs::read_to_string(&file).map_err(|e| ReplayError {
@@ -58,11 +59,12 @@ pub fn replay(run: &Path) -> Result<ViewerContent, ReplayError> {
     Ok(ViewerContent::Replay(text.into()))
 }
 
-/// Starts a live run of a scene, stopped at its start, to be given to [`Server::bind`]. It lives as long as the result.
+/// Starts a live run of a scene, paused at its start, to be given to [`Server::bind`]. Its thread ends when the result
+/// is dropped.
 ///
 /// # Errors
 ///
-/// All problems of the scene and the overrides.
+/// All problems of the scene and the overrides, each with its place in the file.
 pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<ViewerContent, Diagnostics> {
     let world = scene_name(scene);
     let draw = Box::new(move |controller: &_| campaign::diagram(controller, "", &world, true));
@@ -75,11 +77,12 @@ pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<ViewerContent, Dia
 }
 
 /// Writes a live run into the next numbered folder of its scene below `results`, as `sincro run` does: the run is
-/// computed again from the files and settings, and has the same trace hash. Returns a sentence with its path.
+/// computed again from the files and settings. Returns a sentence with the path of the report, and whether the trace
+/// hash is the same.
 ///
 /// # Errors
 ///
-/// A sentence: the scene does not load any more, a file cannot be written, the files were changed in the meantime.
+/// A sentence: the scene does not load any more, or a file cannot be written.
 pub fn keep(scene: &Path, results: &Path, kept: &KeptRun) -> Result<String, String> {
     let mut settings = kept.settings.clone();
     if let Some(duration) = kept.duration {
@@ -105,11 +108,11 @@ pub fn keep(scene: &Path, results: &Path, kept: &KeptRun) -> Result<String, Stri
     }
 }
 
-/// Path of a camera of what is shown, named by its path or by the last part of that.
+/// Finds a camera of what is shown by its path or the last part of that, and returns its path.
 ///
 /// # Errors
 ///
-/// The paths of all cameras, if none has that name.
+/// No camera has that name; the error has the paths of all cameras, in the order of the scene.
 pub fn camera(show: &ViewerContent, name: &str) -> Result<String, Vec<String>> {
     let cameras = show.cameras();
     let found = cameras.iter().find(|path| *path == name || path.rsplit('/').next() == Some(name));

@@ -10,11 +10,11 @@ use super::registry::{Handle, Kind};
 use super::{ApiError, SimApi};
 
 impl SimApi<'_> {
-    /// Mass, centre of mass and inertia of a body, in its frame.
+    /// Mass `[kg]`, centre of mass `[m]` and inertia about it `[kg·m²]` of a body, in the axes of the body's frame.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is no body.
+    /// `handle` is no object of the registry, or is no body (a runtime shape has no mass); the message names it.
     pub fn mass(&self, handle: Handle) -> Result<MassProperties, ApiError> {
         let entry = self.registry.entry(handle)?;
         match entry.kind {
@@ -31,11 +31,12 @@ impl SimApi<'_> {
         Ok(Attached { pose: frame.pose.compose(&Pose::translation(Vec3(mass.center_of_mass))), ..frame })
     }
 
-    /// Velocity of a body's centre of mass [m/s] and its angular velocity [rad/s], world axes.
+    /// Velocity of a body's centre of mass `[m/s]` and its angular velocity `[rad/s]`, in this order, both as x, y, z
+    /// in world axes.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is no body.
+    /// `handle` is no object of the registry, or is no body; the message names it.
     pub fn center_velocity(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), ApiError> {
         let center = self.center(handle)?;
         let twist = self.twist(&center);
@@ -48,7 +49,12 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such body, a run is on, it is not carried by a free joint of its own, or the number is not finite.
-    pub fn set_initial_velocity(&mut self, handle: Handle, component: usize, value: f64) -> Result<(), ApiError> {
+    pub(crate) fn set_initial_velocity(
+        &mut self,
+        handle: Handle,
+        component: usize,
+        value: f64,
+    ) -> Result<(), ApiError> {
         self.mass(handle)?;
         let entry = self.registry.entry(handle)?.clone();
         if self.is_running() {
@@ -82,23 +88,23 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Pushes on a body's centre of mass over the coming step: force `[N]` and torque [N·m], world axes. What is added
-    /// before the step adds up; it is removed after it.
+    /// Applies a force `[N]` at a body's centre of mass and a torque `[N·m]` over the coming step of clients, both as
+    /// x, y, z in world axes. Forces of several calls add up; they are removed after the step.
     ///
     /// # Errors
     ///
-    /// There is no such object, it is no body, no run is on, or a number is not finite.
+    /// `handle` is no object or no body, no run is on (start it first), or a number is not finite.
     pub fn add_force_and_torque(&mut self, handle: Handle, force: [f64; 3], torque: [f64; 3]) -> Result<(), ApiError> {
         let center = self.center(handle)?;
         self.push(&center, Vec3(force), Vec3(torque))
     }
 
-    /// Pushes on a point of a body over the coming step: point `[m]` and force `[N]` in the body's frame as it stands
-    /// now.
+    /// Applies a force `[N]` at a point `[m]` of a body over the coming step of clients, both as x, y, z in the axes of
+    /// the body's frame as it stands now. It adds to those of [`SimApi::add_force_and_torque`].
     ///
     /// # Errors
     ///
-    /// As [`SimApi::add_force_and_torque`].
+    /// `handle` is no object or no body, no run is on (start it first), or a number is not finite.
     pub fn add_force(&mut self, handle: Handle, point: [f64; 3], force: [f64; 3]) -> Result<(), ApiError> {
         self.mass(handle)?;
         let frame = self.registry.entry(handle)?.frame;

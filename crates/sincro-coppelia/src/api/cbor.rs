@@ -3,7 +3,9 @@
 
 use super::Value;
 
-/// Writes a value onto the end of `out`.
+/// Appends a value to `out` as CBOR (RFC 8949), the binary encoding of the ZeroMQ and WebSocket remote APIs. Lengths
+/// are definite, numbers [`Value::Real`] have 64 bits, whole numbers the shortest form; bytes that are in `out` already
+/// stay.
 pub fn encode(value: &Value, out: &mut Vec<u8>) {
     match value {
         Value::Nil => out.push(0xf6),

@@ -31,7 +31,7 @@ impl ObjectRegistry {
 
     /// Differences from the scene.
     #[must_use]
-    pub fn changes(&self) -> &[Change] {
+    pub(crate) fn changes(&self) -> &[Change] {
         &self.changes
     }
 }
@@ -48,12 +48,13 @@ impl SimApi<'_> {
         self.registry.keep_change(Change { t, object, quantity, value })
     }
 
-    /// Gives a body other mass properties, in its own frame. While a run is on it keeps its velocity, and the energy
-    /// that this gives or takes is work.
+    /// Gives a body another mass `[kg]`, centre of mass `[m]` and inertia about it `[kg·m²]`, in the axes of the body's
+    /// frame. While a run is on the body keeps its velocity, and the energy that this adds or removes counts as work.
     ///
     /// # Errors
     ///
-    /// There is no such body, it is fixed in the world, or nothing has such a mass.
+    /// `handle` is no body or is fixed in the world, the mass is not positive, a number is not finite, or no rigid body
+    /// has such an inertia (a negative principal moment, or one larger than the sum of the others).
     pub fn set_mass(&mut self, handle: Handle, mass: MassProperties) -> Result<(), ApiError> {
         self.mass(handle)?;
         let entry = self.registry.entry(handle)?;
@@ -77,7 +78,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such body.
-    pub fn mass_scaled(&self, handle: Handle, mass: f64) -> Result<MassProperties, ApiError> {
+    pub(crate) fn mass_scaled(&self, handle: Handle, mass: f64) -> Result<MassProperties, ApiError> {
         let old = self.mass(handle)?;
         let factor = mass / old.mass;
         Ok(MassProperties { mass, inertia: old.inertia.map(|i| i * factor), ..old })
@@ -88,7 +89,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such body, it has no solids or a mesh, or the density is not positive.
-    pub fn mass_at_density(&self, handle: Handle, density: f64) -> Result<MassProperties, ApiError> {
+    pub(crate) fn mass_at_density(&self, handle: Handle, density: f64) -> Result<MassProperties, ApiError> {
         self.mass(handle)?;
         if !(density.is_finite() && density > 0.0) {
             return Err(ApiError(format!("density {density} kg/m³ is not positive")));
@@ -105,7 +106,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such joint, it has no stops in the scene, they are not in order, or the joint stands beyond them.
-    pub fn set_joint_interval(&mut self, handle: Handle, lower: f64, upper: f64) -> Result<(), ApiError> {
+    pub(crate) fn set_joint_interval(&mut self, handle: Handle, lower: f64, upper: f64) -> Result<(), ApiError> {
         let joint = self.registry.joint(handle)?;
         let (dof, q) = (joint.v_idx, self.world.state.q[joint.q_idx]);
         let path = self.registry.entry(handle)?.path.clone();
@@ -129,7 +130,7 @@ impl SimApi<'_> {
     ///
     /// There is no such joint, the scene couples it with no other or another one, a number is not finite, or a run is
     /// on and the joint stands elsewhere.
-    pub fn set_joint_dependency(
+    pub(crate) fn set_joint_dependency(
         &mut self,
         handle: Handle,
         master: Handle,
@@ -167,11 +168,12 @@ impl SimApi<'_> {
         self.change(handle, "coupling", vec![factor, offset])
     }
 
-    /// Sets gravity [m/s²], world axes. While a run is on, the energy that this gives or takes is work.
+    /// Sets the acceleration of gravity `[m/s²]` as x, y, z in world axes. While a run is on, the energy that this adds
+    /// or removes counts as work.
     ///
     /// # Errors
     ///
-    /// A number is not finite.
+    /// A number is not finite, or the model was changed 10,000 times already; gravity is then as it was.
     pub fn set_gravity(&mut self, gravity: [f64; 3]) -> Result<(), ApiError> {
         if !gravity.iter().all(|x| x.is_finite()) {
             return Err(ApiError(format!("gravity {gravity:?} is not finite")));
@@ -189,7 +191,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such body, or it has no contact in the scene.
-    pub fn is_respondable(&self, handle: Handle) -> Result<bool, ApiError> {
+    pub(crate) fn is_respondable(&self, handle: Handle) -> Result<bool, ApiError> {
         self.mass(handle)?;
         Ok(self.can_touch(handle).is_ok() && !self.registry.passing.contains(&handle))
     }
@@ -199,7 +201,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such body, or it has no contact in the scene.
-    pub fn set_respondable(&mut self, handle: Handle, touches: bool) -> Result<(), ApiError> {
+    pub(crate) fn set_respondable(&mut self, handle: Handle, touches: bool) -> Result<(), ApiError> {
         self.mass(handle)?;
         self.can_touch(handle)?;
         self.change(handle, "respondable", vec![f64::from(u8::from(touches))])?;

@@ -12,7 +12,7 @@ const MAX_ITEMS: usize = 10_000;
 
 /// Objects that a rule of a collection selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Item {
+pub(crate) enum Item {
     /// Every object, those that are made later, too.
     All,
     /// One object.
@@ -25,7 +25,7 @@ pub enum Item {
 
 /// A set of objects: rules that add and take away, one after the other, resolved at each use.
 #[derive(Clone, Debug, Default)]
-pub struct Collection {
+pub(crate) struct Collection {
     name: String,
     /// True if it adds.
     items: Vec<(Item, bool)>,
@@ -48,7 +48,7 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// There are too many.
-    pub fn create_collection(&mut self, name: &str) -> Result<Handle, ApiError> {
+    pub(crate) fn create_collection(&mut self, name: &str) -> Result<Handle, ApiError> {
         let all = &mut self.senses.collections;
         if all.len() >= MAX_COLLECTIONS {
             return Err(ApiError(format!("there are {MAX_COLLECTIONS} collections already: destroy some")));
@@ -58,14 +58,15 @@ impl ObjectRegistry {
         Ok(handle)
     }
 
-    /// The collection of a name.
+    /// Returns the handle of the first collection (a set of objects that a client or script has put together) with a
+    /// name; none if there is none.
     #[must_use]
     pub fn collection_named(&self, name: &str) -> Option<Handle> {
         let found = self.senses.collections.iter().find(|(_, c)| !c.name.is_empty() && c.name == name);
         found.map(|(handle, _)| *handle)
     }
 
-    /// Returns true if a handle is one of a collection.
+    /// Returns true if a handle is that of a collection; handles of objects are smaller than those of collections.
     #[must_use]
     pub fn is_collection(&self, handle: Handle) -> bool {
         self.senses.collections.contains_key(&handle)
@@ -81,7 +82,7 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// There is no such collection, or it has too many rules.
-    pub fn add_to_collection(&mut self, handle: Handle, item: Item, adds: bool) -> Result<(), ApiError> {
+    pub(crate) fn add_to_collection(&mut self, handle: Handle, item: Item, adds: bool) -> Result<(), ApiError> {
         let collection = self.collection(handle)?;
         if collection.items.len() >= MAX_ITEMS {
             return Err(ApiError(format!("a collection has {MAX_ITEMS} items at most: empty it")));
@@ -95,7 +96,7 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// There is no such collection.
-    pub fn empty_collection(&mut self, handle: Handle) -> Result<(), ApiError> {
+    pub(crate) fn empty_collection(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.collection(handle)?.items.clear();
         Ok(())
     }
@@ -105,17 +106,17 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// There is no such collection.
-    pub fn remove_collection(&mut self, handle: Handle) -> Result<(), ApiError> {
+    pub(crate) fn remove_collection(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.collection(handle)?;
         self.senses.collections.remove(&handle);
         Ok(())
     }
 
-    /// The objects of a collection, in their order.
+    /// Handles of the objects that belong to a collection now, in ascending order, each once.
     ///
     /// # Errors
     ///
-    /// There is no such collection.
+    /// `handle` is no collection, or one that was removed.
     pub fn collected(&self, handle: Handle) -> Result<Vec<Handle>, ApiError> {
         let found = self.senses.collections.get(&handle);
         let collection =
@@ -143,23 +144,24 @@ impl ObjectRegistry {
     }
 }
 
-/// Object, collection or everything, where a function accepts any of them.
+/// Object, collection or whole scene, where a function of the API accepts any of them; [`SimApi::entity`] makes it of a
+/// handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entity {
-    /// Everything.
+    /// All objects of the registry.
     All,
-    /// An object.
+    /// One object, without what hangs on it.
     Object(Handle),
-    /// A collection.
+    /// The objects of a collection, resolved at each use.
     Collection(Handle),
 }
 
 impl SimApi<'_> {
-    /// Entity of a handle: an object, a collection, or all for −2.
+    /// Resolves a handle to what it stands for: an object, a collection, or, for −2 (`sim.handle_all`), everything.
     ///
     /// # Errors
     ///
-    /// It is none of them.
+    /// `handle` is neither −2 nor the handle of an object or a collection that exists.
     pub fn entity(&self, handle: Handle) -> Result<Entity, ApiError> {
         Ok(match handle {
             Handle(-2) => Entity::All,

@@ -8,7 +8,8 @@ use std::sync::OnceLock;
 
 use super::program;
 
-/// Name without `sim.` (or `sim_`), and value, of every constant, each name once.
+/// Constants of the API that clients and scripts see as `sim.NAME`, each name once: the name without `sim.` (or `sim_`)
+/// and its value, a number without unit: a code, handle or bit mask.
 pub fn constants() -> impl Iterator<Item = (&'static str, i64)> {
     static FURTHER: OnceLock<Vec<(&'static str, i64)>> = OnceLock::new();
     let further = FURTHER.get_or_init(|| {
@@ -226,11 +227,11 @@ const CONSTANTS: &[(&str, i64)] = &[
 
 /// Flag that a client adds to the first handle of a call about poses: the reference is the joint's frame on the side of
 /// its parent.
-pub const HANDLE_JOINT_BASE: i32 = 0x0040_0000;
+pub(crate) const HANDLE_JOINT_BASE: i32 = 0x0040_0000;
 /// Flag that a client adds to the first handle of a call about poses: quaternions are in the order w, x, y, z.
-pub const HANDLE_WXYZ: i32 = 0x0100_0000;
+pub(crate) const HANDLE_WXYZ: i32 = 0x0100_0000;
 /// Bound of handles: all bits from it on are flags.
-pub const HANDLE_FLAGS: i32 = 0x0010_0000;
+pub(crate) const HANDLE_FLAGS: i32 = 0x0010_0000;
 
 #[cfg(test)]
 mod tests {

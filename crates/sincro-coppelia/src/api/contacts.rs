@@ -5,16 +5,16 @@ use sincro_dynamics::spatial::Vec3;
 use super::registry::{Handle, Kind};
 use super::{ApiError, SimApi};
 
-/// A point where two bodies press on each other.
+/// Point at which two bodies press on each other at the present instant, as [`SimApi::contact_points`] finds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
-    /// The two bodies; the force is on the first one.
+    /// Handles of the two bodies; the force acts on the first one, its opposite on the second.
     pub bodies: [Handle; 2],
-    /// Position `[m]`, world axes.
+    /// Position of the point `[m]`: x, y, z in the world frame.
     pub point: Vec3<f64>,
-    /// `[N]`, world axes.
+    /// Contact force, normal and friction `[N]`: x, y, z in world axes.
     pub force: Vec3<f64>,
-    /// From the second body to the first.
+    /// Unit normal from the second body to the first (dimensionless): x, y, z in world axes.
     pub normal: Vec3<f64>,
 }
 
@@ -26,7 +26,8 @@ impl SimApi<'_> {
         self.moved();
     }
 
-    /// All points of contact that press now.
+    /// Points of contact that carry a force now, the same order for the same state. Contact forces are brought up to
+    /// date with the present positions and velocities first.
     pub fn contact_points(&mut self) -> Vec<ContactPoint> {
         self.observe();
         let colliders = &self.world.model().constraints().colliders;
@@ -43,7 +44,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, or it cannot.
-    pub fn can_touch(&self, handle: Handle) -> Result<(), ApiError> {
+    pub(crate) fn can_touch(&self, handle: Handle) -> Result<(), ApiError> {
         let path = &self.registry.entry(handle)?.path;
         let mut colliders = self.world.model().constraints().colliders.iter();
         if colliders.any(|c| c.name == *path) {
@@ -52,12 +53,13 @@ impl SimApi<'_> {
         Err(ApiError(format!("`{path}` touches nothing: give the body `contact = {{ … }}` in the scene")))
     }
 
-    /// Load of a force sensor: force `[N]` and torque [N·m] of what it carries on what carries it, in its own axes, as
-    /// V-REP has it.
+    /// Load of a force sensor (a fixed joint with `force_sensor = true`): force `[N]`, then torque `[N·m]`, each as x,
+    /// y, z in the axes of the joint. They act from what the joint carries on what carries it, the sign that V-REP
+    /// reports.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is no force sensor.
+    /// `handle` is no object of the registry, or is no force sensor.
     pub fn force_sensor(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), ApiError> {
         let entry = self.registry.entry(handle)?;
         let Kind::ForceSensor(first) = entry.kind else {

@@ -8,7 +8,15 @@ use sincro_math::elementary::{asin, atan2, sin_cos};
 /// |sin β| above which α and γ cannot be told apart; the others then have it so.
 const GIMBAL: f64 = 0.999_995;
 
-/// α, β, γ `[rad]` of a rotation.
+/// Euler angles α, β, γ `[rad]` of a rotation `R = Rx(α) Ry(β) Rz(γ)`, the convention of V-REP; β is within ±π/2. Where
+/// cos β is almost zero, α and γ cannot be told apart: α is then 0.
+///
+/// ```
+/// use sincro_coppelia::api::convention::{euler_of, rotation_of_euler};
+///
+/// let angles = euler_of(&rotation_of_euler([0.1, -0.2, 0.3]));
+/// assert!(angles.iter().zip([0.1, -0.2, 0.3]).all(|(got, want)| (got - want).abs() < 1e-15));
+/// ```
 #[must_use]
 pub fn euler_of(rot: &Mat3<f64>) -> [f64; 3] {
     let m = &rot.0;
@@ -20,21 +28,22 @@ pub fn euler_of(rot: &Mat3<f64>) -> [f64; 3] {
     }
 }
 
-/// Rotation Rx(α)·Ry(β)·Rz(γ) of three angles `[rad]`.
+/// Rotation matrix `R = Rx(α) Ry(β) Rz(γ)` (3 × 3) of the Euler angles α, β, γ `[rad]`, in this order.
 #[must_use]
 pub fn rotation_of_euler(angles: [f64; 3]) -> Mat3<f64> {
     let [(sa, ca), (sb, cb), (sc, cc)] = angles.map(sin_cos);
     Mat3::rotation::<0>(sa, ca).mul(&Mat3::rotation::<1>(sb, cb)).mul(&Mat3::rotation::<2>(sc, cc))
 }
 
-/// Unit quaternion of a rotation, dimensionless, in the order x, y, z, w.
+/// Unit quaternion (dimensionless) of a rotation, in the order x, y, z, w of the remote APIs.
 #[must_use]
 pub fn quaternion_of(rot: &Mat3<f64>) -> [f64; 4] {
     let q = Quat::from_matrix(rot);
     [q.xyz[0], q.xyz[1], q.xyz[2], q.w]
 }
 
-/// The rotation of x, y, z, w, brought to length one; none if it has no direction or is not finite.
+/// Rotation matrix (3 × 3) of a quaternion x, y, z, w, which need not have length one; none if a number is not finite
+/// or the length is below 10⁻¹⁰.
 #[must_use]
 pub fn rotation_of_quaternion([x, y, z, w]: [f64; 4]) -> Option<Mat3<f64>> {
     let square = x * x + y * y + z * z + w * w;
@@ -42,7 +51,8 @@ pub fn rotation_of_quaternion([x, y, z, w]: [f64; 4]) -> Option<Mat3<f64>> {
     usable.then(|| Quat { w, xyz: Vec3([x, y, z]) }.normalized().matrix())
 }
 
-/// Twelve numbers of a pose: the upper 3×4 part of its matrix, row by row; the last column is the position `[m]`.
+/// Upper 3 × 4 part `[R | p]` of the homogeneous matrix of a pose, row by row: entries 0–2, 4–6, 8–10 are the rotation,
+/// entries 3, 7 and 11 the position `[m]`.
 #[must_use]
 pub fn matrix_of(pose: &Pose<f64>) -> [f64; 12] {
     let (r, p) = (&pose.rot.0, &pose.pos);
@@ -51,28 +61,28 @@ pub fn matrix_of(pose: &Pose<f64>) -> [f64; 12] {
 
 /// Pose of the twelve numbers of [`matrix_of`], positions in `[m]`; the rotation is taken as it is given.
 #[must_use]
-pub fn pose_of_matrix(m: &[f64; 12]) -> Pose<f64> {
+pub(crate) fn pose_of_matrix(m: &[f64; 12]) -> Pose<f64> {
     let rot = Mat3([[m[0], m[1], m[2]], [m[4], m[5], m[6]], [m[8], m[9], m[10]]]);
     Pose { rot, pos: Vec3([m[3], m[7], m[11]]) }
 }
 
 /// Seven numbers of a pose: position `[m]`, then the quaternion x, y, z, w.
 #[must_use]
-pub fn numbers_of_pose(pose: &Pose<f64>) -> [f64; 7] {
+pub(crate) fn numbers_of_pose(pose: &Pose<f64>) -> [f64; 7] {
     let (p, q) = (&pose.pos, quaternion_of(&pose.rot));
     [p[0], p[1], p[2], q[0], q[1], q[2], q[3]]
 }
 
 /// Pose of seven numbers, position `[m]` and quaternion x, y, z, w; none if the quaternion has no direction.
 #[must_use]
-pub fn pose_of_numbers([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Option<Pose<f64>> {
+pub(crate) fn pose_of_numbers([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Option<Pose<f64>> {
     let rot = rotation_of_quaternion([qx, qy, qz, qw])?;
     Some(Pose { rot, pos: Vec3([x, y, z]) })
 }
 
 /// The shortest rotation that takes z to a direction: V-REP's joints turn about their own z.
 #[must_use]
-pub fn rotation_to(axis: [f64; 3]) -> Mat3<f64> {
+pub(crate) fn rotation_to(axis: [f64; 3]) -> Mat3<f64> {
     let a = Vec3(axis);
     let a = a.scale(1.0 / a.norm());
     if a[2] < -1.0 + 1e-12 {

@@ -12,14 +12,14 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 use super::senses::handle_of;
 use super::{ApiError, Entity, Handle, Kind, SimApi};
 
-/// The closest points of two entities.
+/// Result of a distance query of two entities: the closest pair of points, as [`SimApi::distance`] finds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceResult {
-    /// `[m]`; 0 if they meet.
+    /// Distance of the two points `[m]`; 0 if the surfaces meet or overlap.
     pub distance: f64,
-    /// On the first and the second, in the world `[m]`.
+    /// Closest point of the first entity and of the second `[m]`: x, y, z in the world frame.
     pub points: [Vec3<f64>; 2],
-    /// The objects that they are on.
+    /// Handles of the objects that the two points lie on, first and second.
     pub objects: [Handle; 2],
 }
 
@@ -55,12 +55,12 @@ impl SimApi<'_> {
         Ok(parts)
     }
 
-    /// The closest points of two entities, if they are within `most` `[m]`. All means everything that has a shape and
-    /// is not part of the other.
+    /// Minimum distance of two entities at the present instant; none if it exceeds `most` `[m]`. [`Entity::All`] stands
+    /// for everything that has a shape and does not belong to the other entity.
     ///
     /// # Errors
     ///
-    /// One of them was removed, or is an object without shape that is no point either.
+    /// An entity was removed, or is an object without shape that is no point either (a joint, a force).
     pub fn distance(&mut self, one: Entity, two: Entity, most: f64) -> Result<Option<DistanceResult>, ApiError> {
         let (mut first, mut second) = (self.parts(one)?, self.parts(two)?);
         match (one, two) {
@@ -97,11 +97,12 @@ impl SimApi<'_> {
         Ok(best)
     }
 
-    /// Two bodies, one of each entity, that press on each other or whose surfaces meet.
+    /// Finds two objects, one of each entity and in this order, that press on each other or whose surfaces meet; none
+    /// if there are none.
     ///
     /// # Errors
     ///
-    /// One of them was removed, or is an object without shape.
+    /// An entity was removed, or is an object without shape.
     pub fn collision(&mut self, one: Entity, two: Entity) -> Result<Option<[Handle; 2]>, ApiError> {
         for entity in [one, two] {
             if let Entity::Object(object) = entity

@@ -19,23 +19,37 @@ struct Element {
     among: Option<usize>,
 }
 
-/// Options of a search for an object.
+/// Options of [`ObjectRegistry::find`]. The default is that of a client: no calling object, the first match.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Search {
-    /// Start of `.` and `..`: the object of the calling script.
+    /// Object of the calling script, at which the relative paths `.` and `..` start; none for clients.
     pub from: Option<Handle>,
-    /// Which match is wanted, from 0.
+    /// Match that is wanted of several, counted from 0; `{i}` in the path wins over it.
     pub index: usize,
-    /// True if a path without a leading sign is one all the same, below this object.
+    /// Object below which a path without a leading sign is searched; none: such a text is a name of V-REP.
     pub below: Option<Handle>,
 }
 
 impl ObjectRegistry {
-    /// The object of a name or path.
+    /// Finds an object by a path (`/arm/joint2`, `./link`, `../gripper`) or by a name of V-REP (`joint`, `joint#0`).
+    /// Levels of a path may be skipped; `[i]` and `{i}` pick among several matches, `*` and `?` match any characters.
+    ///
+    /// ```
+    /// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+    /// use sincro_coppelia::api::Search;
+    /// use sincro_coppelia::session::Session;
+    ///
+    /// let mut session = Session::open(&scene, &[], sincro_sim::Extensions::default(), None)?;
+    /// let first = session.registry().entries().next().expect("a scene has objects").clone();
+    /// assert_eq!(session.registry().find(&first.path, Search::default())?, first.handle);
+    /// assert!(session.registry().find("/no-such-object", Search::default()).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// There is none; the message names the nearest.
+    /// No object has that path or name (the message names the nearest), the path cannot be read, is longer than 1,000
+    /// bytes, or is relative although no script asks.
     pub fn find(&self, text: &str, search: Search) -> Result<Handle, ApiError> {
         if text.len() > MAX_PATH_LEN {
             return Err(ApiError(format!("a path of {} bytes is longer than {MAX_PATH_LEN}", text.len())));

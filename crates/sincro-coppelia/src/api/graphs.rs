@@ -11,7 +11,7 @@ const MAX_LABEL_LEN: usize = 100;
 
 /// A stream of a graph.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stream {
+pub(crate) struct Stream {
     graph: Handle,
     /// Its number in the graph, from 1: stays when others go.
     number: i64,
@@ -30,7 +30,7 @@ pub struct Stream {
 
 /// The streams of all graphs.
 #[derive(Clone, Debug, Default)]
-pub struct Graphs {
+pub(crate) struct Graphs {
     streams: Vec<Stream>,
     /// Streams whose past is to be forgotten.
     cleared: Vec<usize>,
@@ -39,7 +39,7 @@ pub struct Graphs {
 impl Graphs {
     /// All streams, in the order in which they were made; those of a run stay until the next one.
     #[must_use]
-    pub fn streams(&self) -> &[Stream] {
+    pub(crate) fn streams(&self) -> &[Stream] {
         &self.streams
     }
 
@@ -66,7 +66,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, there are too many streams, or the name is none.
-    pub fn add_stream(&mut self, graph: Handle, name: &str, unit: &str) -> Result<i64, ApiError> {
+    pub(crate) fn add_stream(&mut self, graph: Handle, name: &str, unit: &str) -> Result<i64, ApiError> {
         let path = self.registry.entry(graph)?.path.clone();
         let is_plain = |text: &str| text.len() <= MAX_LABEL_LEN && !text.chars().any(char::is_control);
         if name.is_empty() || !is_plain(name) || !is_plain(unit) {
@@ -104,7 +104,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object or stream.
-    pub fn set_stream(&mut self, graph: Handle, number: i64, value: f64) -> Result<(), ApiError> {
+    pub(crate) fn set_stream(&mut self, graph: Handle, number: i64, value: f64) -> Result<(), ApiError> {
         let stream = self.stream(graph, number)?;
         stream.value = stream.factor * value + stream.offset;
         Ok(())
@@ -115,7 +115,12 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object or stream, or a number is not finite.
-    pub fn scale_stream(&mut self, graph: Handle, number: i64, (factor, offset): (f64, f64)) -> Result<(), ApiError> {
+    pub(crate) fn scale_stream(
+        &mut self,
+        graph: Handle,
+        number: i64,
+        (factor, offset): (f64, f64),
+    ) -> Result<(), ApiError> {
         if !(factor.is_finite() && offset.is_finite()) {
             return Err(ApiError(format!("factor {factor} and offset {offset}, expected numbers")));
         }
@@ -129,7 +134,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object.
-    pub fn clear_graph(&mut self, graph: Option<Handle>) -> Result<(), ApiError> {
+    pub(crate) fn clear_graph(&mut self, graph: Option<Handle>) -> Result<(), ApiError> {
         if let Some(graph) = graph {
             self.registry.entry(graph)?;
         }

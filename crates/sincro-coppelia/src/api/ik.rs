@@ -34,19 +34,19 @@ const MAX_TRANSLATION_STEP: f64 = 0.1;
 const LEAST_DAMPING: f64 = 1e-12;
 
 /// Bit of the constraint on the position along x; combined with others in the constraints of an element.
-pub const X: i64 = 1;
+pub(crate) const X: i64 = 1;
 /// Bit of the constraint on the position along y.
-pub const Y: i64 = 2;
+pub(crate) const Y: i64 = 2;
 /// Bit of the constraint on the position along z.
-pub const Z: i64 = 4;
+pub(crate) const Z: i64 = 4;
 /// The z axis of the tip is that of the target.
-pub const ALPHA_BETA: i64 = 8;
+pub(crate) const ALPHA_BETA: i64 = 8;
 /// With it, x and y axes are, too.
-pub const GAMMA: i64 = 16;
+pub(crate) const GAMMA: i64 = 16;
 
 /// Groups that are solved together with nothing else.
 #[derive(Clone, Debug, Default)]
-pub struct Environment {
+pub(crate) struct Environment {
     groups: Vec<Group>,
     /// Positions of joints that differ from those of the scene `[rad]` or `[m]`.
     pub(super) positions: BTreeMap<Handle, f64>,
@@ -56,7 +56,7 @@ pub struct Environment {
 
 /// Elements that are solved together.
 #[derive(Clone, Debug)]
-pub struct Group {
+pub(crate) struct Group {
     /// Empty for none.
     name: String,
     /// λ; 0 for the pseudo-inverse.
@@ -71,7 +71,7 @@ pub struct Group {
 
 /// A tip and its target.
 #[derive(Clone, Debug)]
-pub struct Element {
+pub(crate) struct Element {
     /// Base of the chain; none: the world.
     pub base: Option<Handle>,
     /// Tip of the chain (end effector).
@@ -95,7 +95,7 @@ pub struct Element {
 impl Element {
     /// An element with the precision `[m]`, `[rad]` and weights that CoppeliaSim begins with.
     #[must_use]
-    pub fn new(base: Option<Handle>, tip: Handle, target: Handle, constraints: i64) -> Self {
+    pub(crate) fn new(base: Option<Handle>, tip: Handle, target: Handle, constraints: i64) -> Self {
         let precision = [0.0005, 0.1 * std::f64::consts::PI / 180.0];
         let (weights, axes_of) = ([1.0; 2], None);
         Self { base, tip, target, constraints, precision, weights, axes_of, is_enabled: true, goal: None }
@@ -104,7 +104,7 @@ impl Element {
 
 /// Result of solving a group.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// True if all elements are within their precision.
     pub is_reached: bool,
     /// True if a joint ended at a limit.
@@ -128,7 +128,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There are too many.
-    pub fn create_environment(&mut self) -> Result<usize, ApiError> {
+    pub(crate) fn create_environment(&mut self) -> Result<usize, ApiError> {
         let free =
             self.registry.environments.iter().position(Option::is_none).unwrap_or(self.registry.environments.len());
         if free >= MAX_COUNT {
@@ -146,7 +146,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is none of that number.
-    pub fn erase_environment(&mut self, environment: i64) -> Result<(), ApiError> {
+    pub(crate) fn erase_environment(&mut self, environment: i64) -> Result<(), ApiError> {
         self.environment(environment)?;
         self.registry.environments[environment as usize] = None;
         Ok(())
@@ -163,7 +163,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such environment, it has too many, or one of the name (empty for none).
-    pub fn create_group(&mut self, environment: i64, name: &str) -> Result<usize, ApiError> {
+    pub(crate) fn create_group(&mut self, environment: i64, name: &str) -> Result<usize, ApiError> {
         let groups = &mut self.environment(environment)?.groups;
         if groups.len() >= MAX_COUNT {
             return Err(ApiError(format!("there are {MAX_COUNT} groups already")));
@@ -183,21 +183,12 @@ impl SimApi<'_> {
         Ok(groups.len() - 1)
     }
 
-    /// Number of groups of an environment.
-    ///
-    /// # Errors
-    ///
-    /// There is no such environment.
-    pub fn group_count(&mut self, environment: i64) -> Result<usize, ApiError> {
-        Ok(self.environment(environment)?.groups.len())
-    }
-
     /// Environment and number of the group of a name, in an environment or in any.
     ///
     /// # Errors
     ///
     /// There is none.
-    pub fn group_of_name(&self, environment: Option<i64>, name: &str) -> Result<(i64, i64), ApiError> {
+    pub(crate) fn group_of_name(&self, environment: Option<i64>, name: &str) -> Result<(i64, i64), ApiError> {
         self.named_groups()
             .find(|(e, _, known)| environment.is_none_or(|wanted| wanted == *e) && *known == name)
             .map(|(e, group, _)| (e, group))
@@ -208,7 +199,7 @@ impl SimApi<'_> {
     }
 
     /// Environment, number and name of all groups with names.
-    pub fn named_groups(&self) -> impl Iterator<Item = (i64, i64, &str)> {
+    pub(crate) fn named_groups(&self) -> impl Iterator<Item = (i64, i64, &str)> {
         let environments = self.registry.environments.iter().enumerate();
         let groups = environments.flat_map(|(e, environment)| {
             environment.iter().flat_map(move |environment| {
@@ -230,7 +221,13 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such group, or a number makes no sense.
-    pub fn set_calculation(&mut self, environment: i64, group: i64, damping: f64, n: i64) -> Result<(), ApiError> {
+    pub(crate) fn set_calculation(
+        &mut self,
+        environment: i64,
+        group: i64,
+        damping: f64,
+        n: i64,
+    ) -> Result<(), ApiError> {
         if !(damping.is_finite() && damping >= 0.0 && (1..=MAX_ITERATIONS).contains(&n)) {
             let expected = format!("damping 0 or more, 1 to {MAX_ITERATIONS} iterations");
             return Err(ApiError(format!("damping {damping} and {n} iterations, expected {expected}")));
@@ -245,7 +242,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such group or object, no joint lies between base and tip, or the constraints make no sense.
-    pub fn add_element(&mut self, environment: i64, group: i64, element: Element) -> Result<usize, ApiError> {
+    pub(crate) fn add_element(&mut self, environment: i64, group: i64, element: Element) -> Result<usize, ApiError> {
         self.registry.entry(element.tip)?;
         self.registry.entry(element.target)?;
         self.check_element(&element)?;
@@ -275,7 +272,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such environment, group or element.
-    pub fn element(&mut self, environment: i64, group: i64, number: i64) -> Result<&mut Element, ApiError> {
+    pub(crate) fn element(&mut self, environment: i64, group: i64, number: i64) -> Result<&mut Element, ApiError> {
         let elements = &mut self.group(environment, group)?.elements;
         let found = usize::try_from(number).ok().and_then(|k| elements.get_mut(k));
         found.ok_or_else(|| ApiError(format!("there is no element {number} in the group")))
@@ -288,7 +285,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such group, it has no elements, or an object of it was removed.
-    pub fn handle_group(
+    pub(crate) fn handle_group(
         &mut self,
         environment: i64,
         group: i64,
@@ -316,7 +313,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such environment, or a joint of it was removed.
-    pub fn sync_to_scene(&mut self, environment: i64) -> Result<(), ApiError> {
+    pub(crate) fn sync_to_scene(&mut self, environment: i64) -> Result<(), ApiError> {
         let positions = std::mem::take(&mut self.environment(environment)?.positions);
         positions.into_iter().try_for_each(|(joint, q)| self.apply(joint, q))
     }
@@ -326,7 +323,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such environment.
-    pub fn sync_from_scene(&mut self, environment: i64) -> Result<(), ApiError> {
+    pub(crate) fn sync_from_scene(&mut self, environment: i64) -> Result<(), ApiError> {
         self.environment(environment)?.positions.clear();
         Ok(())
     }
@@ -336,7 +333,11 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// As [`SimApi::handle_group`].
-    pub fn solve_group(&mut self, environment: i64, group: i64) -> Result<(Outcome, Vec<(Handle, f64)>), ApiError> {
+    pub(crate) fn solve_group(
+        &mut self,
+        environment: i64,
+        group: i64,
+    ) -> Result<(Outcome, Vec<(Handle, f64)>), ApiError> {
         let group = self.enabled(environment, group)?;
         self.inside(environment, &group, |sim, ik_joints| {
             let outcome = sim.solve(&group, ik_joints)?;

@@ -29,7 +29,11 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such group, or it has no elements.
-    pub fn group_jacobian(&mut self, environment: i64, group: i64) -> Result<(Vec<Vec<f64>>, Vec<f64>), ApiError> {
+    pub(crate) fn group_jacobian(
+        &mut self,
+        environment: i64,
+        group: i64,
+    ) -> Result<(Vec<Vec<f64>>, Vec<f64>), ApiError> {
         let group = self.enabled(environment, group)?;
         self.inside(environment, &group, |sim, joints| sim.rows(&group.elements, &in_order(joints)))
     }
@@ -39,7 +43,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// As [`SimApi::group_jacobian`].
-    pub fn group_joints(&mut self, environment: i64, group: i64) -> Result<Vec<Handle>, ApiError> {
+    pub(crate) fn group_joints(&mut self, environment: i64, group: i64) -> Result<Vec<Handle>, ApiError> {
         let group = self.enabled(environment, group)?;
         self.inside(environment, &group, |_, joints| Ok(in_order(joints).iter().map(|joint| joint.handle).collect()))
     }
@@ -49,7 +53,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// As [`SimApi::group_jacobian`].
-    pub fn manipulability(&mut self, environment: i64, group: i64) -> Result<f64, ApiError> {
+    pub(crate) fn manipulability(&mut self, environment: i64, group: i64) -> Result<f64, ApiError> {
         let (rows, _) = self.group_jacobian(environment, group)?;
         let largest = rows.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
         let l = cholesky(&rows, 0.0);
@@ -66,7 +70,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such group, it has no elements, or it does not move one of the joints.
-    pub fn find_configurations(
+    pub(crate) fn find_configurations(
         &mut self,
         (environment, group): (i64, i64),
         joints: &[Handle],
@@ -110,7 +114,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such group, no element of it has the tip, or it does not move one of the joints.
-    pub fn generate_path(
+    pub(crate) fn generate_path(
         &mut self,
         (environment, group): (i64, i64),
         joints: &[Handle],

@@ -15,21 +15,23 @@ use super::{ApiError, SimApi};
 const POSITION_GAIN: f64 = 20.0;
 
 impl SimApi<'_> {
-    /// Position `[rad]` or `[m]`; of a joint that turns without end within (−π, π], as in V-REP.
+    /// Position of a joint with one coordinate: `[rad]`, `[m]` if it is prismatic. That of a revolute joint without
+    /// limits is brought into (−π, π], as in V-REP.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or no joint with exactly one coordinate (a rotor has a speed only); the message names it.
     pub fn joint_position(&self, handle: Handle) -> Result<f64, ApiError> {
         let q = self.world.state.q[self.registry.joint(handle)?.q_idx];
         Ok(if self.joint_interval(handle)?.0 { within_a_turn(q) } else { q })
     }
 
-    /// Puts a joint somewhere, its velocity kept `[rad]` or `[m]`.
+    /// Puts a joint with one coordinate at a position, `[rad]` or, if it is prismatic, `[m]`, at once; its velocity
+    /// stays. For a motor's setpoint use [`SimApi::set_target_position`].
     ///
     /// # Errors
     ///
-    /// There is no such joint, or the number is not finite.
+    /// `handle` is no object or no joint with one coordinate, or the position is not finite.
     pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> Result<(), ApiError> {
         let q_idx = self.registry.joint(handle)?.q_idx;
         self.world.state.q[q_idx] = finite(position, "position")?;
@@ -37,11 +39,11 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Velocity of a joint of one coordinate `[rad/s]` or `[m/s]`.
+    /// Velocity of a joint with one coordinate, or speed of a rotor: `[rad/s]`, `[m/s]` if it is prismatic.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or neither a joint with one coordinate nor a rotor.
     pub fn joint_velocity(&self, handle: Handle) -> Result<f64, ApiError> {
         if let Some(rotor) = self.rotor(handle)? {
             return Ok(self.rotor_speed(rotor));
@@ -49,11 +51,12 @@ impl SimApi<'_> {
         Ok(self.world.state.v[self.registry.joint(handle)?.v_idx])
     }
 
-    /// Sets the velocity of a joint [rad/s] or [m/s].
+    /// Sets the velocity of a joint with one coordinate, `[rad/s]` or, if it is prismatic, `[m/s]`, at once; its
+    /// position stays. For a motor's setpoint use [`SimApi::set_target_velocity`].
     ///
     /// # Errors
     ///
-    /// There is no such joint, or the number is not finite.
+    /// `handle` is no object or no joint with one coordinate, or the velocity is not finite.
     pub fn set_joint_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), ApiError> {
         let v_idx = self.registry.joint(handle)?.v_idx;
         self.world.state.v[v_idx] = finite(velocity, "velocity")?;
@@ -61,12 +64,13 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// The force that V-REP reports [N·m] or `[N]`: **minus** the mean effort of the motor over the last step. None
-    /// before the first step, and for a joint without motor.
+    /// Force or torque that V-REP reports for a joint: **minus** the mean effort of its motor over the last step of
+    /// clients, `[N·m]` or, if it is prismatic, `[N]`. None before the first step of a run, and for a joint without
+    /// motor.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or no joint with one coordinate.
     pub fn joint_force(&self, handle: Handle) -> Result<Option<f64>, ApiError> {
         let joint = self.registry.joint(handle)?;
         let Some(motor) = joint.motor else { return Ok(None) };
@@ -79,15 +83,15 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_motor(&self, handle: Handle) -> Result<Option<Motor<f64>>, ApiError> {
+    pub(crate) fn joint_motor(&self, handle: Handle) -> Result<Option<Motor<f64>>, ApiError> {
         Ok(self.registry.joint(handle)?.drive)
     }
 
-    /// Mode of the motor; `free` without one.
+    /// Mode of the motor of a joint: [`MotorMode::Free`] without motor, [`MotorMode::Velocity`] for a rotor.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or neither a joint with one coordinate nor a rotor.
     pub fn joint_mode(&self, handle: Handle) -> Result<MotorMode, ApiError> {
         if self.rotor(handle)?.is_some() {
             return Ok(MotorMode::Velocity);
@@ -95,11 +99,12 @@ impl SimApi<'_> {
         Ok(self.joint_motor(handle)?.map_or(MotorMode::Free, |m| m.mode))
     }
 
-    /// Changes the mode of a motor; its targets are kept.
+    /// Changes the mode of the motor of a joint; targets of all modes are kept for when it changes back. A motor that
+    /// becomes a position motor and has no gain gets 20 1/s.
     ///
     /// # Errors
     ///
-    /// There is no such joint, or it has no motor.
+    /// `handle` is no object or no joint with one coordinate, or the joint has no motor (give it one in the scene).
     pub fn set_joint_mode(&mut self, handle: Handle, mode: MotorMode) -> Result<(), ApiError> {
         self.change_motor(handle, |motor| {
             motor.mode = mode;
@@ -115,7 +120,11 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such joint, it has no motor, or a number is negative or not a number.
-    pub fn change_motor(&mut self, handle: Handle, change: impl FnOnce(&mut Motor<f64>)) -> Result<(), ApiError> {
+    pub(crate) fn change_motor(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut Motor<f64>),
+    ) -> Result<(), ApiError> {
         let joint = self.registry.joint_mut(handle)?;
         let (Some(index), Some(mut motor)) = (joint.motor, joint.drive) else { return Err(self.without_motor(handle)) };
         change(&mut motor);
@@ -128,12 +137,12 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Commanded velocity of a joint [rad/s] or [m/s]: by a client or script, else by the scene; 0 if its motor takes
-    /// no velocity.
+    /// Velocity setpoint of a joint or rotor, `[rad/s]` or, if it is prismatic, `[m/s]`: that of a client or script,
+    /// else that of the scene; 0 if the motor is not in velocity mode and nobody has set one.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or neither a joint with one coordinate nor a rotor.
     pub fn target_velocity(&self, handle: Handle) -> Result<f64, ApiError> {
         if let Some(rotor) = self.rotor(handle)? {
             return Ok(self.rotor_target(rotor));
@@ -142,11 +151,12 @@ impl SimApi<'_> {
         Ok(joint.target_velocity.unwrap_or_else(|| self.commanded(joint, MotorMode::Velocity)))
     }
 
-    /// Tells a joint its velocity [rad/s] or [m/s].
+    /// Sets the velocity setpoint of a joint's motor or of a rotor, `[rad/s]` or, if the joint is prismatic, `[m/s]`.
+    /// It acts from the next step on; a motor in another mode keeps it for when its mode changes.
     ///
     /// # Errors
     ///
-    /// There is no such joint, it has no motor, or the number is not finite.
+    /// `handle` is no object or no joint with one coordinate, the joint has no motor, or the velocity is not finite.
     pub fn set_target_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), ApiError> {
         if let Some(rotor) = self.rotor(handle)? {
             return self.set_rotor_target(rotor, finite(velocity, "target velocity")?);
@@ -155,11 +165,12 @@ impl SimApi<'_> {
         self.command(handle)
     }
 
-    /// Commanded position of a joint `[rad]` or `[m]`.
+    /// Position setpoint of a joint, `[rad]` or, if it is prismatic, `[m]`: that of a client or script, else that of
+    /// the scene; 0 if the motor is neither in position nor in spring mode and nobody has set one.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or no joint with one coordinate.
     pub fn target_position(&self, handle: Handle) -> Result<f64, ApiError> {
         let joint = self.registry.joint(handle)?;
         let of_scene = || match joint.drive.map(|m| m.mode) {
@@ -169,22 +180,23 @@ impl SimApi<'_> {
         Ok(joint.target_position.unwrap_or_else(of_scene))
     }
 
-    /// Tells a joint its position `[rad]` or `[m]`.
+    /// Sets the position setpoint of a joint's motor, `[rad]` or, if the joint is prismatic, `[m]`. It acts from the
+    /// next step on; a motor that is neither in position nor in spring mode keeps it for when its mode changes.
     ///
     /// # Errors
     ///
-    /// There is no such joint, it has no motor, or the number is not finite.
+    /// `handle` is no object or no joint with one coordinate, the joint has no motor, or the position is not finite.
     pub fn set_target_position(&mut self, handle: Handle, position: f64) -> Result<(), ApiError> {
         self.joint_with_motor(handle)?.target_position = Some(finite(position, "target position")?);
         self.command(handle)
     }
 
-    /// Effort of a motor in torque mode, else the largest effort that it may use [N·m] or `[N]`; infinite without
-    /// limit.
+    /// Effort setpoint of a motor in torque mode, else the largest effort that the motor may use: `[N·m]`, `[N]` if the
+    /// joint is prismatic. Infinite for a motor without limit, 0 for a joint without motor.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or no joint with one coordinate.
     pub fn target_force(&self, handle: Handle) -> Result<f64, ApiError> {
         let joint = self.registry.joint(handle)?;
         Ok(match joint.drive {
@@ -196,12 +208,13 @@ impl SimApi<'_> {
         })
     }
 
-    /// Tells a motor in torque mode its effort, any other the largest effort that it may use [N·m] or `[N]`. If it is
-    /// not `signed` (V-REP before 4.3), the effort has the direction of the target velocity.
+    /// Sets the effort of a motor in torque mode, or else the largest effort that the motor may use (its absolute
+    /// value): `[N·m]`, `[N]` if the joint is prismatic. In torque mode, unless `signed` (V-REP before 4.3), the effort
+    /// takes the sign of the target velocity.
     ///
     /// # Errors
     ///
-    /// There is no such joint, it has no motor, or the number is not finite.
+    /// `handle` is no object or no joint with one coordinate, the joint has no motor, or the effort is not finite.
     pub fn set_target_force(&mut self, handle: Handle, force: f64, signed: bool) -> Result<(), ApiError> {
         let force = finite(force, "force")?;
         let joint = self.joint_with_motor(handle)?;
@@ -215,12 +228,13 @@ impl SimApi<'_> {
         self.command(handle)
     }
 
-    /// Interval of a joint: true if it is cyclic, its lower limit and its range `[rad]` or `[m]`; infinite where there
-    /// is no stop.
+    /// Range of a joint: true if it is cyclic (revolute and without limits), then its lower limit and the length of its
+    /// range, both `[rad]` or, if it is prismatic, `[m]`. Infinite where there is no limit; a cyclic joint has −π and
+    /// 2π.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object, or no joint with one coordinate.
     pub fn joint_interval(&self, handle: Handle) -> Result<(bool, [f64; 2]), ApiError> {
         let joint = self.registry.joint(handle)?;
         let limits = &self.world.model().constraints().limits;
@@ -242,7 +256,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such joint.
-    pub fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, ApiError> {
+    pub(crate) fn joint_dependency(&self, handle: Handle) -> Result<Option<(Handle, f64, f64)>, ApiError> {
         let joint = self.registry.joint(handle)?;
         let mut couplings = self.world.model().constraints().gears.iter();
         let Some(coupling) = couplings.find(|c| c.dofs[1] == joint.v_idx) else { return Ok(None) };

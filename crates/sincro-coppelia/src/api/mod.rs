@@ -20,7 +20,7 @@ mod error;
 mod find;
 pub mod functions;
 mod graphs;
-pub mod ik;
+mod ik;
 mod ik_search;
 mod joints;
 mod lens;
@@ -35,7 +35,7 @@ mod registry;
 mod rotors;
 mod runtime_objects;
 mod senses;
-pub mod shapes;
+mod shapes;
 mod signals;
 mod sim_api;
 mod stored;
@@ -44,30 +44,30 @@ mod unpack;
 mod value;
 mod vision;
 
-pub use collections::{Collection, Entity, Item};
+pub use collections::Entity;
+pub(crate) use collections::Item;
 pub use contacts::ContactPoint;
 pub use distances::DistanceResult;
 pub use error::ApiError;
 pub use find::Search;
-pub use graphs::{Graphs, Stream};
-pub use motions::{Motion, MotionStep};
+pub(crate) use motions::Motion;
 pub use pairs::ContactOverride;
 pub use ports::LegacyPorts;
-pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry, Request};
+pub(crate) use registry::Request;
+pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry};
 pub use signals::Signals;
 pub use sim_api::{Reference, SimApi};
-pub use stored::{Form, Stored, check_name};
+pub use stored::check_name;
 pub use value::{Arguments, Value};
-pub use vision::Sensors;
 
 pub use sincro_dynamics::spatial::{Pose, Vec3};
 
-/// State of a simulation.
+/// State of the simulation of a session, as clients and scripts ask for it; [`ObjectRegistry::phase`] holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// No run.
+    /// No run: time is 0, the scene can be changed.
     Stopped,
-    /// A run advances as soon as its controllers allow it.
+    /// A run that advances as soon as all clients that step have asked for the next step.
     Running,
     /// A run that waits to be started again.
     Paused,

@@ -19,7 +19,7 @@ const DONE: f64 = 1e-9;
 
 /// Several axes, and the time since they began.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub(crate) struct Motion {
     profiles: Vec<Profile>,
     duration: f64,
     elapsed: f64,
@@ -27,7 +27,7 @@ pub struct Motion {
 
 /// Result of one step of a motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionStep {
+pub(crate) struct MotionStep {
     /// True if all axes have arrived.
     pub is_done: bool,
     /// States of the axes.
@@ -57,7 +57,7 @@ impl Motion {
     /// # Errors
     ///
     /// There are none or too many, or a number makes no sense.
-    pub fn new(axes: &[Axis], synchronization: Synchronization) -> Result<Self, ApiError> {
+    pub(crate) fn new(axes: &[Axis], synchronization: Synchronization) -> Result<Self, ApiError> {
         if axes.is_empty() || axes.len() > MAX_AXES {
             return Err(ApiError(format!("{} degrees of freedom, expected 1 to {MAX_AXES}", axes.len())));
         }
@@ -65,12 +65,6 @@ impl Motion {
             .map_err(|PlanError { axis, why }| ApiError(format!("degree of freedom {}: {why}", axis + 1)))?;
         let duration = profiles.iter().map(Profile::duration).fold(0.0, f64::max);
         Ok(Self { profiles, duration, elapsed: 0.0 })
-    }
-
-    /// Total duration `[s]`.
-    #[must_use]
-    pub fn duration(&self) -> f64 {
-        self.duration
     }
 
     fn step(&mut self, dt: f64) -> MotionStep {
@@ -97,7 +91,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There are too many.
-    pub fn add_motion(&mut self, motion: Motion) -> Result<i64, ApiError> {
+    pub(crate) fn add_motion(&mut self, motion: Motion) -> Result<i64, ApiError> {
         let motions = &mut self.registry.motions;
         if motions.list.len() >= MAX_MOTIONS {
             return Err(ApiError(format!("there are {MAX_MOTIONS} motions already: remove some (sim.ruckigRemove)")));
@@ -113,7 +107,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is none, or the time is none.
-    pub fn step_motion(&mut self, handle: i64, dt: f64) -> Result<MotionStep, ApiError> {
+    pub(crate) fn step_motion(&mut self, handle: i64, dt: f64) -> Result<MotionStep, ApiError> {
         let motion = self.registry.motions.get(handle)?;
         if !(dt.is_finite() && dt > 0.0) {
             return Err(ApiError(format!("the cycle time is {dt} s, expected a finite time above 0")));
@@ -126,7 +120,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is none.
-    pub fn remove_motion(&mut self, handle: i64) -> Result<(), ApiError> {
+    pub(crate) fn remove_motion(&mut self, handle: i64) -> Result<(), ApiError> {
         self.registry.motions.get(handle)?;
         self.registry.motions.list.remove(&handle);
         Ok(())
@@ -139,7 +133,12 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such joint, it has no motor, or a number makes no sense.
-    pub fn go_to_position(&mut self, handle: Handle, position: f64, [v, a, j]: [f64; 3]) -> Result<(), ApiError> {
+    pub(crate) fn go_to_position(
+        &mut self,
+        handle: Handle,
+        position: f64,
+        [v, a, j]: [f64; 3],
+    ) -> Result<(), ApiError> {
         let joint = self.registry.joint(handle)?;
         let (q_idx, v_idx, motor) = (joint.q_idx, joint.v_idx, joint.motor);
         let here = Point { p: self.world.state.q[q_idx], v: self.world.state.v[v_idx], a: 0.0 };
@@ -163,7 +162,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// As of [`SimApi::go_to_position`].
-    pub fn go_to_velocity(&mut self, handle: Handle, velocity: f64, [a, j]: [f64; 2]) -> Result<(), ApiError> {
+    pub(crate) fn go_to_velocity(&mut self, handle: Handle, velocity: f64, [a, j]: [f64; 2]) -> Result<(), ApiError> {
         let joint = self.registry.joint(handle)?;
         let (v_idx, motor) = (joint.v_idx, joint.motor);
         let here = Point { p: 0.0, v: self.world.state.v[v_idx], a: 0.0 };

@@ -15,14 +15,15 @@ pub(super) struct Pair {
     material: Material,
 }
 
-/// Answer of a script about a pair.
+/// Contact law that a script (`sysCall_contact`) sets for a pair of bodies in the coming step, see
+/// [`SimApi::override_contact`]. The default leaves the law of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactOverride {
-    /// They pass through each other.
+    /// True if the bodies pass through each other: no contact force.
     pub passes: bool,
-    /// Coefficient of friction of the pair, if it is not the scene's.
+    /// Coefficient of friction of the pair (dimensionless, 0 or more); none: that of the scene.
     pub friction: Option<f64>,
-    /// Coefficient of restitution of the pair, if it is not the scene's.
+    /// Coefficient of restitution of the pair (dimensionless, 0 to 1); none: that of the scene.
     pub restitution: Option<f64>,
 }
 
@@ -42,8 +43,9 @@ pub(super) fn pairs_of(loaded: &Loaded, registry: &ObjectRegistry) -> Vec<Pair> 
 }
 
 impl SimApi<'_> {
-    /// Pairs of bodies that may come to touch within the coming step, each once, in the order of the scene. From now on
-    /// each does what the scene says.
+    /// Pairs of bodies that may come to touch within the coming step of clients, each pair once, in the order of the
+    /// scene; the two handles of a pair are in ascending order. Contact laws that were overridden before are those of
+    /// the scene again.
     pub fn candidate_pairs(&mut self) -> Vec<[Handle; 2]> {
         self.restore_pairs();
         let mut near = Vec::new();
@@ -60,11 +62,12 @@ impl SimApi<'_> {
         bodies
     }
 
-    /// Sets the contact law of two bodies until the next [`SimApi::candidate_pairs`].
+    /// Sets the contact law of two bodies, in the order of [`SimApi::candidate_pairs`], until that is called again.
+    /// Bodies that are no pair of the scene are ignored.
     ///
     /// # Errors
     ///
-    /// A coefficient is none.
+    /// The coefficient of friction is negative or not finite, or that of restitution is outside 0 to 1.
     pub fn override_contact(&mut self, bodies: [Handle; 2], answer: ContactOverride) -> Result<(), ApiError> {
         if let Some(x) = answer.friction.filter(|x| !(x.is_finite() && *x >= 0.0)) {
             return Err(ApiError(format!("friction {x} of a contact, expected 0 or more")));

@@ -11,11 +11,13 @@ use super::{ApiError, SimApi};
 pub(super) const STATIC: &str = "what is made at run time is static and touches nothing: it is seen, measured and put somewhere; give bodies that move or touch in the scene";
 
 impl SimApi<'_> {
-    /// A whole-number parameter of an object.
+    /// Whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control loop on,
+    /// 2039 control mode of a joint, 3003 static and 3004 respondable of a shape, 1002 and 1003 columns and rows of a
+    /// vision sensor `[px]`; all are in `docs/compatibility.md`.
     ///
     /// # Errors
     ///
-    /// There is no such object or parameter.
+    /// `handle` is no object, or the object has no whole-number parameter of that number.
     pub fn object_int(&mut self, handle: Handle, id: i64) -> Result<i64, ApiError> {
         let entry = self.registry.entry(handle)?;
         let mode = |sim: &Self| sim.joint_mode(handle);
@@ -35,11 +37,14 @@ impl SimApi<'_> {
         })
     }
 
-    /// Sets a whole-number parameter of an object: motor on, loop on, control mode of a joint.
+    /// Sets a whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control
+    /// loop on, 2039 control mode of a joint (0 free, 1 force, 4 velocity, 8 position, 12 spring), 3004 respondable of
+    /// a body, those of vision sensors.
     ///
     /// # Errors
     ///
-    /// There is no such object or parameter, or it cannot be set.
+    /// `handle` is no object, the object has no whole-number parameter of that number or it belongs to the scene file,
+    /// or the value is not allowed.
     pub fn set_object_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), ApiError> {
         let entry = self.registry.entry(handle)?;
         if let Kind::Vision(_) = entry.kind {
@@ -75,11 +80,18 @@ impl SimApi<'_> {
         self.set_joint_mode(handle, mode)
     }
 
-    /// Number of an object, in the unit of the parameter `id`.
+    /// Real parameter of an object by V-REP's number `id`, in SI units.
+    ///
+    /// - Any object: 11–13 velocity x, y, z, world axes, and 14 its magnitude `[m/s]`.
+    /// - Joint: 2002 position gain `[1/s]`, 2012 velocity and 2017 its limit `[rad/s]` or `[m/s]`, 2018 stiffness
+    ///   `[N·m/rad]` or `[N/m]`, 2019 damping `[N·m·s/rad]` or `[N·s/m]`.
+    /// - Body: 3005 mass `[kg]`, 3000–3002 velocity `[m/s]` and 3020–3022 angular velocity `[rad/s]` of its centre of
+    ///   mass, world axes.
+    /// - Vision sensor: 1000 near and 1001 far end of its view `[m]`, 1004 view angle `[rad]`, 1005 view size `[m]`.
     ///
     /// # Errors
     ///
-    /// There is no such object or parameter.
+    /// `handle` is no object, or the object has no real parameter of that number.
     pub fn object_float(&mut self, handle: Handle, id: i64) -> Result<f64, ApiError> {
         let motor = |sim: &Self| {
             Ok(sim.joint_motor(handle)?.unwrap_or(sincro_dynamics::actuation::Motor::new(MotorMode::Free)))
@@ -105,11 +117,14 @@ impl SimApi<'_> {
         }
     }
 
-    /// Sets a number of an object, in the unit of the parameter `id`: gains and limits of its motor.
+    /// Sets a real parameter of an object by V-REP's number `id`, with the numbers and units of
+    /// [`SimApi::object_float`]: gains and limits of a motor (2002, 2017–2019), mass of a body (3005), its initial
+    /// velocity while stopped (3000–3002, 3020–3022), those of vision sensors.
     ///
     /// # Errors
     ///
-    /// There is no such object or parameter, or it cannot be set.
+    /// `handle` is no object, the object has no real parameter of that number or it cannot be set now, or the value is
+    /// not allowed.
     pub fn set_object_float(&mut self, handle: Handle, id: i64, value: f64) -> Result<(), ApiError> {
         if let Kind::Vision(_) = self.registry.entry(handle)?.kind {
             return self.set_vision_float(handle, id, value);

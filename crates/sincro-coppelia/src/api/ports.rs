@@ -9,7 +9,8 @@ const MAX_SCRIPT_PORTS: usize = 8;
 /// The smallest port that is opened for a script.
 const MIN_PORT: u16 = 1_024;
 
-/// Ports of the legacy API of a server.
+/// TCP ports of the legacy remote API of one server: those that it opened by itself, and those that scripts asked for
+/// with `simRemoteApi.start`, at most eight.
 #[derive(Clone, Debug, Default)]
 pub struct LegacyPorts {
     of_server: BTreeSet<u16>,
@@ -17,23 +18,24 @@ pub struct LegacyPorts {
 }
 
 impl LegacyPorts {
-    /// The ports that a server has opened by itself; none if it does not serve the legacy API.
+    /// Creates the set from the TCP ports that a server has opened by itself; without any, the legacy API is not served
+    /// and scripts get none.
     #[must_use]
     pub fn new(of_server: impl IntoIterator<Item = u16>) -> Self {
         Self { of_server: of_server.into_iter().collect(), of_scripts: BTreeSet::new() }
     }
 
-    /// Returns true if a port is open, or about to be opened for a script.
+    /// Returns true if a TCP port is open, or about to be opened for a script.
     #[must_use]
     pub fn contains(&self, port: u16) -> bool {
         self.of_server.contains(&port) || self.of_scripts.contains(&port)
     }
 
-    /// Adds a port for a script; false if it is open already.
+    /// Adds a TCP port for a script, to be opened before the next step; returns false if it is open already.
     ///
     /// # Errors
     ///
-    /// The legacy API is not served, or the port may not be opened.
+    /// The legacy API is not served, the port is below 1024, or scripts have eight ports already.
     pub fn add(&mut self, port: u16) -> Result<bool, ApiError> {
         if self.contains(port) {
             return Ok(false);
@@ -49,7 +51,7 @@ impl LegacyPorts {
         Ok(true)
     }
 
-    /// Removes a port that could not be opened for a script.
+    /// Removes a TCP port that could not be opened for a script; nothing if it is none of those.
     pub fn remove(&mut self, port: u16) {
         self.of_scripts.remove(&port);
     }

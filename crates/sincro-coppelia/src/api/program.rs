@@ -160,11 +160,12 @@ pub fn names() -> impl Iterator<Item = (&'static str, i64)> {
 }
 
 impl SimApi<'_> {
-    /// A whole-number parameter of the simulator.
+    /// Whole-number parameter of the simulator by V-REP's number `id` (`sim.intparam_…`), without unit: 7 base steps in
+    /// a step of clients, 29 number of stop requests; others, such as the version, have fixed answers.
     ///
     /// # Errors
     ///
-    /// There is none of that number.
+    /// There is no whole-number parameter of that number.
     pub fn int_parameter(&self, id: i64) -> Result<i64, ApiError> {
         match id {
             STOP_REQUESTS => Ok(self.registry.stop_requests),
@@ -173,11 +174,13 @@ impl SimApi<'_> {
         }
     }
 
-    /// Takes a whole-number parameter of the simulator; nothing here depends on one.
+    /// Accepts a setting of the whole-number parameter of the simulator with V-REP's number `id` (`sim.intparam_…`)
+    /// without effect, so that programs which set windows or verbosity run.
     ///
     /// # Errors
     ///
-    /// There is none of that number, or it says how the world is computed.
+    /// There is no whole-number parameter of that number, or it would change how the world is computed (8 physics
+    /// engine, 7 step divider): the message has the key of the experiment instead.
     pub fn set_int_parameter(&self, id: i64) -> Result<(), ApiError> {
         match id {
             DYNAMIC_ENGINE => Err(ApiError::new(
@@ -190,11 +193,12 @@ impl SimApi<'_> {
         }
     }
 
-    /// Number of the simulator, in the unit of the parameter `id`.
+    /// Real parameter of the simulator by V-REP's number `id` (`sim.floatparam_…`): 1 step of clients `[s]`, 3 and 5
+    /// base step `[s]`.
     ///
     /// # Errors
     ///
-    /// There is none of that number.
+    /// There is no real parameter of that number.
     pub fn float_parameter(&self, id: i64) -> Result<f64, ApiError> {
         match id {
             TIME_STEP => Ok(self.registry.sample_time()),
@@ -203,11 +207,13 @@ impl SimApi<'_> {
         }
     }
 
-    /// Sets a number of the simulator: 1, the simulation time step `[s]`, while stopped.
+    /// Sets the real parameter of the simulator with V-REP's number `id` (`sim.floatparam_…`): 1, the step of clients
+    /// `[s]`, while stopped.
     ///
     /// # Errors
     ///
-    /// There is none of that number, or it cannot be set.
+    /// There is no real parameter of that number, it is the base step (set `step` of the experiment), a run is on, or
+    /// the value is no whole multiple of the base step.
     pub fn set_float_parameter(&mut self, id: i64, value: f64) -> Result<(), ApiError> {
         match id {
             TIME_STEP => self.registry.set_sample_time(value),
@@ -218,21 +224,23 @@ impl SimApi<'_> {
         }
     }
 
-    /// A truth value of the simulator.
+    /// Truth value of the simulator by V-REP's number `id` (`sim.boolparam_…`), always the same: what belongs to
+    /// windows is false, what belongs to the step is true.
     ///
     /// # Errors
     ///
-    /// There is none of that number.
+    /// There is no truth value of that number.
     pub fn bool_parameter(&self, id: i64) -> Result<bool, ApiError> {
         fixed(TRUTHS, id, "truth")
     }
 
-    /// Takes a truth value of the simulator. Switches of windows and of real time do nothing here; those of what a step
-    /// consists of cannot be turned.
+    /// Accepts a setting of the truth value of the simulator with V-REP's number `id` (`sim.boolparam_…`) without
+    /// effect, so that programs which turn the display off run.
     ///
     /// # Errors
     ///
-    /// There is none of that number, or a part of the step would be left out.
+    /// There is no truth value of that number, or it would leave out a part of the step (2 to 11: dynamics, sensors,
+    /// kinematics).
     pub fn set_bool_parameter(&self, id: i64, value: bool) -> Result<(), ApiError> {
         let now = self.bool_parameter(id)?;
         if HANDLING.contains(&id) && value != now {
@@ -243,29 +251,32 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// A vector of the simulator: 0, gravity [m/s²].
+    /// Vector parameter of the simulator by V-REP's number `id` (`sim.arrayparam_…`): 0, gravity `[m/s²]` as x, y, z in
+    /// world axes.
     ///
     /// # Errors
     ///
-    /// There is none of that number.
+    /// There is no vector parameter of that number.
     pub fn array_parameter(&self, id: i64) -> Result<[f64; 3], ApiError> {
         if id == GRAVITY { Ok(self.world.model().gravity().0) } else { Err(unknown("vector", id)) }
     }
 
-    /// Sets a vector of the simulator: 0, gravity [m/s²].
+    /// Sets the vector parameter of the simulator with V-REP's number `id` (`sim.arrayparam_…`): 0, gravity `[m/s²]` as
+    /// x, y, z in world axes.
     ///
     /// # Errors
     ///
-    /// There is none of that number, or a number is not finite.
+    /// There is no vector parameter of that number, or a number is not finite.
     pub fn set_array_parameter(&mut self, id: i64, value: [f64; 3]) -> Result<(), ApiError> {
         if id == GRAVITY { self.set_gravity(value) } else { Err(unknown("vector", id)) }
     }
 
-    /// A text of the simulator, such as the path of its scene.
+    /// Text parameter of the simulator by V-REP's number `id` (`sim.stringparam_…`): 13 path of the scene file, 14 its
+    /// folder, 15 name of the scene; others are empty.
     ///
     /// # Errors
     ///
-    /// There is none of that number.
+    /// There is no text parameter of that number.
     pub fn string_parameter(&self, id: i64) -> Result<String, ApiError> {
         let path = &self.registry.scene_path;
         let (folder, _) = path.rsplit_once('/').unwrap_or_default();
@@ -277,7 +288,8 @@ impl SimApi<'_> {
         }
     }
 
-    /// The simulation's state as clients know it, see [`super::constants`].
+    /// State of the simulation as the number that `sim.getSimulationState` gives: 0 stopped, 8 paused, 16 before the
+    /// first step of a run, 17 running.
     #[must_use]
     pub fn simulation_state(&self) -> i64 {
         match self.registry.phase {

@@ -15,21 +15,22 @@ impl SimApi<'_> {
         sensor.ok_or_else(|| ApiError(format!("`{}` is no proximity sensor", entry.path)))
     }
 
-    /// Reading of a proximity sensor when it was handled last, a scene's sensors at each of their samples; none before
-    /// the first.
+    /// Reading of a proximity sensor when it was last evaluated, for a sensor of the scene at its last sample: the
+    /// outer option is none before the first evaluation, the inner one if nothing was detected. Distances are in `[m]`.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is no proximity sensor.
+    /// `handle` is no object of the registry, or is no proximity sensor.
     pub fn proximity(&self, handle: Handle) -> Result<Option<Option<Detection>>, ApiError> {
         Ok(self.proximity_entry(handle)?.saw)
     }
 
-    /// Detection of an entity by a proximity sensor now, within `most` `[m]`; the reading stays.
+    /// Evaluates a proximity sensor at the present instant against one entity, within `most` `[m]`; none if it detects
+    /// nothing. The reading of [`SimApi::proximity`] stays.
     ///
     /// # Errors
     ///
-    /// There is no such object, it is no proximity sensor, or the entity was removed.
+    /// `handle` is no object or no proximity sensor, or the entity is a collection or object that was removed.
     pub fn look_at(&mut self, handle: Handle, entity: Entity, most: f64) -> Result<Option<Detection>, ApiError> {
         let entry = self.proximity_entry(handle)?;
         let (sensor, blind_below) = (entry.sensor.clone(), entry.blind_below);
@@ -54,7 +55,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, or it is no proximity sensor.
-    pub fn handle_proximity(&mut self, handle: Handle) -> Result<Option<Detection>, ApiError> {
+    pub(crate) fn handle_proximity(&mut self, handle: Handle) -> Result<Option<Detection>, ApiError> {
         if self.proximity_entry(handle)?.is_of_scene
             && self.is_running()
             && let Some(saw) = self.proximity(handle)?
@@ -72,7 +73,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// None yet.
-    pub fn handle_proximities(&mut self, explicit: bool) -> Result<Option<Detection>, ApiError> {
+    pub(crate) fn handle_proximities(&mut self, explicit: bool) -> Result<Option<Detection>, ApiError> {
         let all: Vec<Handle> = self
             .registry
             .senses
@@ -107,7 +108,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, or it is no proximity sensor.
-    pub fn reset_proximity(&mut self, handle: Handle) -> Result<(), ApiError> {
+    pub(crate) fn reset_proximity(&mut self, handle: Handle) -> Result<(), ApiError> {
         let own = self.registry.entry(handle)?.handle;
         self.proximity_entry(own)?;
         if let Some(entry) = self.registry.senses.proximity.get_mut(&own) {
@@ -117,7 +118,7 @@ impl SimApi<'_> {
     }
 
     /// Resets all proximity sensors, those with explicit handling only if `explicit`.
-    pub fn reset_proximities(&mut self, explicit: bool) {
+    pub(crate) fn reset_proximities(&mut self, explicit: bool) {
         for entry in self.registry.senses.proximity.values_mut().filter(|l| explicit || !l.is_explicit) {
             entry.saw = None;
         }
@@ -129,7 +130,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There are too many objects.
-    pub fn create_proximity_sensor(
+    pub(crate) fn create_proximity_sensor(
         &mut self,
         field: FieldOfView,
         is_explicit: bool,

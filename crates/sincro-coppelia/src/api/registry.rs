@@ -26,8 +26,9 @@ use sincro_scene::scene::{Object, ObjectKind};
 use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
 
-/// Name of an object on every wire: small and positive. Negative numbers have meanings of their own (`sim.handle_world`
-/// …).
+/// Number by which clients and scripts name an object: 1 for the first object of the scene, then in the order of the
+/// file; runtime objects follow. Negative numbers have meanings of their own (−1 `sim.handle_world`, −2
+/// `sim.handle_all` …). Get one from [`ObjectRegistry::find`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Handle(pub i32);
 
@@ -36,91 +37,92 @@ const MAX_BYTES: usize = 256 << 20;
 /// Lines of the log that are kept until somebody takes them.
 const MAX_LINES: usize = 1_000;
 
-/// Type of an object.
+/// Type of an object of the registry, with what its functions need to know of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
-    /// A joint; its index in [`ObjectRegistry::joints`], none if it does not move or has no coordinate of its own.
+    /// A joint, with its index among the joints with one coordinate; none if it has no or several coordinates.
     Joint(Option<usize>),
-    /// A body: a dynamic shape.
+    /// A body: mass `[kg]`, centre of mass `[m]` and inertia `[kg·m²]` in the body's axes.
     Body(MassProperties),
-    /// A named point of the scene.
+    /// A named frame of the scene.
     Frame,
     /// A sensor of the scene that is no proximity sensor, or a camera whose pictures are not read.
     Sensor,
-    /// An external force.
+    /// An external force or a drag of the scene.
     Force,
-    /// A rotor: to clients and scripts a joint that turns at its commanded speed. Its index among the model's.
+    /// A rotor, with its index among the model's: to clients and scripts a joint that turns at its commanded speed.
     Rotor(usize),
-    /// A fixed joint that measures what goes through it: its first degree of freedom, which is held.
+    /// A force sensor: a fixed joint of six held degrees of freedom, with the index of the first among the model's.
     ForceSensor(usize),
-    /// A camera whose pictures are read: its index among the registry's.
+    /// A vision sensor: a camera whose pictures are read, with its index among the registry's.
     Vision(usize),
-    /// Made by a client or script: a named point.
+    /// A dummy: a named frame made by a client or script.
     Dummy,
-    /// Made by a client or script: something to be seen, without mass.
+    /// A shape made by a client or script: seen and measured, without mass and contact.
     Shape,
-    /// A proximity sensor, of the scene or made.
+    /// A proximity sensor, of the scene or made by a client or script.
     Proximity,
 }
 
-/// An object of the scene or a runtime object, as clients and scripts find it.
+/// Object of the scene or runtime object, as clients and scripts find it in the [`ObjectRegistry`].
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its handle.
+    /// Handle, by which all functions name the object.
     pub handle: Handle,
-    /// Last part of its path.
+    /// Name: the last part of the path.
     pub name: String,
     /// Path in the scene; of a runtime object, that of its parent, `/` and its name.
     pub path: String,
-    /// Type.
+    /// Type of the object.
     pub kind: Kind,
     /// True if a client or script has made it.
     pub is_runtime: bool,
-    /// Parent; none: the world.
+    /// Handle of the parent object; none: the world.
     pub parent: Option<Handle>,
-    /// Its frame; of a joint, the one on its parent's side. z is the axis of a joint.
+    /// Frame of the object, fixed to a link, position in `[m]`; of a joint, the one on its parent's side, z along its
+    /// axis.
     pub frame: Attached<f64>,
-    /// Frame of its children: of a joint, the frame that moves; else the same.
+    /// Frame in which children stand: of a joint, the one that moves; else the same as `frame`.
     pub moving: Attached<f64>,
 }
 
-/// A joint with one coordinate, and its commands.
+/// Joint with one coordinate: where it stands in the state, its motor, and the setpoints of clients and scripts.
 #[derive(Clone, Debug)]
 pub struct JointEntry {
-    /// The object.
+    /// Handle of the joint's object.
     pub handle: Handle,
-    /// Joint type.
+    /// Joint type, with its axis in the joint's frame.
     pub kind: JointKind,
-    /// Place in q.
+    /// Index of its position in the generalized coordinates q.
     pub q_idx: usize,
-    /// Place in v.
+    /// Index of its velocity in the generalized velocities v.
     pub v_idx: usize,
-    /// Index of its motor, if it has one.
+    /// Index of its motor among the model's; none without motor.
     pub motor: Option<usize>,
-    /// The motor as it now is.
+    /// Parameters of the motor as they are now, in SI units; none without motor.
     pub drive: Option<Motor<f64>>,
-    /// The mode that its motor has in the scene.
+    /// Mode of the motor in the scene file; none without motor.
     pub scene_mode: Option<MotorMode>,
-    /// Commanded velocity [rad/s] or [m/s].
+    /// Velocity setpoint of a client or script `[rad/s]` or `[m/s]`; none if nobody has set one.
     pub target_velocity: Option<f64>,
-    /// Commanded position `[rad]` or `[m]`.
+    /// Position setpoint of a client or script `[rad]` or `[m]`; none if nobody has set one.
     pub target_position: Option<f64>,
-    /// Commanded effort, in torque mode [N·m] or `[N]`.
+    /// Effort setpoint of a client or script in torque mode `[N·m]` or `[N]`; none if nobody has set one.
     pub target_force: Option<f64>,
 }
 
-/// A line for the operator of the simulator.
+/// Message for the operator of the simulator, as [`ObjectRegistry::take_log`] gives it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LogLine {
-    /// Level as in V-REP: 200 errors, 300 warnings, 450 messages of scripts, 500 informations.
+    /// Verbosity level as in V-REP: 200 error, 300 warning, 450 message of a script, 500 information.
     pub level: i64,
-    /// One line or several.
+    /// Text of the message, one line or several, 10,000 bytes at most.
     pub text: String,
 }
 
 /// Request that is carried out between two steps.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Request {
+pub(crate) enum Request {
     /// Start, or resume after a pause.
     Start,
     /// Pause.
@@ -133,7 +135,8 @@ pub enum Request {
     Close,
 }
 
-/// Objects of a scene and runtime objects by handle, with signals and everything else that clients store.
+/// Objects of a scene and runtime objects by handle, with signals, setpoints and everything else that clients and
+/// scripts store. Plain data, cloned with a run; [`SimApi`](super::SimApi) joins it with the world.
 #[derive(Clone, Debug)]
 pub struct ObjectRegistry {
     /// Handle 1 is the first; a hole where an object was removed.
@@ -154,26 +157,26 @@ pub struct ObjectRegistry {
     sample_ticks: u64,
     impulse: Vec<f64>,
     has_stepped: bool,
-    /// Whole numbers by name.
+    /// Whole-number signals of scripts and clients, by name.
     pub integers: Signals<i64>,
-    /// Numbers by name.
+    /// Real signals, by name.
     pub floats: Signals<f64>,
-    /// Texts and bytes by name.
+    /// String signals (texts or bytes), by name.
     pub strings: Signals<Vec<u8>>,
-    /// Parameters of the scripts of objects, as text.
+    /// Parameters of scripts as text, by the object that carries the script and the name.
     pub script_parameters: BTreeMap<(Handle, String), String>,
     /// Data that clients and scripts stored with objects.
-    pub data: BTreeMap<(Handle, String), Stored>,
+    pub(crate) data: BTreeMap<(Handle, String), Stored>,
     /// Parameters by name.
-    pub named: BTreeMap<String, Vec<u8>>,
+    pub(crate) named: BTreeMap<String, Vec<u8>>,
     log: VecDeque<LogLine>,
     notes: Notes,
     requests: Vec<Request>,
-    /// State of the simulation.
+    /// State of the simulation: stopped, running or paused.
     pub phase: Phase,
-    /// Folder of the scene.
+    /// Path of the scene file.
     pub scene_path: String,
-    /// Number of stop requests.
+    /// Number of requests to stop the run, counted since the registry was made.
     pub stop_requests: i64,
     /// Vision sensors.
     pub(super) vision: Vision,
@@ -191,7 +194,7 @@ pub struct ObjectRegistry {
     /// Mass properties of the solids of bodies at density 1, where all of a body is solids of closed form.
     pub(super) solids: BTreeMap<Handle, MassProperties>,
     /// Streams of graphs.
-    pub graphs: Graphs,
+    pub(crate) graphs: Graphs,
     /// Motions of numbers.
     pub(super) motions: Motions,
     /// Targets of motors that are on their way.
@@ -208,14 +211,15 @@ pub struct ObjectRegistry {
     pub(super) n_interfaces: usize,
     /// Frames of the scene that recorded signals are about.
     pub(super) recorded_frames: BTreeSet<Handle>,
-    /// Ports of the legacy API; none if clients are not served.
+    /// TCP ports of the legacy remote API; none if no clients are served.
     pub legacy_ports: Option<LegacyPorts>,
     /// Ports of the legacy API that scripts want to be open.
     port_requests: Vec<u16>,
 }
 
 impl ObjectRegistry {
-    /// The objects of a scene; steps of clients and scripts last `sample_ticks` base steps.
+    /// Creates the registry of a loaded scene, stopped. A step of clients and scripts lasts `sample_ticks` base steps;
+    /// 0 counts as 1.
     #[must_use]
     pub fn new(loaded: &Loaded, sample_ticks: u64) -> Self {
         let (scene, names) = (&loaded.scene, loaded.scene.model.names());
@@ -354,16 +358,17 @@ impl ObjectRegistry {
         Handle(self.entries.len() as i32 + 1)
     }
 
-    /// All objects, parents before children, children in the order of the file; what was made later comes last.
+    /// All objects, parents before children, siblings in the order of the file; runtime objects come last, in the order
+    /// of their creation.
     pub fn entries(&self) -> impl Iterator<Item = &Entry> {
         self.entries.iter().flatten()
     }
 
-    /// The object of a handle.
+    /// Returns the object of a handle.
     ///
     /// # Errors
     ///
-    /// There is none.
+    /// The number is no handle of an object, or the object was removed.
     pub fn entry(&self, handle: Handle) -> Result<&Entry, ApiError> {
         let found = usize::try_from(handle.0 - 1).ok().and_then(|k| self.entries.get(k)?.as_ref());
         found.ok_or_else(|| ApiError(format!("there is no object with the handle {}", handle.0)))
@@ -374,12 +379,13 @@ impl ObjectRegistry {
         self.entries[handle.0 as usize - 1].as_mut().expect("it was found")
     }
 
-    /// Direct children of an object, or of the world, in their order.
+    /// Direct children of an object, or of the world for none, in the order of [`ObjectRegistry::entries`]; empty if
+    /// there are none, or no such parent.
     pub fn children(&self, parent: Option<Handle>) -> impl Iterator<Item = &Entry> {
         self.entries().filter(move |e| e.parent == parent)
     }
 
-    /// An object and all that hangs on it, it first.
+    /// Handles of an object and of all objects below it; the object itself comes first, whether it exists or not.
     #[must_use]
     pub fn tree(&self, base: Handle) -> Vec<Handle> {
         let mut found = vec![base];
@@ -399,22 +405,22 @@ impl ObjectRegistry {
     /// Returns true if an object can stand anywhere: a runtime object, a vision sensor, or a frame of the scene, with
     /// nothing below it that the model moves.
     #[must_use]
-    pub fn is_loose(&self, handle: Handle) -> bool {
+    pub(crate) fn is_loose(&self, handle: Handle) -> bool {
         let is_point = |entry: &Entry| entry.is_runtime || matches!(entry.kind, Kind::Vision(_) | Kind::Frame);
         self.tree(handle).into_iter().all(|h| self.entry(h).is_ok_and(is_point))
     }
 
     /// All joints that have one coordinate.
     #[must_use]
-    pub fn joints(&self) -> &[JointEntry] {
+    pub(crate) fn joints(&self) -> &[JointEntry] {
         &self.joints
     }
 
-    /// The joint of a handle.
+    /// Returns the joint of a handle, if it has exactly one coordinate.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is no joint with one coordinate.
+    /// `handle` is no object, or is no joint with one coordinate; the message names the object.
     pub fn joint(&self, handle: Handle) -> Result<&JointEntry, ApiError> {
         let entry = self.entry(handle)?;
         match entry.kind {
@@ -433,7 +439,7 @@ impl ObjectRegistry {
         Ok(&mut self.joints[k])
     }
 
-    /// Seconds of one step of clients and scripts.
+    /// Duration of one step of clients and scripts `[s]`: a whole number of base steps.
     #[must_use]
     pub fn sample_time(&self) -> f64 {
         self.sample_ticks as f64 * self.step
@@ -441,13 +447,13 @@ impl ObjectRegistry {
 
     /// Base steps of one step of clients and scripts.
     #[must_use]
-    pub fn sample_ticks(&self) -> u64 {
+    pub(crate) fn sample_ticks(&self) -> u64 {
         self.sample_ticks
     }
 
     /// Base step `[s]`.
     #[must_use]
-    pub fn base_step(&self) -> f64 {
+    pub(crate) fn base_step(&self) -> f64 {
         self.step
     }
 
@@ -456,7 +462,7 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// A run is on, or it is no whole multiple of the base step.
-    pub fn set_sample_time(&mut self, dt: f64) -> Result<(), ApiError> {
+    pub(crate) fn set_sample_time(&mut self, dt: f64) -> Result<(), ApiError> {
         let ticks = (dt / self.step).round();
         let fits = (ticks * self.step - dt).abs() <= 1e-6 * dt;
         if self.phase != Phase::Stopped {
@@ -474,18 +480,23 @@ impl ObjectRegistry {
 
     /// Returns true if a step of clients and scripts begins at a tick.
     #[must_use]
-    pub fn is_due(&self, tick: u64) -> bool {
+    pub(crate) fn is_due(&self, tick: u64) -> bool {
         tick.is_multiple_of(self.sample_ticks)
     }
 
-    /// Sets a command from outside, in its unit, over what scene and diagram give, until it is set to none.
+    /// Sets the command with an index among the model's, in its unit, over what scene and diagram give, until it is set
+    /// to none.
+    ///
+    /// # Panics
+    ///
+    /// `command` is not below the model's number of commands.
     pub fn hold(&mut self, command: usize, value: Option<f64>) {
         self.held[command] = value;
     }
 
     /// Value in the command's unit that was set from outside; none if scene or diagram give it.
     #[must_use]
-    pub fn held(&self, command: usize) -> Option<f64> {
+    pub(crate) fn held(&self, command: usize) -> Option<f64> {
         self.held[command]
     }
 
@@ -516,12 +527,12 @@ impl ObjectRegistry {
         self.has_stepped.then(|| self.impulse[motor])
     }
 
-    /// Refuses bytes that would be too many together with those that clients and scripts have stored already, names
-    /// included.
+    /// Checks that `n` further bytes of signals, stored data, tubes and widgets, names included, stay within the 256
+    /// MiB that clients and scripts may store together.
     ///
     /// # Errors
     ///
-    /// They would.
+    /// They would not; nothing is stored, and clearing some makes room.
     pub fn check_stored_size(&self, n: usize) -> Result<(), ApiError> {
         let signals = self.integers.names_size() + self.floats.names_size() + self.strings.names_size();
         let data = self.data.iter().map(|((_, tag), data)| tag.len() + data.bytes.len()).sum::<usize>();
@@ -537,7 +548,8 @@ impl ObjectRegistry {
         Ok(())
     }
 
-    /// A line for the operator of the simulator; the oldest are dropped if nobody takes them.
+    /// Adds a message for the operator of the simulator, with its level (see [`LogLine`]); the text is cut off at
+    /// 10,000 bytes. Of 1,000 messages that nobody takes the oldest are dropped.
     pub fn log(&mut self, level: i64, text: impl Into<String>) {
         if self.log.len() == MAX_LINES {
             self.log.pop_front();
@@ -559,13 +571,13 @@ impl ObjectRegistry {
         }
     }
 
-    /// Takes the lines gathered so far.
+    /// Takes the messages for the operator that have gathered since the last call, the oldest first.
     pub fn take_log(&mut self) -> Vec<LogLine> {
         self.log.drain(..).collect()
     }
 
     /// Asks for something that can happen only between two steps.
-    pub fn ask(&mut self, request: Request) {
+    pub(crate) fn ask(&mut self, request: Request) {
         if request == Request::Stop {
             self.stop_requests += 1;
         }
@@ -573,15 +585,17 @@ impl ObjectRegistry {
     }
 
     /// Takes what was asked for.
-    pub fn take_requests(&mut self) -> Vec<Request> {
+    pub(crate) fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
     }
 
-    /// Asks for a port of the legacy API, which is opened between two steps.
+    /// Requests a TCP port of the legacy remote API for a script; it is opened between two steps. A port that is open
+    /// already is accepted.
     ///
     /// # Errors
     ///
-    /// Clients are not served, or it may not be opened.
+    /// No clients are served in this run, the legacy API is not, the port is below 1024, or scripts have eight ports
+    /// already.
     pub fn ask_port(&mut self, port: u16) -> Result<(), ApiError> {
         let served = self.legacy_ports.as_mut();
         let ports = served.ok_or_else(|| ApiError::new("nothing is served in this run (`sincro serve` opens it)"))?;
@@ -591,7 +605,8 @@ impl ObjectRegistry {
         Ok(())
     }
 
-    /// Takes the ports that were asked for.
+    /// Takes the TCP ports that scripts have requested since the last call, in the order of the requests; the server
+    /// opens them.
     pub fn take_port_requests(&mut self) -> Vec<u16> {
         std::mem::take(&mut self.port_requests)
     }

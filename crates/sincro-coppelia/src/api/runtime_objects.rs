@@ -10,11 +10,12 @@ use super::registry::{Entry, Handle, Kind, ObjectRegistry, WORLD};
 const MAX_CREATED: usize = 10_000;
 
 impl ObjectRegistry {
-    /// Makes a named point on the world.
+    /// Creates a dummy, a named frame without mass, at the world's origin and returns its handle. If the name is taken,
+    /// a number is appended.
     ///
     /// # Errors
     ///
-    /// There are too many.
+    /// Clients and scripts have created 10,000 objects already: remove some.
     pub fn create_dummy(&mut self, name: &str) -> Result<Handle, ApiError> {
         self.create(name, Kind::Dummy, WORLD)
     }
@@ -40,11 +41,12 @@ impl ObjectRegistry {
         Ok(handle)
     }
 
-    /// Removes a runtime object.
+    /// Removes a runtime object; its children pass to its parent, data stored with it are dropped. Its handle is not
+    /// used again.
     ///
     /// # Errors
     ///
-    /// There is none, or it belongs to the scene.
+    /// `handle` is no object, or belongs to the scene.
     pub fn remove(&mut self, handle: Handle) -> Result<(), ApiError> {
         let entry = self.runtime_object(handle, "removed")?;
         let (parent, name, kind) = (entry.parent, entry.name.clone(), entry.kind.clone());
@@ -63,11 +65,12 @@ impl ObjectRegistry {
         Ok(())
     }
 
-    /// Gives a runtime point another name. What hangs on it keeps its own.
+    /// Gives a runtime object another name, up to 100 letters, digits, `_`, `-`, `#`. The paths of its children keep
+    /// the old one.
     ///
     /// # Errors
     ///
-    /// There is none, it belongs to the scene, or the name is none.
+    /// `handle` is no object or belongs to the scene, or the name is empty, too long or has other characters.
     pub fn rename(&mut self, handle: Handle, name: &str) -> Result<(), ApiError> {
         let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '#');
         if name.is_empty() || name.len() > 100 || !name.chars().all(is_plain) {

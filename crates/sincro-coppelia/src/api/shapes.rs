@@ -21,7 +21,7 @@ const MAX_LENGTH: f64 = 1e6;
 
 /// Properties of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShapeInfo {
+pub(crate) struct ShapeInfo {
     /// True if it has several parts.
     pub is_compound: bool,
     /// `sim.primitiveshape_…`; 0 for meshes and hulls.
@@ -36,7 +36,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There are too many objects or corners, or a part has no extent.
-    pub fn create_shape(&mut self, name: &str, parts: Vec<(Surface, Pose<f64>)>) -> Result<Handle, ApiError> {
+    pub(crate) fn create_shape(&mut self, name: &str, parts: Vec<(Surface, Pose<f64>)>) -> Result<Handle, ApiError> {
         let ready = parts.into_iter().map(|(surface, place)| Ok((self.registry.senses.prepare(surface)?, place)));
         let ready = ready.collect::<Result<Vec<_>, ApiError>>()?;
         let handle = self.registry.create(name, Kind::Shape, WORLD)?;
@@ -52,7 +52,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// A triangle names no corner, a number is not finite, or there are too many.
-    pub fn create_mesh(&mut self, corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Handle, ApiError> {
+    pub(crate) fn create_mesh(&mut self, corners: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Handle, ApiError> {
         let (low, high) = bounds(corners)?;
         if triangles.is_empty() || triangles.len() > MAX_TRIANGLES {
             let n = triangles.len();
@@ -74,7 +74,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// The heights do not fill the rows, or are not finite.
-    pub fn create_height_field(
+    pub(crate) fn create_height_field(
         &mut self,
         columns: usize,
         rows: usize,
@@ -133,7 +133,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There are fewer than two, or one belongs to the scene.
-    pub fn group_shapes(&mut self, shapes: &[Handle]) -> Result<Handle, ApiError> {
+    pub(crate) fn group_shapes(&mut self, shapes: &[Handle]) -> Result<Handle, ApiError> {
         let [first, others @ ..] = shapes else { return Err(ApiError::new("give two shapes at least")) };
         if others.is_empty() || (1..shapes.len()).any(|k| shapes[..k].contains(&shapes[k])) {
             return Err(ApiError::new("give two shapes at least, each once"));
@@ -161,7 +161,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// It belongs to the scene.
-    pub fn ungroup_shape(&mut self, shape: Handle) -> Result<Vec<Handle>, ApiError> {
+    pub(crate) fn ungroup_shape(&mut self, shape: Handle) -> Result<Vec<Handle>, ApiError> {
         self.runtime_shape(shape)?;
         self.finish_pictures();
         let parts = self.registry.senses.parts_of(shape);
@@ -184,7 +184,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// It belongs to the scene, or the factor is not positive.
-    pub fn scale_shape(&mut self, shape: Handle, factor: f64) -> Result<(), ApiError> {
+    pub(crate) fn scale_shape(&mut self, shape: Handle, factor: f64) -> Result<(), ApiError> {
         self.runtime_shape(shape)?;
         length(factor)?;
         let (parts, frame) = (self.registry.senses.parts_of(shape), self.registry.entry(shape)?.frame);
@@ -203,11 +203,12 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Colours an object, for sensors that see colours: red, green, blue, dimensionless from 0 to 1.
+    /// Sets the colour that vision sensors see of an object: red, green, blue (dimensionless); values outside 0 to 1
+    /// are clamped.
     ///
     /// # Errors
     ///
-    /// There is no such object, or a number is none.
+    /// `handle` is no object, or a number is not finite.
     pub fn paint(&mut self, handle: Handle, color: [f64; 3]) -> Result<(), ApiError> {
         let own = self.registry.entry(handle)?.handle;
         if color.iter().any(|x| x.is_nan()) {
@@ -223,7 +224,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, it has no shape, or one without end (a plane).
-    pub fn shape_box(&self, handle: Handle) -> Result<[[f64; 3]; 2], ApiError> {
+    pub(crate) fn shape_box(&self, handle: Handle) -> Result<[[f64; 3]; 2], ApiError> {
         let own = self.registry.entry(handle)?;
         let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         let x_wo = own.frame.pose;
@@ -250,7 +251,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, or it has no shape.
-    pub fn shape_info(&self, handle: Handle) -> Result<ShapeInfo, ApiError> {
+    pub(crate) fn shape_info(&self, handle: Handle) -> Result<ShapeInfo, ApiError> {
         let own = self.registry.entry(handle)?;
         let pieces: Vec<&Surface> = self
             .registry
@@ -270,7 +271,7 @@ impl SimApi<'_> {
 /// # Errors
 ///
 /// There is none of that number, or it cannot have these lengths.
-pub fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface, Pose<f64>), ApiError> {
+pub(crate) fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface, Pose<f64>), ApiError> {
     let [x, y, z] = size;
     let used = match kind {
         1 | 2 => 2,

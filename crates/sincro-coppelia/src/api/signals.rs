@@ -10,7 +10,18 @@ const MAX_NAMES: usize = 10_000;
 /// Bytes of one string signal.
 const MAX_BYTES: usize = 64 << 20;
 
-/// Signals of one kind.
+/// Signals of one value type (whole numbers, reals or bytes): named values by which scripts and clients exchange data.
+/// The registry holds one for each type.
+///
+/// ```
+/// use sincro_coppelia::api::Signals;
+///
+/// let mut floats = Signals::default();
+/// floats.set("height", 0.25, false)?;
+/// assert_eq!(floats.get("height"), Some(&0.25));
+/// assert_eq!((floats.clear("height"), floats.get("height")), (1, None));
+/// # Ok::<(), sincro_coppelia::api::ApiError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Signals<T> {
     by_name: BTreeMap<String, Held<T>>,
@@ -30,17 +41,17 @@ impl<T> Default for Signals<T> {
 }
 
 impl<T> Signals<T> {
-    /// The value of a name, if there is one.
+    /// Returns the value of a signal; none if no signal has that name.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&T> {
         self.by_name.get(name).map(|held| &held.value)
     }
 
-    /// Sets a name; `of_run` removes it when the next run starts.
+    /// Sets a signal, which is created if it does not exist. With `of_run` it is removed when the next run starts.
     ///
     /// # Errors
     ///
-    /// There are too many names, or the name is too long.
+    /// The name has more than 1,024 bytes, or there are 10,000 signals of this type already.
     pub fn set(&mut self, name: &str, value: T, of_run: bool) -> Result<(), ApiError> {
         check_name("signal", name)?;
         if self.by_name.len() >= MAX_NAMES && !self.by_name.contains_key(name) {
@@ -50,7 +61,8 @@ impl<T> Signals<T> {
         Ok(())
     }
 
-    /// Removes a name; an empty one stands for all. Says how many there were.
+    /// Removes the signal of a name, or all signals of this type if `name` is empty; returns the number of those
+    /// removed.
     pub fn clear(&mut self, name: &str) -> usize {
         if name.is_empty() {
             let n = self.by_name.len();
@@ -60,14 +72,14 @@ impl<T> Signals<T> {
         usize::from(self.by_name.remove(name).is_some())
     }
 
-    /// The names, in alphabetical order.
+    /// Names of the signals of this type, in alphabetical order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.by_name.keys().map(String::as_str)
     }
 
     /// Bytes of all names.
     #[must_use]
-    pub fn names_size(&self) -> usize {
+    pub(crate) fn names_size(&self) -> usize {
         self.by_name.keys().map(String::len).sum()
     }
 
@@ -80,15 +92,17 @@ impl<T> Signals<T> {
 impl Signals<Vec<u8>> {
     /// Bytes of all of them.
     #[must_use]
-    pub fn total(&self) -> usize {
+    pub(crate) fn total(&self) -> usize {
         self.by_name.values().map(|held| held.value.len()).sum()
     }
 
-    /// Adds to the end of a string signal, which is made if there is none.
+    /// Appends bytes to a string signal, which is created if it does not exist; `of_run` counts only then, see
+    /// [`Signals::set`].
     ///
     /// # Errors
     ///
-    /// It becomes too long, there are too many names, or the name is too long.
+    /// The signal would exceed 64 MiB (read and clear it), the name has more than 1,024 bytes, or there are 10,000
+    /// string signals.
     pub fn append(&mut self, name: &str, bytes: &[u8], of_run: bool) -> Result<(), ApiError> {
         let Some(held) = self.by_name.get_mut(name) else { return self.set(name, bytes.to_vec(), of_run) };
         if held.value.len() + bytes.len() > MAX_BYTES {

@@ -8,35 +8,50 @@ use sincro_dynamics::world::World;
 use super::registry::{Entry, Handle, Kind, ObjectRegistry};
 use super::{ApiError, Phase, convention};
 
-/// Interface of clients and scripts to the simulation: the object registry with its world. Created for every call or
-/// phase; nothing in it outlives the step.
+/// Typed functions of the API on the object registry and its world: poses, joints, forces, sensors, parameters. Get one
+/// from [`Session::sim`](crate::session::Session::sim) for one call or phase; nothing in it outlives the step.
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// use sincro_coppelia::api::{Kind, Reference};
+/// use sincro_coppelia::session::Session;
+///
+/// let mut session = Session::open(&scene, &[], sincro_sim::Extensions::default(), None)?;
+/// let is_body = |e: &&sincro_coppelia::api::Entry| matches!(e.kind, Kind::Body(_));
+/// let body = session.registry().entries().find(is_body).expect("the scene has a body").handle;
+/// let mut sim = session.sim();
+/// assert!(sim.mass(body)?.mass > 0.0); // [kg]
+/// let pose = sim.pose(body, Reference::World)?;
+/// assert!(sim.pose(body, Reference::Object(body))?.pos.norm() < 1e-12, "at {:?} m", pose.pos);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct SimApi<'a> {
-    /// The objects.
+    /// Objects, signals and setpoints.
     pub registry: &'a mut ObjectRegistry,
-    /// The world.
+    /// Model with its state.
     pub world: &'a mut World,
-    /// Time `[s]`.
+    /// Simulation time `[s]`.
     pub t: f64,
-    /// The object of the script that acts, if it is one.
+    /// Object of the script that calls (`sim.handle_self`); none for a client.
     pub own: Option<Handle>,
     is_located: bool,
 }
 
-/// Reference frame of a pose.
+/// Reference frame in which a function gives or takes the pose of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
-    /// The world.
+    /// The world frame.
     World,
-    /// The object's parent.
+    /// The frame of the object's parent, of a joint the one that moves; the world if it has none.
     Parent,
-    /// An object; of a joint, the frame that moves.
+    /// The frame of another object; of a joint, the one that moves.
     Object(Handle),
-    /// The frame of a joint on its parent's side.
+    /// The fixed frame of a joint, on its parent's side; of any other object its frame.
     JointBase(Handle),
 }
 
 impl<'a> SimApi<'a> {
-    /// Joins a registry and its world at time `t` `[s]` for one call or phase.
+    /// Joins a registry with the world of the same scene at the simulation time `t` `[s]`, for one call or phase.
     pub fn new(registry: &'a mut ObjectRegistry, world: &'a mut World, t: f64) -> Self {
         Self { registry, world, t, own: None, is_located: false }
     }
@@ -47,7 +62,8 @@ impl<'a> SimApi<'a> {
         self.registry.phase != Phase::Stopped
     }
 
-    /// A line for the operator of the simulator, kept with the run: level as in V-REP.
+    /// Adds a message for the operator of the simulator, which is also kept with the run; `level` as in
+    /// [`LogLine`](super::LogLine).
     pub fn log(&mut self, level: i64, text: &str) {
         let object =
             self.own.and_then(|own| self.registry.entry(own).ok()).map_or("client", |e| e.path.as_str()).to_owned();
@@ -96,12 +112,12 @@ impl<'a> SimApi<'a> {
         Ok(self.place(&frame))
     }
 
-    /// Pose of an object against a reference, position in `[m]`. Joints have their axis along z; the frame is that on
-    /// their parent's side.
+    /// Pose of an object in a reference frame, position in `[m]`. The frame of a joint is the fixed one, on its
+    /// parent's side, z along its axis.
     ///
     /// # Errors
     ///
-    /// There is no such object.
+    /// `handle` is no object of the registry, or the reference is none.
     pub fn pose(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, ApiError> {
         let frame = self.registry.entry(handle)?.frame;
         let x_wr = self.reference(handle, reference)?;
@@ -109,11 +125,11 @@ impl<'a> SimApi<'a> {
         Ok(if reference == Reference::World { x_wo } else { x_wr.inverse().compose(&x_wo) })
     }
 
-    /// Pose of the moving frame of a joint in its fixed one: its position as a pose, lengths in `[m]`.
+    /// Pose of the moving frame of a joint in its fixed one, position in `[m]`; the identity for any other object.
     ///
     /// # Errors
     ///
-    /// There is no such object.
+    /// `handle` is no object of the registry.
     pub fn joint_pose(&mut self, handle: Handle) -> Result<Pose<f64>, ApiError> {
         let entry = self.registry.entry(handle)?;
         let (frame, moving) = (entry.frame, entry.moving);
@@ -121,12 +137,14 @@ impl<'a> SimApi<'a> {
         Ok(x_wb.inverse().compose(&self.place(&moving)))
     }
 
-    /// Puts an object somewhere: a runtime object, a frame of the scene that carries nothing which the model moves, or
-    /// an object that is carried by a free joint.
+    /// Moves an object to a pose in a reference frame, position in `[m]`: a runtime object, a vision sensor, a frame
+    /// below which the model moves nothing, or a body on a free joint, whose joint is set and whose velocity
+    /// coordinates stay. Runtime objects below move with it.
     ///
     /// # Errors
     ///
-    /// There is no such object, it hangs on something that does not move freely, or the pose is not finite.
+    /// `handle` or the reference is no object, the object hangs on joints that are not free (set their positions
+    /// instead), or a number is not finite.
     pub fn set_pose(&mut self, handle: Handle, pose: &Pose<f64>, reference: Reference) -> Result<(), ApiError> {
         let finite = pose.pos.0.iter().chain(pose.rot.0.iter().flatten()).all(|x| x.is_finite());
         if !finite {
@@ -194,12 +212,12 @@ impl<'a> SimApi<'a> {
         Ok(())
     }
 
-    /// Hangs a runtime object or a frame of the scene on another object, or on the world. What hangs there already may
-    /// be anything.
+    /// Hangs a runtime object, vision sensor or frame of the scene on another object, or on the world for none. With
+    /// `keep_in_place` its pose in the world stays, else that in its parent.
     ///
     /// # Errors
     ///
-    /// The model carries it, there is no such parent, or it would hang on itself.
+    /// `handle` or `parent` is no object, the model carries the object (bodies, joints), or it would hang on itself.
     pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> Result<(), ApiError> {
         if keep_in_place && self.registry.entry(handle)?.parent == parent {
             return Ok(());
@@ -233,21 +251,22 @@ impl<'a> SimApi<'a> {
         self.set_pose(handle, &before, if keep_in_place { Reference::World } else { Reference::Parent })
     }
 
-    /// Removes a runtime object.
+    /// Removes a runtime object; its children pass to its parent.
     ///
     /// # Errors
     ///
-    /// There is none, or it belongs to the scene.
+    /// `handle` is no object, or belongs to the scene.
     pub fn remove(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.before_move(handle);
         self.registry.remove(handle)
     }
 
-    /// Another object like a runtime object, where that one is.
+    /// Copies a runtime object, but for vision sensors, to the same place and parent; returns the handle of the copy,
+    /// whose name has a number appended.
     ///
     /// # Errors
     ///
-    /// There is no such object, it belongs to the scene, or there are too many.
+    /// `handle` is no object, belongs to the scene or is a vision sensor, or 10,000 objects were created already.
     pub fn copy(&mut self, handle: Handle) -> Result<Handle, ApiError> {
         let entry = self.registry.runtime_object(handle, "copied")?;
         if let Kind::Vision(_) = entry.kind {
@@ -262,22 +281,23 @@ impl<'a> SimApi<'a> {
         Ok(copy)
     }
 
-    /// Velocity of an object's origin [m/s] and its angular velocity [rad/s], world axes: exact, not differences.
+    /// Velocity of an object's origin `[m/s]` and its angular velocity `[rad/s]`, in this order, both as x, y, z in
+    /// world axes: the exact rates, not differences of positions.
     ///
     /// # Errors
     ///
-    /// There is no such object.
+    /// `handle` is no object of the registry.
     pub fn velocity(&mut self, handle: Handle) -> Result<([f64; 3], [f64; 3]), ApiError> {
         let frame = self.registry.entry(handle)?.frame;
         let twist = self.twist(&frame);
         Ok((twist.lin.0, twist.ang.0))
     }
 
-    /// Orientation of an object as α, β, γ `[rad]`.
+    /// Orientation of an object in a reference frame as the Euler angles α, β, γ `[rad]` of `R = Rx(α) Ry(β) Rz(γ)`.
     ///
     /// # Errors
     ///
-    /// There is no such object.
+    /// `handle` is no object of the registry, or the reference is none.
     pub fn euler(&mut self, handle: Handle, reference: Reference) -> Result<[f64; 3], ApiError> {
         Ok(convention::euler_of(&self.pose(handle, reference)?.rot))
     }

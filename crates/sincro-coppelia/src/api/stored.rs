@@ -8,7 +8,7 @@ const MAX_NAME: usize = 1_024;
 
 /// Form of stored data: what the function that wrote them was given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     /// Plain bytes.
     Bytes,
     /// Text.
@@ -19,7 +19,7 @@ pub enum Form {
 
 /// Data under a tag.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stored {
+pub(crate) struct Stored {
     /// Form of the bytes.
     pub form: Form,
     /// The bytes; of a text, its UTF-8.
@@ -29,7 +29,7 @@ pub struct Stored {
 impl Stored {
     /// The form in which a value is stored.
     #[must_use]
-    pub fn from_value(value: &Value) -> Self {
+    pub(crate) fn from_value(value: &Value) -> Self {
         match value {
             Value::Bytes(bytes) => Self { form: Form::Bytes, bytes: bytes.clone() },
             Value::Text(text) => Self { form: Form::Text, bytes: text.clone().into_bytes() },
@@ -46,7 +46,7 @@ impl Stored {
     /// # Errors
     ///
     /// The bytes are not of their form.
-    pub fn value(&self) -> Result<Value, ApiError> {
+    pub(crate) fn value(&self) -> Result<Value, ApiError> {
         match self.form {
             Form::Bytes => Ok(Value::Bytes(self.bytes.clone())),
             Form::Text => self.text().map(Value::Text),
@@ -59,7 +59,7 @@ impl Stored {
     /// # Errors
     ///
     /// They are none.
-    pub fn text(&self) -> Result<String, ApiError> {
+    pub(crate) fn text(&self) -> Result<String, ApiError> {
         let wrong = || ApiError::new("these data are no text: read them as a buffer");
         if self.form == Form::Packed {
             return Err(wrong());
@@ -72,7 +72,7 @@ impl Stored {
     /// # Errors
     ///
     /// They are none.
-    pub fn table(&self) -> Result<Value, ApiError> {
+    pub(crate) fn table(&self) -> Result<Value, ApiError> {
         match self.unpacked()? {
             table @ (Value::List(_) | Value::Map(_) | Value::Numbered(_)) => Ok(table),
             other => Err(ApiError(format!("these data are {}, no table: read them as that", other.word()))),
@@ -84,11 +84,12 @@ impl Stored {
     }
 }
 
-/// Refuses names that are too long to be kept.
+/// Checks that a name of a signal, tag, tube or parameter is short enough to be kept; `what` says in the message what
+/// it is the name of.
 ///
 /// # Errors
 ///
-/// It has more than 1,024 bytes; `what` it is the name of is said.
+/// The name has more than 1,024 bytes.
 pub fn check_name(what: &str, name: &str) -> Result<(), ApiError> {
     if name.len() > MAX_NAME {
         let start: String = name.chars().take(30).collect();

@@ -2,42 +2,42 @@
 
 use super::{ApiError, Handle};
 
-/// A value of any kind.
+/// Value of any type, as functions called by name take and return it: what Lua tables, CBOR and JSON have in common.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub enum Value {
-    /// Nothing.
+    /// No value; an argument that was left out.
     #[default]
     Nil,
     /// True or false.
     Bool(bool),
-    /// A handle, state, count, or other whole number.
+    /// Whole number: a handle, state, count, bit mask.
     Int(i64),
-    /// A quantity.
+    /// Quantity, in the SI unit that the function says.
     Real(f64),
-    /// Text.
+    /// Text in UTF-8.
     Text(String),
     /// Bytes: images, packed tables, string signals that are not text.
     Bytes(Vec<u8>),
-    /// A list.
+    /// List, in its order.
     List(Vec<Value>),
-    /// A table with names, in its order.
+    /// Table with names as keys, in its order.
     Map(Vec<(String, Value)>),
-    /// A table with whole numbers as keys, in its order.
+    /// Table with whole numbers as keys, in its order.
     Numbered(Vec<(i64, Value)>),
 }
 
 impl Value {
-    /// Argument `k` as a list of exactly `N` numbers.
+    /// Creates a list of [`Value::Real`] from numbers, in their order.
     pub fn reals(list: impl IntoIterator<Item = f64>) -> Self {
         Self::List(list.into_iter().map(Self::Real).collect())
     }
 
-    /// A list of handles.
+    /// Creates a list of [`Value::Int`] from handles, in their order.
     pub fn handles(list: impl IntoIterator<Item = Handle>) -> Self {
         Self::List(list.into_iter().map(Self::from).collect())
     }
 
-    /// The word for its kind.
+    /// Name of the type for error messages, with its article if it has one: `a whole number`, `text`.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -52,7 +52,8 @@ impl Value {
         }
     }
 
-    /// Value as a number; nil is not a number (MATLAB's encoding of NaN), none for other kinds.
+    /// Reads the value as a number: of a truth value 0 or 1, of nil a NaN (MATLAB's JSON encodes it so); none for other
+    /// types.
     #[must_use]
     pub fn as_real(&self) -> Option<f64> {
         match *self {
@@ -64,7 +65,8 @@ impl Value {
         }
     }
 
-    /// Value as a whole number; a number without fraction will do, none for other kinds.
+    /// Reads the value as a whole number: of a truth value 0 or 1, of a real the number if it has no fraction and is
+    /// below 9·10¹⁵ in magnitude; none for other values.
     #[must_use]
     pub fn as_int(&self) -> Option<i64> {
         match *self {
@@ -76,7 +78,7 @@ impl Value {
         }
     }
 
-    /// Value as truth: numbers are true unless zero, none for other kinds.
+    /// Reads the value as a truth value: numbers are true unless zero, nil is false; none for other types.
     #[must_use]
     pub fn as_bool(&self) -> Option<bool> {
         match *self {
@@ -88,7 +90,7 @@ impl Value {
         }
     }
 
-    /// Value as text; bytes must be UTF-8, none for other kinds.
+    /// Reads the value as text; bytes must be UTF-8. None for other types.
     #[must_use]
     pub fn as_text(&self) -> Option<&str> {
         match self {
@@ -98,7 +100,7 @@ impl Value {
         }
     }
 
-    /// Value as bytes; that of a text is its UTF-8, none for other kinds.
+    /// Reads the value as bytes, those of a text are its UTF-8; none for other types.
     #[must_use]
     pub fn as_bytes(&self) -> Option<&[u8]> {
         match self {
@@ -108,7 +110,8 @@ impl Value {
         }
     }
 
-    /// Value as a list of numbers; none if it is no list, or any entry is no number.
+    /// Reads the value as a list of numbers, in its order, each as [`Value::as_real`] does; none if it is no list, or
+    /// an entry is no number.
     #[must_use]
     pub fn as_reals(&self) -> Option<Vec<f64>> {
         let Self::List(list) = self else { return None };
@@ -158,30 +161,42 @@ impl From<&str> for Value {
     }
 }
 
-/// Positional arguments of a call; what is not given is nil.
+/// Positional arguments of a call by name, counted from 0; those that were not given read as nil. The accessors below
+/// check their types, and their error messages count from 1.
+///
+/// ```
+/// use sincro_coppelia::api::{Arguments, Value};
+///
+/// let given = [Value::from(3_i64), Value::reals([0.0, 0.5, 1.0])];
+/// let arguments = Arguments(&given);
+/// assert_eq!((arguments.int(0)?, arguments.reals::<3>(1)?), (3, [0.0, 0.5, 1.0]));
+/// assert_eq!(arguments.int_or(2, -1)?, -1);
+/// assert!(arguments.text(0).unwrap_err().0.contains("argument 1 is a whole number"));
+/// # Ok::<(), sincro_coppelia::api::ApiError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a>(pub &'a [Value]);
 
 impl<'a> Arguments<'a> {
-    /// Number of arguments.
+    /// Number of arguments given.
     #[must_use]
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Returns true if none was given.
+    /// Returns true if no argument was given.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Argument `k`, from 0.
+    /// Returns argument `k`, counted from 0; nil if fewer were given.
     #[must_use]
     pub fn get(&self, k: usize) -> &'a Value {
         self.0.get(k).unwrap_or(&Value::Nil)
     }
 
-    /// Returns true if argument `k` was given and is not nil.
+    /// Returns true if argument `k`, counted from 0, was given and is not nil.
     #[must_use]
     pub fn has(&self, k: usize) -> bool {
         *self.get(k) != Value::Nil
@@ -192,39 +207,40 @@ impl<'a> Arguments<'a> {
         ApiError(format!("argument {} is {found}, expected {expected}", k + 1))
     }
 
-    /// Argument `k` as a whole number.
+    /// Reads argument `k`, counted from 0, as a whole number, see [`Value::as_int`].
     ///
     /// # Errors
     ///
-    /// Something else was given, or nothing.
+    /// It was not given, or is no whole number.
     pub fn int(&self, k: usize) -> Result<i64, ApiError> {
         self.get(k).as_int().ok_or_else(|| self.wrong(k, "a whole number"))
     }
 
-    /// A whole number, or `default` if nothing was given.
+    /// Reads argument `k`, counted from 0, as a whole number; `default` if it was not given or is nil.
     ///
     /// # Errors
     ///
-    /// Something else was given.
+    /// It was given and is no whole number.
     pub fn int_or(&self, k: usize, default: i64) -> Result<i64, ApiError> {
         if self.has(k) { self.int(k) } else { Ok(default) }
     }
 
-    /// Argument `k` as a number; nil in a given place is not a number.
+    /// Reads argument `k`, counted from 0, as a number, see [`Value::as_real`]: a given nil is NaN.
     ///
     /// # Errors
     ///
-    /// Something else was given, or nothing.
+    /// It was not given, or is no number.
     pub fn real(&self, k: usize) -> Result<f64, ApiError> {
         let given = self.0.get(k).and_then(Value::as_real);
         given.ok_or_else(|| self.wrong(k, "a number"))
     }
 
-    /// True or false; numbers are true unless zero, nothing is `default`.
+    /// Reads argument `k`, counted from 0, as a truth value, numbers being true unless zero; `default` if it was not
+    /// given or is nil.
     ///
     /// # Errors
     ///
-    /// Something else was given.
+    /// It was given and is neither a truth value nor a number.
     pub fn bool_or(&self, k: usize, default: bool) -> Result<bool, ApiError> {
         if !self.has(k) {
             return Ok(default);
@@ -232,40 +248,41 @@ impl<'a> Arguments<'a> {
         self.get(k).as_bool().ok_or_else(|| self.wrong(k, "true or false"))
     }
 
-    /// Argument `k` as a text.
+    /// Reads argument `k`, counted from 0, as text; bytes must be UTF-8.
     ///
     /// # Errors
     ///
-    /// Something else was given, or nothing.
+    /// It was not given, or is no text.
     pub fn text(&self, k: usize) -> Result<&'a str, ApiError> {
         self.get(k).as_text().ok_or_else(|| self.wrong(k, "text"))
     }
 
-    /// Argument `k` as bytes; a text will do.
+    /// Reads argument `k`, counted from 0, as bytes; those of a text are its UTF-8.
     ///
     /// # Errors
     ///
-    /// Something else was given, or nothing.
+    /// It was not given, or is neither bytes nor text.
     pub fn bytes(&self, k: usize) -> Result<&'a [u8], ApiError> {
         self.get(k).as_bytes().ok_or_else(|| self.wrong(k, "bytes or text"))
     }
 
-    /// `N` numbers.
+    /// Reads argument `k`, counted from 0, as a list of exactly `N` numbers, in its order.
     ///
     /// # Errors
     ///
-    /// Something else was given, or another number of them.
+    /// It was not given, is no list of numbers, or has another length than `N`.
     pub fn reals<const N: usize>(&self, k: usize) -> Result<[f64; N], ApiError> {
         let list = self.get(k).as_reals().ok_or_else(|| self.wrong(k, &format!("a list of {N} numbers")))?;
         let n = list.len();
         list.try_into().map_err(|_| ApiError(format!("argument {} has {n} numbers, expected {N}", k + 1)))
     }
 
-    /// A handle as it was given, flags included.
+    /// Reads argument `k`, counted from 0, as the number of a handle, with the flags that clients may add to it
+    /// (`sim.handleflag_…`).
     ///
     /// # Errors
     ///
-    /// Something else was given, or nothing.
+    /// It was not given, or is no whole number of 32 bits. Whether there is such an object is not checked.
     pub fn handle(&self, k: usize) -> Result<i32, ApiError> {
         let n = self.get(k).as_int().and_then(|n| i32::try_from(n).ok());
         n.ok_or_else(|| self.wrong(k, "a handle"))

@@ -64,7 +64,7 @@ impl Clone for DrawingBuffers {
 
 /// Which sensors are handled or reset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sensors {
+pub(crate) enum Sensors {
     /// All.
     All,
     /// All but those with explicit handling.
@@ -159,11 +159,12 @@ impl ObjectRegistry {
         Ok(k)
     }
 
-    /// A vision sensor as it now is.
+    /// Settings of a vision sensor as they are now: optics (angles `[rad]`, distances `[m]`, resolution in pixels),
+    /// background, handling.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is none.
+    /// `handle` is no object, or is no vision sensor.
     pub fn vision_sensor(&self, handle: Handle) -> Result<&VisionSensor, ApiError> {
         Ok(&self.vision.slots[self.vision_index(handle)?].sensor)
     }
@@ -173,7 +174,11 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// There is no such object, it is none, or its pictures could not be drawn; it is then as it was.
-    pub fn change_vision(&mut self, handle: Handle, change: impl FnOnce(&mut VisionSensor)) -> Result<(), ApiError> {
+    pub(crate) fn change_vision(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut VisionSensor),
+    ) -> Result<(), ApiError> {
         let k = self.vision_index(handle)?;
         let mut sensor = self.vision.slots[k].sensor.clone();
         change(&mut sensor);
@@ -192,7 +197,7 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// There are too many objects or pixels, or its pictures could not be drawn.
-    pub fn create_vision_sensor(&mut self, sensor: VisionSensor) -> Result<Handle, ApiError> {
+    pub(crate) fn create_vision_sensor(&mut self, sensor: VisionSensor) -> Result<Handle, ApiError> {
         checked(&sensor.optics)?;
         self.vision.check_stored_size(&sensor.optics, None)?;
         let handle = self.create_dummy("VisionSensor")?;
@@ -205,7 +210,7 @@ impl ObjectRegistry {
     /// # Errors
     ///
     /// There is no such object, or it is none.
-    pub fn reset_vision(&mut self, which: Sensors) -> Result<(), ApiError> {
+    pub(crate) fn reset_vision(&mut self, which: Sensors) -> Result<(), ApiError> {
         let one = match which {
             Sensors::One(handle) => Some(self.vision_index(handle)?),
             _ => None,
@@ -225,7 +230,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, or it is none.
-    pub fn handle_vision(&mut self, which: Sensors) -> Result<(), ApiError> {
+    pub(crate) fn handle_vision(&mut self, which: Sensors) -> Result<(), ApiError> {
         let q = std::mem::take(&mut self.world.state.q);
         if which != Sensors::NotExplicit {
             let entries = self.registry.entries().filter(|e| matches!(e.kind, Kind::Vision(_)));
@@ -250,15 +255,12 @@ impl SimApi<'_> {
         }
     }
 
-    /// The picture of a vision sensor, of its last handling.
+    /// Image of a vision sensor as of its last handling; before the first one, what it sees now. Clients that only read
+    /// it change nothing.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is none.
-    ///
-    /// # Panics
-    ///
-    /// Never: a picture has been drawn.
+    /// `handle` is no object, or is no vision sensor.
     pub fn vision_image(&mut self, handle: Handle) -> Result<&Image, ApiError> {
         let k = self.registry.vision_index(handle)?;
         let slot = &self.registry.vision.slots[k];
@@ -284,12 +286,12 @@ impl SimApi<'_> {
         }))
     }
 
-    /// Statistics of the image of a vision sensor: least, greatest and mean of intensity, red, green, blue and depth,
-    /// in this order, dimensionless from 0 to 1. None before its first handling.
+    /// Statistics of the image of a vision sensor, dimensionless from 0 to 1: five minima, five maxima and five means
+    /// of intensity, red, green, blue and depth, in this order. None before its first handling in a run.
     ///
     /// # Errors
     ///
-    /// There is no such object, or it is none.
+    /// `handle` is no object, or is no vision sensor.
     pub fn read_vision(&mut self, handle: Handle) -> Result<Option<[f64; 15]>, ApiError> {
         let k = self.registry.vision_index(handle)?;
         if self.registry.vision.slots[k].shows == ImageState::Nothing {
@@ -298,12 +300,15 @@ impl SimApi<'_> {
         Ok(Some(self.vision_image(handle)?.statistics()))
     }
 
-    /// Writes into the picture of a vision sensor; the next handling draws over it unless the sensor has external
-    /// input.
+    /// Overwrites the colours of a part (position of its lower left corner, columns and rows, in pixels) of a vision
+    /// sensor's image. `bytes` holds the pixels row by row from the lowest, 1 (grey) or 3 (red, green, blue) bytes
+    /// each, and one of opacity, which is ignored, if `layer` has it. The next handling draws over it, unless the
+    /// sensor has external input.
     ///
     /// # Errors
     ///
-    /// There is no such object, it is none, the part is not in its picture, or there are fewer bytes than that has.
+    /// `handle` is no object or no vision sensor, the part does not lie in its image, or `bytes` are fewer than the
+    /// part has.
     pub fn write_vision(&mut self, handle: Handle, part: Part, layer: Layer, bytes: &[u8]) -> Result<(), ApiError> {
         self.has_part(handle, part)?;
         let n = part.size[0] * part.size[1] * layer.width();
@@ -325,7 +330,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// It does not.
-    pub fn has_part(&mut self, handle: Handle, part: Part) -> Result<(), ApiError> {
+    pub(crate) fn has_part(&mut self, handle: Handle, part: Part) -> Result<(), ApiError> {
         let [columns, rows] = self.registry.vision_sensor(handle)?.optics.resolution;
         let fits = |k: usize, n: usize| {
             part.size[k] > 0 && part.position[k].checked_add(part.size[k]).is_some_and(|end| end <= n)
@@ -342,7 +347,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, it is none, or it has external input.
-    pub fn check_vision(&mut self, handle: Handle, object: Option<Handle>) -> Result<(bool, Image), ApiError> {
+    pub(crate) fn check_vision(&mut self, handle: Handle, object: Option<Handle>) -> Result<(bool, Image), ApiError> {
         let k = self.registry.vision_index(handle)?;
         if self.registry.vision.slots[k].sensor.is_external {
             return Err(ApiError::new("the vision sensor has external input: it sees nothing by itself"));

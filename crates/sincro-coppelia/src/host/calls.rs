@@ -18,7 +18,7 @@ const OF_SCRIPTS: i64 = 450;
 
 /// Scripts with what they have said.
 #[derive(Debug)]
-pub struct Scripts {
+pub(crate) struct Scripts {
     host: Box<dyn Host>,
     messages: Vec<Message>,
     n_dropped: usize,
@@ -27,7 +27,11 @@ pub struct Scripts {
 
 impl Scripts {
     /// The scripts of a scene. Descendants are called before their ancestors, siblings in the order of the file.
-    pub fn of(scene: &Scene, setting: Setting, start: impl FnOnce(&Arc<[Script]>, Setting) -> Box<dyn Host>) -> Self {
+    pub(crate) fn of(
+        scene: &Scene,
+        setting: Setting,
+        start: impl FnOnce(&Arc<[Script]>, Setting) -> Box<dyn Host>,
+    ) -> Self {
         let host = start(&order(scene), setting);
         Self { host, messages: Vec::new(), n_dropped: 0, is_started: false }
     }
@@ -37,7 +41,7 @@ impl Scripts {
     /// # Errors
     ///
     /// The first one that fails.
-    pub fn call(
+    pub(crate) fn call(
         &mut self,
         phase: Phase,
         world: &mut World,
@@ -56,7 +60,7 @@ impl Scripts {
     /// # Errors
     ///
     /// The simulation has not begun, there is no script or no such function, or it failed.
-    pub fn call_function(
+    pub(crate) fn call_function(
         &mut self,
         (object, kind): (Handle, Option<Kind>),
         (function, arguments): (&str, &[Value]),
@@ -77,7 +81,7 @@ impl Scripts {
     /// # Errors
     ///
     /// There is no script, or the text failed.
-    pub fn evaluate(
+    pub(crate) fn evaluate(
         &mut self,
         script: (Handle, Option<Kind>),
         text: &str,
@@ -108,13 +112,13 @@ impl Scripts {
 
     /// Returns true if their initialisation has been called.
     #[must_use]
-    pub fn is_started(&self) -> bool {
+    pub(crate) fn is_started(&self) -> bool {
         self.is_started
     }
 
     /// Messages of the scripts, and the number of those beyond the limit, which were dropped.
     #[must_use]
-    pub fn messages(&self) -> (&[Message], usize) {
+    pub(crate) fn messages(&self) -> (&[Message], usize) {
         (&self.messages, self.n_dropped)
     }
 }

@@ -8,7 +8,7 @@ mod calls;
 
 use std::fmt;
 
-pub use calls::Scripts;
+pub(crate) use calls::Scripts;
 
 use sincro_dynamics::world::World;
 
@@ -16,14 +16,15 @@ use crate::api::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::script::{Kind, ScriptError};
 use sincro_sim::controller::Message;
 
-/// When a script is called within a run.
+/// Phase of a run in which scripts are called, each with the callback of its name (`sysCall_init`, `sysCall_actuation`
+/// …).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// Once, before the first tick.
+    /// Once, before the first tick (`sysCall_init`).
     Initialization,
-    /// At each tick, before the world advances: commands and forces of the step are given here.
+    /// At the start of each step of scripts, before the world advances: commands and forces of the step are given here.
     Actuation,
-    /// At each tick, after the world has advanced; the time is still that of the start of the step.
+    /// At the end of each step of scripts, after the world has advanced; the time is that of the start of the step.
     Sensing,
     /// When the run is about to be paused.
     Suspend,
@@ -35,33 +36,36 @@ pub enum Phase {
     Cleanup,
 }
 
-/// Context of a call of the scripts.
+/// Context of a call of scripts by the lock-step: world, objects and time, which a [`Host`] hands to the functions of
+/// the API.
 #[derive(Debug)]
 pub struct Call<'a> {
     /// The world, to be left in its place when the call is over.
     pub world: &'a mut World,
-    /// The objects as scripts know them.
+    /// Object registry, to be left in its place when the call is over; none if it was taken away.
     pub registry: &'a mut Option<Box<ObjectRegistry>>,
-    /// The tick, in sensing that at which the step began.
+    /// Tick (number of base steps since the start); in sensing that at which the step began.
     pub tick: u64,
-    /// Time `[s]` of the scripts: `tick · step`.
+    /// Time of the scripts `[s]`: `tick` times the base step.
     pub t: f64,
 }
 
-/// The scripts of one run, in memory.
+/// Scripts of one run in memory, in the language of an adapter (`sincro-lua`); the lock-step calls them in each
+/// [`Phase`].
 pub trait Host: Send + fmt::Debug {
-    /// Calls all scripts for a phase, in their order.
+    /// Calls the callback of a phase in all scripts that have it, descendants before ancestors.
     ///
     /// # Errors
     ///
-    /// The first script that fails; those after it are not called.
+    /// The first script that fails, with its object and line; those after it are not called.
     fn call(&mut self, call: Call<'_>, phase: Phase) -> Result<(), ScriptError>;
 
-    /// Calls a function of the script on an object, of any kind unless one is given.
+    /// Calls a global function of the script on an object, of any kind of script unless one is given; returns its
+    /// results in their order.
     ///
     /// # Errors
     ///
-    /// There is no script or no such function, or it failed.
+    /// There is no such script or no function of that name, or it failed; the message has the script's own.
     fn call_function(
         &mut self,
         call: Call<'_>,
@@ -70,23 +74,23 @@ pub trait Host: Send + fmt::Debug {
         arguments: &[Value],
     ) -> Result<Vec<Value>, ApiError>;
 
-    /// Runs a text in the script on an object, with what that script knows and within its limits; gives what the text
-    /// returns.
+    /// Runs a text as a chunk of the script on an object, with what that script knows and within its limits; returns
+    /// what the chunk returns.
     ///
     /// # Errors
     ///
-    /// There is no such script, or the text failed.
+    /// There is no such script, or the text cannot be parsed or failed.
     fn evaluate(&mut self, call: Call<'_>, script: (Handle, Option<Kind>), text: &str) -> Result<Vec<Value>, ApiError>;
 
-    /// Takes the messages of scripts since the last call.
+    /// Takes the messages that scripts have printed since the last call, in their order.
     fn take_messages(&mut self) -> Vec<Message>;
 }
 
-/// Settings of the scripts of a run.
+/// Settings that a host starts the scripts of a run with.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
-    /// Base step `[s]`.
+    /// Duration of a step of scripts `[s]`: a whole number of base steps.
     pub step: f64,
-    /// Seed of everything random.
+    /// Seed of the scripts' random numbers, from the experiment.
     pub seed: u64,
 }

@@ -1,18 +1,18 @@
 //! Motion along one axis in pieces of constant jerk.
 
-/// A state of motion. The unit is the axis's own: m, rad, or any other.
+/// State of motion along one axis. `u` stands for the unit of the axis: m, rad, or any other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
     /// Position `[u]`.
     pub p: f64,
-    /// Velocity [u/s].
+    /// Velocity `[u/s]`.
     pub v: f64,
-    /// Acceleration [u/s²].
+    /// Acceleration `[u/s²]`.
     pub a: f64,
 }
 
 impl Point {
-    /// After a time `[s]` with a constant jerk [u/s³].
+    /// State after a time `t` `[s]` with the constant jerk `jerk` `[u/s³]`.
     #[must_use]
     pub fn after(self, t: f64, jerk: f64) -> Self {
         let Self { p, v, a } = self;
@@ -30,24 +30,25 @@ impl Point {
     }
 }
 
-/// Limits of a motion along one axis: upper bounds are positive, lower ones negative.
+/// Limits of a motion along one axis, an input of [`plan`](crate::motion::plan); `u` stands for the unit of the axis.
+/// Largest values are positive, lowest ones negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Largest velocity [u/s].
+    /// Largest velocity `[u/s]`.
     pub max_velocity: f64,
-    /// Lowest velocity [u/s].
+    /// Lowest velocity `[u/s]`.
     pub min_velocity: f64,
-    /// Largest acceleration [u/s²].
+    /// Largest acceleration `[u/s²]`.
     pub max_acceleration: f64,
-    /// Lowest acceleration [u/s²].
+    /// Lowest acceleration `[u/s²]`.
     pub min_acceleration: f64,
-    /// Largest jerk, either way [u/s³].
+    /// Largest magnitude of the jerk `[u/s³]`.
     pub max_jerk: f64,
 }
 
 impl Limits {
-    /// Creates limits of velocity `[1/s]`, acceleration `[1/s²]` and jerk `[1/s³]`, times the coordinate's unit, that
-    /// are the same in both directions.
+    /// Creates limits that are the same in both directions: magnitudes of velocity `[u/s]`, acceleration `[u/s²]` and
+    /// jerk `[u/s³]`, all positive.
     #[must_use]
     pub fn symmetric(velocity: f64, acceleration: f64, jerk: f64) -> Self {
         Self {
@@ -120,7 +121,8 @@ impl Pieces {
     }
 }
 
-/// A motion along one axis: where it begins, its pieces, and where it ends and continues with constant velocity.
+/// Planned motion along one axis: pieces of constant jerk from a start to a goal, and constant velocity from there on.
+/// [`plan`](crate::motion::plan) makes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
     pub(super) start: Point,
@@ -135,19 +137,20 @@ impl Profile {
         Self { start, pieces, end, duration: pieces.duration() }
     }
 
-    /// Duration of the whole motion `[s]`.
+    /// Duration of the motion until the goal is reached `[s]`.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Position, velocity and acceleration at the end of the motion.
+    /// State at the end of the motion: position, velocity and acceleration; from there on the velocity stays.
     #[must_use]
     pub fn end(&self) -> Point {
         self.end
     }
 
-    /// The state at a time since its beginning `[s]`; behind the end it continues with the last velocity.
+    /// State at a time `t` `[s]` since the start; the start for a negative `t`, and motion with the last velocity
+    /// behind the end.
     #[must_use]
     pub fn at(&self, t: f64) -> Point {
         if t >= self.duration {

@@ -4,32 +4,32 @@ use super::fastest::{candidates, fastest};
 use super::profile::{Limits, Point, Profile};
 use super::timed::{fastest_velocity, timed, timed_velocity};
 
-/// Synchronization of the motions of several axes.
+/// Synchronization of the motions of several axes, an input of [`plan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Synchronization {
     /// All are on one straight line at every time, if start, goal and limits allow it; else as `Time`.
     Phase,
     /// All arrive at the same time.
     Time,
-    /// Each is as fast as it can be.
+    /// Each arrives as soon as its own limits allow.
     None,
 }
 
-/// Goal of an axis.
+/// Goal of the motion along one axis; `u` stands for the unit of the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     /// A position `[u]` and the velocity there [u/s].
     Position(f64, f64),
     /// A velocity [u/s], wherever that is.
     Velocity(f64),
-    /// None: it keeps its velocity.
+    /// None: the axis keeps its velocity.
     Free,
 }
 
-/// One axis and what it is to do.
+/// One axis of a motion to be planned: start, limits and goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
-    /// State at the start.
+    /// State of motion at the start.
     pub start: Point,
     /// Limits of the motion; those of the velocity have no meaning for `Goal::Velocity`.
     pub limits: Limits,
@@ -37,12 +37,12 @@ pub struct Axis {
     pub goal: Goal,
 }
 
-/// Error of planning: the axis, counted from 0, and the reason.
+/// Error of [`plan`]: the first axis whose numbers allow no motion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanError {
-    /// The axis.
+    /// Index of the axis in the slice given to [`plan`], from 0.
     pub axis: usize,
-    /// Reason.
+    /// Reason, with the value and what was expected.
     pub why: String,
 }
 
@@ -60,8 +60,8 @@ const TIMES: usize = 60;
 /// Times that are tried between the first possible one and nine times that, and again behind the last of those above.
 const MORE_TIMES: usize = 40;
 
-/// Plans the motions of several axes. All of them hold their limits, arrive at their goals exactly, and have no
-/// acceleration there.
+/// Plans the motions of several axes, as `sim.ruckigPos` and `sim.moveToConfig` do: one profile for each axis, in their
+/// order. All of them hold their limits, arrive at their goals exactly, and have no acceleration there.
 ///
 /// ```
 /// use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
@@ -76,7 +76,7 @@ const MORE_TIMES: usize = 40;
 /// # Errors
 ///
 /// A number is not finite or beyond 10¹⁵, a limit has the wrong sign or is below 10⁻¹⁵, a target velocity is beyond the
-/// limits, or the motion would take more than 10⁹ s.
+/// limits, or the motion would take more than 10⁹ s; the error has the axis.
 pub fn plan(axes: &[Axis], synchronization: Synchronization) -> Result<Vec<Profile>, PlanError> {
     for (axis, this) in axes.iter().enumerate() {
         this.check().map_err(|why| PlanError { axis, why })?;

@@ -48,7 +48,9 @@ fn leads_out(value: &toml::Value) -> bool {
     }
 }
 
-/// A folder for what clients send, and the names of what they have sent: nothing else in it is theirs.
+/// Folder for the files that clients of a session send, if the server permits it
+/// ([`Grants::files`](super::Grants::files)), with the names of those that they have sent: up to 200 files of 64 MiB
+/// together. Other files in it are never read or replaced.
 #[derive(Clone, Debug)]
 pub struct Files {
     folder: PathBuf,
@@ -56,16 +58,10 @@ pub struct Files {
 }
 
 impl Files {
-    /// In a folder, which is made when the first file comes.
+    /// Creates the record of a folder, which is made when the first file arrives.
     #[must_use]
     pub fn new(folder: PathBuf) -> Self {
         Self { folder, sent: BTreeSet::new() }
-    }
-
-    /// Folder of the files.
-    #[must_use]
-    pub fn folder(&self) -> &Path {
-        &self.folder
     }
 
     /// The place of a name: the last part of what the client calls it.
@@ -73,7 +69,7 @@ impl Files {
     /// # Errors
     ///
     /// It is no plain name.
-    pub fn place(&self, name: &str) -> Result<PathBuf, ApiError> {
+    pub(crate) fn place(&self, name: &str) -> Result<PathBuf, ApiError> {
         let is_plain = !name.is_empty()
             && name.len() <= MAX_NAME_LEN
             && !name.starts_with('.')
@@ -89,16 +85,17 @@ impl Files {
 
     /// Returns true if a client has sent the file of a place.
     #[must_use]
-    pub fn has(&self, place: &Path) -> bool {
+    pub(crate) fn has(&self, place: &Path) -> bool {
         self.sent.contains(place)
     }
 
-    /// Keeps a file; one of the same name that a client has sent is replaced.
+    /// Writes a file that a client sends; one of the same name that a client has sent before is replaced. `name` is
+    /// letters, digits, `.`, `_`, `-` and spaces, 200 bytes at most, without folders.
     ///
     /// # Errors
     ///
-    /// It is no plain name, something of the name was there before, there are too many or too large ones, or it cannot
-    /// be written.
+    /// The name is not allowed, a file that no client has sent has it, the limits of number and size are exceeded, or
+    /// the file cannot be written; the message says which.
     pub fn put(&mut self, name: &str, bytes: &[u8]) -> Result<(), ApiError> {
         let place = self.place(name)?;
         let refused = |e: std::io::Error| ApiError(format!("`{name}` cannot be written: {e}"));
@@ -128,7 +125,7 @@ impl Files {
     /// # Errors
     ///
     /// A text in one of them has `..` as a part of a path.
-    pub fn check_references(&self) -> Result<(), ApiError> {
+    pub(crate) fn check_references(&self) -> Result<(), ApiError> {
         for place in &self.sent {
             let Ok(text) = fs::read_to_string(place) else { continue };
             let Ok(table) = text.parse::<toml::Table>() else { continue };
@@ -140,11 +137,11 @@ impl Files {
         Ok(())
     }
 
-    /// Removes a file that a client has sent.
+    /// Removes a file that a client has sent, by the name that it was sent with.
     ///
     /// # Errors
     ///
-    /// There is none of that name.
+    /// No client has sent a file of that name, or it cannot be removed.
     pub fn erase(&mut self, name: &str) -> Result<(), ApiError> {
         let place = self.place(name)?;
         if !self.sent.remove(&place) {

@@ -29,18 +29,33 @@ use sincro_sim::results::Status;
 use sincro_sim::run::{LockStep, Recording, RunError, RunOptions, Simulated, method_for};
 use sincro_sim::trace::Trace;
 
-/// A run that has ended.
+/// Run of a session that has ended, whether it was completed, stopped by a client or failed; [`Session::take_finished`]
+/// gives it.
 #[derive(Debug)]
 pub struct Finished {
-    /// Results.
+    /// Signals, status, warnings and trace hash of the run.
     pub simulated: Simulated,
-    /// The scene that it was a run of.
+    /// Scene and experiment that were run, with changes that clients made before.
     pub loaded: Loaded,
-    /// Steps of clients.
+    /// Number of steps of clients that were completed.
     pub steps: u64,
 }
 
-/// A loaded scene with the runs that clients make of it.
+/// Loaded scene that clients start, step, read and change through the API of V-REP and CoppeliaSim, with the runs that
+/// they make of it.
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// use sincro_coppelia::session::Session;
+///
+/// let mut session = Session::open(&scene, &[], sincro_sim::Extensions::default(), None)?;
+/// session.start()?;
+/// session.step()?;
+/// assert_eq!((session.steps(), session.t()), (1, session.registry().sample_time()));
+/// session.stop()?;
+/// assert_eq!(session.take_finished().len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Session {
     folder: PathBuf,
     overrides: Vec<Override>,
@@ -58,12 +73,12 @@ pub struct Session {
     legacy_ports: Option<LegacyPorts>,
 }
 
-/// Permissions of clients beyond the simulation; none by default.
+/// Permissions of clients beyond the simulation, given with [`Session::grant`]; none by default.
 #[derive(Clone, Debug, Default)]
 pub struct Grants {
-    /// Send files, to this folder, and load scenes from it.
+    /// Folder to which clients may send files and from which they may load scenes; none: they may not.
     pub files: Option<Files>,
-    /// Run texts in the scene's scripts.
+    /// True if clients may run texts in the scene's scripts (`sim.executeScriptString`).
     pub evaluation: bool,
 }
 
@@ -84,12 +99,13 @@ struct Run {
 }
 
 impl Session {
-    /// Opens a scene folder, stopped. Steps of clients last `sample_time` `[s]`, or what the experiment says
-    /// (`simulation_step`).
+    /// Opens a scene folder, stopped at time 0. A step of clients lasts `sample_time` `[s]`, or `simulation_step` of
+    /// the experiment for none. Scripts of the scene need `extensions` with their language.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the scene; or a sample time that is no whole multiple of its base step.
+    /// All problems of the scene's files and of the overrides, each with its place in the file; or a sample time that
+    /// is no whole multiple of the base step.
     pub fn open(
         folder: &Path,
         overrides: &[Override],
@@ -100,7 +116,8 @@ impl Session {
         Self::new(folder, overrides, loaded, sample_time)
     }
 
-    /// As [`Session::open`], of a scene that is loaded already.
+    /// Creates a session of a scene that is loaded already from `folder` with `overrides`; see [`Session::open`] for
+    /// `sample_time` `[s]`.
     ///
     /// # Errors
     ///
@@ -136,25 +153,27 @@ impl Session {
         })
     }
 
-    /// The scene and its experiment.
+    /// Scene and experiment of the session, with changes of the model that clients have made while stopped and run
+    /// since.
     #[must_use]
     pub fn loaded(&self) -> &Loaded {
         &self.loaded
     }
 
-    /// The folder of the scene.
+    /// Path of the scene folder, as it was given to [`Session::open`] or loaded by a client.
     #[must_use]
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The settings that it was loaded with.
+    /// Overrides that the scene was loaded with, in their order; none for a scene that a client has loaded.
     #[must_use]
     pub fn overrides(&self) -> &[Override] {
         &self.overrides
     }
 
-    /// The objects with their world.
+    /// Typed functions of the API on the objects and world of the session, at its present time: positions, forces,
+    /// sensors, parameters.
     ///
     /// # Panics
     ///
@@ -163,55 +182,71 @@ impl Session {
         ApiController::sim(&mut self.lockstep).expect("a session's lock-step has a registry")
     }
 
-    /// Objects of the scene and runtime objects, with all that clients and scripts store.
+    /// Objects of the scene and runtime objects, with all that clients and scripts store: handles, signals, setpoints.
     pub fn registry(&mut self) -> &mut ObjectRegistry {
         self.sim().registry
     }
 
-    /// State of the simulation.
+    /// State of the simulation: stopped, running or paused.
     pub fn phase(&mut self) -> Phase {
         self.registry().phase
     }
 
-    /// Simulation time `[s]`; 0 while stopped.
+    /// Simulation time `[s]` since the start of the run; 0 while stopped.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.lockstep.t()
     }
 
-    /// Steps of clients since the run began.
+    /// Number of steps of clients since the run began; 0 while stopped. A step has [`ObjectRegistry::sample_time`]
+    /// seconds.
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Hash of the states of the present run; none while stopped.
+    /// Hash of all states of the present run so far, the same for the same run on every machine; none while stopped.
     #[must_use]
     pub fn trace(&self) -> Option<Trace> {
         self.run.as_ref().map(|run| run.recording.trace())
     }
 
-    /// Takes the runs that have ended since this was last asked.
+    /// Takes the runs that have ended since the last call, the oldest first.
     pub fn take_finished(&mut self) -> Vec<Finished> {
         std::mem::take(&mut self.finished)
     }
 
-    /// Calls a function by name, with or without `sim.` before it, then does what it asked for.
+    /// Calls a function of the API by name, with or without `sim.` before it, then carries out what it requested
+    /// (start, pause, stop, load). Returns its results in the order of its call tip.
+    ///
+    /// ```
+    /// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+    /// # use sincro_coppelia::session::Session;
+    /// use sincro_coppelia::api::Value;
+    ///
+    /// let mut session = Session::open(&scene, &[], sincro_sim::Extensions::default(), None)?;
+    /// session.call("sim.startSimulation", &[])?;
+    /// assert_eq!(session.call("sim.getSimulationTime", &[])?, [Value::Real(0.0)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// There is no such function, or it refused.
+    /// No function of that name is offered, it has refused its arguments, or what it requested failed; the message
+    /// names the function.
     pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, ApiError> {
         let result = functions::call(&mut self.sim(), name, arguments)?;
         self.do_requests()?;
         Ok(result)
     }
 
-    /// Calls a function of the script on an object, then does what it asked for.
+    /// Calls a function of the script on an object, of that kind or, for none, of any, then carries out what it
+    /// requested (start, stop, load). Returns its results in their order.
     ///
     /// # Errors
     ///
-    /// There is no such script or function, or it failed.
+    /// There is no such script or function, the scripts have not been started, the function failed, or what it
+    /// requested did.
     pub fn call_script(
         &mut self,
         object: Handle,
@@ -224,12 +259,13 @@ impl Session {
         Ok(results)
     }
 
-    /// Says that clients are served: scripts can have ports opened beside those that are.
+    /// Declares that a server serves clients on these TCP ports of the legacy remote API; from the next run on, scripts
+    /// may request further ports.
     pub fn set_served(&mut self, ports: LegacyPorts) {
         self.legacy_ports = Some(ports);
     }
 
-    /// Notes whether a port that a script asked for could be opened.
+    /// Records whether the server could open a TCP port that a script has requested.
     pub fn note_port(&mut self, port: u16, is_open: bool) {
         let note = |ports: &mut LegacyPorts| {
             if is_open {
@@ -243,7 +279,7 @@ impl Session {
         self.registry().legacy_ports.iter_mut().for_each(note);
     }
 
-    /// Lets clients do more than they may by themselves.
+    /// Replaces the permissions of clients.
     pub fn grant(&mut self, grants: Grants) {
         self.grants = grants;
     }
@@ -252,17 +288,18 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// They may not.
+    /// [`Grants::files`] is none; the message has the option of `sincro serve` that grants it.
     pub fn files(&mut self) -> Result<&mut Files, ApiError> {
         let refused = "clients send and erase no files here: `sincro serve --grant files` lets them";
         self.grants.files.as_mut().ok_or_else(|| ApiError::new(refused))
     }
 
-    /// Runs a text in the script on an object, then does what it asked for.
+    /// Runs a text in the script on an object, of that kind or, for none, of any, then carries out what it requested.
+    /// Returns what the text returns.
     ///
     /// # Errors
     ///
-    /// It is not granted, there is no such script, or the text failed.
+    /// [`Grants::evaluation`] is false, there is no such script, the scripts have not been started, or the text failed.
     pub fn evaluate(
         &mut self,
         object: Handle,
@@ -283,7 +320,7 @@ impl Session {
     /// # Errors
     ///
     /// The first of it that was refused; the rest is done.
-    pub fn do_requests(&mut self) -> Result<(), ApiError> {
+    pub(crate) fn do_requests(&mut self) -> Result<(), ApiError> {
         let mut first = Ok(());
         for request in self.registry().take_requests() {
             let done = match request {
@@ -300,11 +337,13 @@ impl Session {
         first
     }
 
-    /// Starts a run, or resumes it after a pause. Time stays 0 until the first step.
+    /// Starts a run, with the initialization of scripts, or resumes a paused one; nothing if one is running. Time stays
+    /// 0 until the first step.
     ///
     /// # Errors
     ///
-    /// Nothing can be recorded, or a block of the diagram gives what is not a finite number: the run has then ended.
+    /// A recorded signal does not exist, or a script or block of the diagram fails at the start: the run has then
+    /// ended.
     pub fn start(&mut self) -> Result<(), ApiError> {
         match self.phase() {
             Phase::Running => return Ok(()),
@@ -374,7 +413,7 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// A script fails in `sysCall_suspend`: the run has ended.
+    /// A script fails in `sysCall_suspend`: the run has then ended.
     pub fn pause(&mut self) -> Result<(), ApiError> {
         if self.phase() == Phase::Running {
             self.notify_scripts(host::Phase::Suspend)?;
@@ -383,12 +422,12 @@ impl Session {
         Ok(())
     }
 
-    /// To be called now and then while the run is paused: scripts have `sysCall_suspended` called, and what they ask
-    /// for is done.
+    /// Calls `sysCall_suspended` of the scripts and carries out what they request; to be called now and then while the
+    /// run is paused. Nothing in any other phase.
     ///
     /// # Errors
     ///
-    /// A script fails: the run has ended.
+    /// A script fails: the run has then ended.
     pub fn idle(&mut self) -> Result<(), ApiError> {
         if self.phase() != Phase::Paused {
             return Ok(());
@@ -405,11 +444,12 @@ impl Session {
         })
     }
 
-    /// Ends the run and goes back to where it started; nothing if there is none.
+    /// Ends the run, which [`Session::take_finished`] then gives, and goes back to the state in which it started;
+    /// nothing if there is none.
     ///
     /// # Errors
     ///
-    /// None yet.
+    /// None at present.
     pub fn stop(&mut self) -> Result<(), ApiError> {
         let (tick, time) = (self.lockstep.tick(), self.lockstep.t());
         let lasted = tick >= self.loaded.experiment.n_steps;
@@ -417,11 +457,13 @@ impl Session {
         Ok(())
     }
 
-    /// One step of the clients: every base step of it. Nothing unless a run is on and not paused.
+    /// Makes one step of clients, [`ObjectRegistry::sample_time`] seconds, then carries out what scripts have
+    /// requested. Nothing unless a run is on and not paused.
     ///
     /// # Errors
     ///
-    /// The world or the diagram could not advance: the run has ended, what was recorded is kept.
+    /// The world could not advance (a state that is not finite, no convergence), or a script or block failed: the run
+    /// has ended, and what was recorded is kept.
     pub fn step(&mut self) -> Result<(), ApiError> {
         let registry = self.registry();
         if registry.phase != Phase::Running {
@@ -443,12 +485,13 @@ impl Session {
         self.do_requests()
     }
 
-    /// Loads another scene: a folder, or a file in it, inside the folder that holds the first one, or a file that a
-    /// client has sent. A run that is on is ended.
+    /// Loads another scene, stopped: a folder, or a file in it, inside the folder that holds the first scene, or a file
+    /// that a client has sent. A run that is on is ended.
     ///
     /// # Errors
     ///
-    /// It lies elsewhere, or something is wrong with it; the scene that was loaded stays.
+    /// The scene lies elsewhere, does not exist or has errors (the message has the first), or a scene sent by a client
+    /// asks for files or limits that it may not have. The scene that was loaded stays.
     pub fn load(&mut self, path: &str) -> Result<(), ApiError> {
         let allowed = self.allowed(path);
         let sent = if allowed.is_ok() { None } else { self.sent(path) };

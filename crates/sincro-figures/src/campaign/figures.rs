@@ -17,7 +17,8 @@ const MAX_SIGNALS: usize = 4;
 /// Instants closer than this are the same `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
-/// All figures of a campaign: the sweep first, if it has one, then the asked-for plots, or one a kind of signal.
+/// Figures of the results of an experiment: the sweep first, if it has one, then the plots that the experiment asks
+/// for, or without any one for each kind of recorded signal.
 #[must_use]
 pub fn all(loaded: &Loaded, campaign: &Campaign) -> Vec<Figure> {
     let mut figures = sweep_figures(loaded, campaign);

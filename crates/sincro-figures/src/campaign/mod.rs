@@ -16,9 +16,8 @@ use crate::report::{Card, CheckRow, CheckVerdict, Energy, FindingRow, Page, Sign
 
 pub use figures::all as figures;
 
-/// Card of a run for the index of many runs; `href` is the address of its report relative to the index.
-///
-/// Address of the replay and picture of the scene are left empty: they are the caller's.
+/// Card of the results of an experiment for an index page ([`crate::report::index_html`]); `href` is the address of its
+/// report relative to the index. Address of the replay and picture of the scene are left empty: they are the caller's.
 #[must_use]
 pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
     let report = &campaign.report;
@@ -37,8 +36,9 @@ pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
     }
 }
 
-/// Block diagram as SVG: a file of its own, or for a page (`is_inline`). `world` labels the box of the world, usually
-/// with the name of the scene.
+/// Draws the block diagram of a scene as SVG: for an HTML page of [`crate::report`] if `is_inline`, else as a
+/// standalone file. `title` stands above it and may be empty; `world` labels the box of the world, usually with the
+/// name of the scene.
 #[must_use]
 pub fn diagram(controller: &ControlDiagram, title: &str, world: &str, is_inline: bool) -> String {
     let outputs = controller.wiring.program().steps.iter().flat_map(|step| {
@@ -49,9 +49,8 @@ pub fn diagram(controller: &ControlDiagram, title: &str, world: &str, is_inline:
     draw::draw(&controller.diagram, &options)
 }
 
-/// Report page of a run with all its figures, which are also those to be written as files.
-///
-/// The replay and the link to an index are left empty: they are the caller's.
+/// Report page of an experiment with its figures, checks, signals and settings, to be turned into HTML by
+/// [`crate::report::html`]. The replay and the link to an index are left empty: they are the caller's.
 #[must_use]
 pub fn page(loaded: &Loaded, campaign: &Campaign) -> Page {
     let report = &campaign.report;

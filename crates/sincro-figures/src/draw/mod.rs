@@ -32,11 +32,11 @@ use self::route::Layout;
 use crate::plot::{escape, with_light_colors};
 
 /// Rules for diagrams within a page; they use the variables of `plot::PAGE_CSS`, which the page must have too.
-pub const DRAW_CSS: &str = include_str!("draw.css");
+pub(crate) const DRAW_CSS: &str = include_str!("draw.css");
 
 /// Options of a drawing.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub(crate) struct Options {
     /// Stands above the picture, and is read out for it; may be empty.
     pub title: String,
     /// Label of the world's box, such as the scene's name; `World` if empty.
@@ -62,7 +62,7 @@ struct Figure<'a> {
 
 /// Draws a diagram, and below it each diagram that stands inside, once for each definition.
 #[must_use]
-pub fn draw(diagram: &Diagram, options: &Options) -> String {
+pub(crate) fn draw(diagram: &Diagram, options: &Options) -> String {
     let mut canvas = Canvas::default();
     let (mut width, mut height) = (0, 0);
     for figure in figures(diagram, options) {

@@ -19,7 +19,7 @@ const MAX_ASPECT: f64 = 6.0;
 const CROWDED: f64 = 0.07;
 
 /// Figures of a linear system, each with a file name without its ending: Bode diagram, map of poles and zeros and step
-/// response of each channel shown.
+/// response of each channel of [`Analysis::shown`].
 #[must_use]
 pub fn all(analysis: &Analysis) -> Vec<(String, Figure)> {
     let mut figures = Vec::new();

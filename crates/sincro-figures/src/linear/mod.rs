@@ -1,7 +1,7 @@
 //! A linear system in text, figures and a page.
 //!
 //! [`Analysis::of`] computes once what all of them show. A system of many inputs and outputs has a figure for each of
-//! its first [`MAX_CHANNELS`] channels; the files hold all of them.
+//! its first six channels; the files hold all of them.
 
 mod figures;
 mod page;
@@ -14,48 +14,50 @@ pub use page::html;
 pub use text::text;
 
 /// Channels that are shown in full.
-pub const MAX_CHANNELS: usize = 6;
+pub(crate) const MAX_CHANNELS: usize = 6;
 
-/// A linear system and what is derived from it.
+/// Linear system with everything that its text, figures and report page show; [`Analysis::of`] computes it.
 #[derive(Clone, Debug)]
 pub struct Analysis<'a> {
-    /// Title of the scene.
+    /// Title of text and page, usually that of the scene.
     pub title: String,
     /// Matrices A, B, C, D with the names and units of states, inputs and outputs.
     pub system: &'a StateSpace,
-    /// Poles with damping ratio and natural frequency [rad/s], slowest first.
+    /// Poles `[1/s]` (of a sampled system in the z plane) with damping ratio and natural frequency `[rad/s]`, slowest
+    /// first.
     pub poles: Vec<Mode>,
-    /// Controllability: the dimensions that the inputs reach.
+    /// Rank of the controllable subspace, among the number of states.
     pub controllability: SubspaceRank,
-    /// Observability: the dimensions that the outputs see.
+    /// Rank of the observable subspace, among the number of states.
     pub observability: SubspaceRank,
     /// Transfer functions of every input to every output that depends on it, input by input.
     pub channels: Vec<Channel>,
     /// Inputs without an effect on an output: a message for each such pair.
     pub silent: Vec<String>,
-    /// Equations that were eliminated, in words.
+    /// Equations (constraints) that were eliminated before, one sentence each; empty if there were none.
     pub reduction: Vec<String>,
 }
 
-/// Transfer function of one input to one output.
+/// Transfer function of one input to one output, with what is derived from it.
 #[derive(Clone, Debug)]
 pub struct Channel {
-    /// Index of the input in the system.
+    /// Index of the input in [`Analysis::system`].
     pub input: usize,
-    /// Index of the output in the system.
+    /// Index of the output in [`Analysis::system`].
     pub output: usize,
-    /// Zeros [1/s], by modulus; of a sampled system in the z plane.
+    /// Zeros `[1/s]`, by modulus; those of a sampled system in the z plane (dimensionless).
     pub zeros: Vec<Complex<f64>>,
     /// Static gain, in [`Analysis::gain_unit`]; `None`: the system integrates.
     pub gain: Option<f64>,
-    /// Magnitude and phase over the frequencies that all channels share.
+    /// Magnitude and phase over the angular frequencies `[rad/s]` that all channels share.
     pub bode: Bode,
-    /// Response to a unit step over the times that all channels share.
+    /// Response to a unit step over the times `[s]` that all channels share.
     pub step: StepResponse,
 }
 
 impl<'a> Analysis<'a> {
-    /// Derives poles, zeros, Bode data and step responses of a system; `title` heads text and page.
+    /// Derives poles, zeros, Bode data and step responses of a system for all pairs of inputs and outputs; `title`
+    /// heads text and page.
     #[must_use]
     pub fn of(title: impl Into<String>, system: &'a StateSpace) -> Self {
         let omega = system.frequencies();
@@ -79,13 +81,13 @@ impl<'a> Analysis<'a> {
         }
     }
 
-    /// The analysis with the words for what was eliminated before it.
+    /// Sets [`Analysis::reduction`]: one sentence for each constraint that was eliminated before.
     #[must_use]
     pub fn with_reduction(self, reduction: Vec<String>) -> Self {
         Self { reduction, ..self }
     }
 
-    /// Channels shown in full: the first [`MAX_CHANNELS`].
+    /// Channels that text and page show in full: the first six; the files hold all of them.
     #[must_use]
     pub fn shown(&self) -> &[Channel] {
         &self.channels[..self.channels.len().min(MAX_CHANNELS)]
@@ -93,18 +95,19 @@ impl<'a> Analysis<'a> {
 
     /// Names of the channels beyond [`MAX_CHANNELS`], which are only in the files.
     #[must_use]
-    pub fn unshown(&self) -> Vec<String> {
+    pub(crate) fn unshown(&self) -> Vec<String> {
         self.channels.iter().skip(MAX_CHANNELS).map(|channel| self.name(channel)).collect()
     }
 
-    /// Name of a channel: `from /motor.command to /arm/hinge.position`.
+    /// Name of a channel, by the names of its input and output: `from /motor.command to /arm/hinge.position`.
     #[must_use]
     pub fn name(&self, channel: &Channel) -> String {
         let (input, output) = (&self.system.inputs[channel.input], &self.system.outputs[channel.output]);
         format!("from {} to {}", input.name, output.name)
     }
 
-    /// Unit of the gain of a channel: `rad/(N·m)`, `rad/(s·V)`.
+    /// Unit of the static gain of a channel, that of its output over that of its input: `rad/(N·m)`; empty if they are
+    /// the same.
     #[must_use]
     pub fn gain_unit(&self, channel: &Channel) -> String {
         let (input, output) = (&self.system.inputs[channel.input].unit, &self.system.outputs[channel.output].unit);

@@ -7,7 +7,7 @@ use crate::plot::{Figure, escape, escape_raised};
 use crate::report::page::figure;
 use crate::report::shell::{PLOT_SCRIPT, document, list, paragraph, sections};
 
-/// Report page of a linear system as HTML, with its figures inline.
+/// Report page of a linear system as one HTML text, with its figures inline.
 #[must_use]
 pub fn html(analysis: &Analysis) -> String {
     let banner = format!(

@@ -1,8 +1,8 @@
 //! Line charts as SVG text: the figures of `report.html` and the `.svg` files beside it.
 //!
 //! A [`Figure`] is plain data: one x axis shared by one or more [`Panel`]s stacked above one another (a signal and
-//! its error; magnitude and phase of a Bode plot). [`svg`] gives a standalone file, [`inline_svg`] the same picture for
-//! a page that carries [`PAGE_CSS`], [`thumbnail`] a small one without title.
+//! its error; magnitude and phase of a Bode plot). [`svg`] gives a standalone file; the pages of [`crate::report`] have
+//! the same picture inline, or a small one without title.
 //!
 //! A few extreme values do not flatten the rest: the module `robust` says which range is shown, and spikes beyond it
 //! are marked at the edge with their value.
@@ -24,47 +24,47 @@ mod style;
 mod text;
 
 pub use space::{Space, Track};
-pub use style::PAGE_CSS;
+pub(crate) use style::PAGE_CSS;
 pub(crate) use style::with_light_colors;
 pub use text::{escape, escape_raised};
 pub(crate) use text::{rich, width as text_width};
 
-/// A picture: a title and panels over one shared x axis.
+/// Chart: a title and panels over one shared x axis, to be drawn with [`svg`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// Stands above the picture; wraps, and is cut with an ellipsis after three lines.
+    /// Title above the panels; wraps, and is cut with an ellipsis after three lines.
     pub title: String,
-    /// The x axis that all panels share; labelled under the last one.
+    /// Horizontal axis that all panels share; labelled under the last one.
     pub x: Axis,
-    /// From top to bottom; usually one, or two where the second shows the error.
+    /// Panels from top to bottom; usually one, or two where the second shows the error.
     pub panels: Vec<Panel>,
     /// Curves in space instead of panels.
     pub space: Option<Space>,
 }
 
-/// Label, unit and division of an axis.
+/// Axis of a chart: label, unit and division. Data are given in the unit of the axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// The quantity: `time`, `angle`.
+    /// Name of the quantity: `time`, `angle`.
     pub label: String,
-    /// Shown in brackets behind the label, with a power of ten where the numbers need one: `[10⁻⁹ rad]`. May be empty.
+    /// Unit of the data, shown in brackets behind the label, with a power of ten where needed; may be empty.
     pub unit: String,
     /// True: logarithmic. Values that are not positive cannot be drawn there; they are counted under the figure.
     pub log: bool,
     /// True: an angle in degrees, divided at 15°, 45°, 90° and so on rather than at tens.
     pub degrees: bool,
-    /// Range that the axis shows at least; `None`: the data alone decide.
+    /// Range, lower then upper bound, that the axis shows at least, in its unit; `None`: the data alone decide.
     pub range: Option<(f64, f64)>,
 }
 
-/// One plot area with its y axis.
+/// Plot area of a [`Figure`] with a vertical axis of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// Stands in front of the legend; empty for the first panel, whose title is the figure's.
+    /// Title in front of the legend; empty for the first panel, whose title is the figure's.
     pub title: String,
-    /// The y axis.
+    /// Vertical axis.
     pub y: Axis,
-    /// Share of the height: a panel of 1.0 is twice as high as one of 0.5.
+    /// Share of the height (dimensionless): a panel of 1.0 is twice as high as one of 0.5.
     pub share: f64,
     /// The curves. References are drawn over simulated ones, whatever the order here; the legend keeps the order.
     pub series: Vec<Series>,
@@ -74,25 +74,25 @@ pub struct Panel {
     pub limits: Vec<Limit>,
     /// Auxiliary lines, behind the curves.
     pub guides: Vec<Guide>,
-    /// Stands behind the legend, such as a limit of what the panel can show; may be empty.
+    /// Remark behind the legend, such as a limit of what the panel can show; may be empty.
     pub remark: String,
 }
 
-/// A curve or a cloud of points.
+/// Curve or cloud of points of a [`Panel`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Its name in the legend; an empty name has no entry there.
+    /// Name in the legend; an empty name has no entry there.
     pub name: String,
-    /// Its part in the figure; decides dash and weight.
+    /// Part in the figure, which decides dash and weight.
     pub role: Role,
     /// Which of the figure's signals it shows, counted from 0; decides colour and marker. A signal, its variants and
     /// its reference carry the same number, in every panel.
     pub signal: usize,
     /// Line or markers that join the points.
     pub stroke: Stroke,
-    /// Abscissae. If `x` and `y` differ in length, what is beyond the shorter one is not drawn.
+    /// Abscissae in the unit of the x axis. If `x` and `y` differ in length, the rest of the longer one is not drawn.
     pub x: Vec<f64>,
-    /// Ordinates. A value that is not finite leaves a gap in the curve and is counted under the figure.
+    /// Ordinates in the unit of the y axis. One that is not finite leaves a gap and is counted under the figure.
     pub y: Vec<f64>,
 }
 
@@ -122,46 +122,46 @@ pub enum Stroke {
     Rings,
 }
 
-/// A shaded region between two curves, such as an error bar around a signal.
+/// Shaded region between two curves, such as an error bar around a signal. Entry k of the three lists belongs together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
-    /// Its name in the legend; may be empty.
+    /// Name in the legend; may be empty.
     pub name: String,
-    /// The signal whose colour it takes.
+    /// Index of the signal whose colour it takes, as [`Series::signal`].
     pub signal: usize,
-    /// Abscissae.
+    /// Abscissae in the unit of the x axis.
     pub x: Vec<f64>,
-    /// Lower edge.
+    /// Ordinates of the lower edge in the unit of the y axis.
     pub lower: Vec<f64>,
-    /// Upper edge.
+    /// Ordinates of the upper edge in the unit of the y axis.
     pub upper: Vec<f64>,
 }
 
-/// A horizontal line, such as a tolerance. One that lies far outside the data is not drawn, since it would flatten
-/// them: the panel then says so in words.
+/// Horizontal line of a [`Panel`], such as a tolerance. One that lies far outside the data is not drawn, since it would
+/// flatten them: the panel then says so in words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// Its name in the legend: `tolerance`.
+    /// Name in the legend: `tolerance`.
     pub name: String,
-    /// Its place, in the unit of the y axis.
+    /// Ordinate of the line in the unit of the y axis.
     pub value: f64,
 }
 
-/// An auxiliary line: a margin of a Bode diagram, a line of equal damping. It does not widen the axes; an infinite
-/// coordinate stands for the edge of the plot.
+/// Auxiliary line of a [`Panel`]: a margin of a Bode diagram, a line of equal damping. It does not widen the axes; an
+/// infinite coordinate stands for the edge of the plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
-    /// Its corners.
+    /// Corners (x, y) of the line, in the units of the axes.
     pub points: Vec<(f64, f64)>,
-    /// Its name in the legend; may be empty.
+    /// Name in the legend; may be empty.
     pub name: String,
-    /// Stands at its last corner; may be empty.
+    /// Label at its last corner; may be empty.
     pub label: String,
     /// Visual weight.
     pub weight: Weight,
 }
 
-/// Visual weight of a line.
+/// Visual weight of a [`Guide`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weight {
     /// As the grid.
@@ -174,7 +174,7 @@ pub enum Weight {
     Strong,
 }
 
-/// Width and height of a picture in CSS pixels.
+/// Size of a picture in CSS pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
     /// Width `[px]`.
@@ -184,19 +184,19 @@ pub struct Size {
 }
 
 impl Axis {
-    /// Creates a linear axis with a label and a unit as it is shown, such as `m/s`; empty for none.
+    /// Creates a linear axis with a label and the unit of its data as it is shown, such as `m/s`; empty for none.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { label: label.into(), unit: unit.into(), ..Self::default() }
     }
 
-    /// The axis of time in seconds.
+    /// Creates the axis of time, in seconds.
     pub fn time() -> Self {
         Self::new("time", "s")
     }
 }
 
 impl Panel {
-    /// An empty panel of share 1 without a title.
+    /// Creates a panel over a vertical axis, without series and title, of share 1.
     pub fn new(y: Axis) -> Self {
         Self {
             title: String::new(),
@@ -210,7 +210,7 @@ impl Panel {
         }
     }
 
-    /// The low panel beneath a signal, for `simulated − reference` in that signal's unit.
+    /// Creates the low panel beneath a signal for the error `simulated − reference`, in that signal's unit.
     pub fn error(unit: impl Into<String>) -> Self {
         Self { title: "simulated − reference".into(), share: 0.42, ..Self::new(Axis::new("error", unit)) }
     }
@@ -224,7 +224,7 @@ impl Stroke {
 }
 
 impl Series {
-    /// A curve of straight lines for signal 0.
+    /// Creates a curve of straight lines for signal 0 from abscissae and ordinates, in the units of the axes.
     pub fn new(name: impl Into<String>, role: Role, x: Vec<f64>, y: Vec<f64>) -> Self {
         Self { name: name.into(), role, signal: 0, stroke: Stroke::Line, x, y }
     }
@@ -236,31 +236,32 @@ impl Series {
 }
 
 impl Size {
-    /// The size at which a figure reads well on a screen: 880 px wide, higher if it has more than one panel.
+    /// Size at which a figure reads well on a screen: 880 px wide, higher if it has more than one panel.
     pub fn wide(figure: &Figure) -> Self {
         let height = if figure.space.is_some() { 560.0 } else { 130.0 + 280.0 * total_share(figure) };
         Self { width: 880.0, height }
     }
 
-    /// The size for a phone.
+    /// Size at which a figure reads well on a phone: 400 px wide, higher if it has more than one panel.
     pub fn narrow(figure: &Figure) -> Self {
         let height = if figure.space.is_some() { 400.0 } else { 150.0 + 210.0 * total_share(figure) };
         Self { width: 400.0, height }
     }
 }
 
-/// The figure as a standalone SVG file: valid XML with its own styles, light background.
+/// Draws the figure as a standalone SVG file: valid XML with its own styles on a light background. The same figure
+/// gives the same bytes.
 pub fn svg(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Standalone)
 }
 
 /// The figure as an `<svg>` element for an HTML page that carries [`PAGE_CSS`] and the colour variables it names.
-pub fn inline_svg(figure: &Figure, size: Size) -> String {
+pub(crate) fn inline_svg(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Inline)
 }
 
 /// The first panel alone, small, without title and remarks, for a page that carries [`PAGE_CSS`].
-pub fn thumbnail(figure: &Figure, size: Size) -> String {
+pub(crate) fn thumbnail(figure: &Figure, size: Size) -> String {
     draw::picture(figure, size, draw::Kind::Thumbnail)
 }
 

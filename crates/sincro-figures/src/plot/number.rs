@@ -35,14 +35,22 @@ pub(crate) fn coordinate(x: f64) -> String {
     if matches!(text, "-0" | "") { "0".into() } else { text.into() }
 }
 
-/// Text of a dimensionless number with a fixed count of decimals, with a typographic minus: `−0.50`.
+/// Formats a number with `decimals` digits after the point and a typographic minus: `−0.50`. The caller adds the unit.
 pub fn fixed(x: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", x.abs());
     let is_zero = text.bytes().all(|b| matches!(b, b'0' | b'.'));
     if x < 0.0 && !is_zero { format!("−{text}") } else { text }
 }
 
-/// Text of a dimensionless number with that many significant digits: `0.0123`, `4.56×10⁻⁹`, `∞`, `not a number`.
+/// Formats a number with `digits` significant digits: `0.0123`, `4.56×10⁻⁹`, `∞`, `not a number`. The caller adds the
+/// unit.
+///
+/// ```
+/// use sincro_figures::plot::number::{fixed, short, significant};
+///
+/// assert_eq!((significant(0.5, 3), short(0.5, 3)), ("0.500".to_owned(), "0.5".to_owned()));
+/// assert_eq!((significant(4.56e-9, 3), fixed(-0.5, 2)), ("4.56×10⁻⁹".to_owned(), "−0.50".to_owned()));
+/// ```
 pub fn significant(x: f64, digits: usize) -> String {
     if let Some(text) = special(x) {
         return text;
@@ -58,7 +66,7 @@ pub fn significant(x: f64, digits: usize) -> String {
     format!("{sign}{mantissa}×10{}", superscript(power))
 }
 
-/// As [`significant`], without trailing zeros: for limits and settings somebody typed.
+/// Formats a number as [`significant`] does, without trailing zeros: for limits and settings that somebody has typed.
 pub fn short(x: f64, digits: usize) -> String {
     let text = significant(x, digits);
     let (number, rest) = text.split_once('×').map_or((text.as_str(), None), |(n, r)| (n, Some(r)));

@@ -11,25 +11,25 @@ use super::style::{color, look};
 use super::text::{width, wrap};
 use super::{Figure, Role, Series, Size};
 
-/// A figure of curves in space, all axes in one unit.
+/// Curves in space, all axes in one unit: what a [`Figure`](crate::plot::Figure) shows in place of panels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Space {
     /// The curves; references are drawn over the others.
     pub tracks: Vec<Track>,
-    /// Unit of all axes.
+    /// Unit of the points and of all axes: `m`.
     pub unit: String,
 }
 
-/// A curve in space.
+/// Curve of a [`Space`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub name: String,
-    /// Its part in the figure.
+    /// Part in the figure, which decides dash and weight.
     pub role: Role,
-    /// Which of the figure's signals it shows.
+    /// Index of the signal that it shows, from 0, which decides the colour.
     pub signal: usize,
-    /// Its points; those that are not finite leave a gap.
+    /// Points x, y, z in [`Space::unit`], in their order along the curve; those that are not finite leave a gap.
     pub points: Vec<[f64; 3]>,
 }
 

@@ -17,7 +17,7 @@ const REFERENCE_DASH: &str = "5 5";
 
 /// Colour variables for light, dark and print, and the classes that use them: goes once into a page with inline
 /// figures.
-pub const PAGE_CSS: &str = include_str!("page.css");
+pub(crate) const PAGE_CSS: &str = include_str!("page.css");
 
 /// The styles of a standalone file: the same classes, with the light colours written in place of their variables.
 pub(super) fn standalone_css() -> String {

@@ -2,7 +2,8 @@
 //!
 //! [`escape`] is the one place where text of scenes and scripts is made harmless, for pictures and pages alike.
 
-/// Escapes text for element content and for quoted attributes, in XML and HTML. Characters that XML forbids become `�`.
+/// Escapes a text for element content and for quoted attributes, in XML and HTML. Characters that XML forbids become
+/// `�`.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 8);
     for c in text.chars() {
@@ -20,7 +21,7 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// Escaped content for HTML with superscripts as `<sup>`: for numbers and units.
+/// Escapes a text for HTML content and sets its superscripts as `<sup>`: for numbers and units such as `10⁻⁹ m/s²`.
 #[must_use]
 pub fn escape_raised(text: &str) -> String {
     raised(text, |run| format!("<sup>{run}</sup>"))

@@ -20,7 +20,7 @@ use sincro_scene::experiment::check::Sense;
 use crate::plot::Figure;
 pub use page::figure;
 
-/// The report of one run.
+/// Content of the report page of one run, as plain data; [`html`] makes the page of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
     /// Title of the experiment.
@@ -41,11 +41,11 @@ pub struct Page {
     pub figures: Vec<Figure>,
     /// Block diagrams as SVG for a page, each with its title.
     pub diagrams: Vec<(String, String)>,
-    /// Findings of the audit.
+    /// Findings of the audit; empty if there are none.
     pub findings: Vec<FindingRow>,
-    /// The table of checks.
+    /// Checks of the run, in the order of the experiment.
     pub checks: Vec<CheckRow>,
-    /// The recorded signals with their error bars.
+    /// Recorded signals with their error bars, in the order of recording.
     pub signals: Vec<SignalRow>,
     /// The balance of energy over the run.
     pub energy: Option<Energy>,
@@ -57,117 +57,120 @@ pub struct Page {
     pub notes: Vec<String>,
 }
 
-/// Joints, bodies and equations of motion of a scene.
+/// Joints, bodies and equations of motion of a scene, a section of the report [`Page`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mechanism {
     /// Labelled picture of the scene as SVG; may be empty.
     pub sketch: String,
     /// Structure of the equations of motion: `M(q) v̇ + c(q, v) = τ`.
     pub equation: String,
-    /// Symbols of the equation, with size and meaning.
+    /// Symbols of the equation, each with its size and meaning as one text.
     pub sizes: Vec<(String, String)>,
-    /// Joints that move.
+    /// Joints that move, in the order of the scene.
     pub joints: Vec<JointRow>,
-    /// Bodies.
+    /// Bodies, in the order of the scene.
     pub bodies: Vec<BodyRow>,
 }
 
-/// A joint, as text.
+/// Joint of a [`Mechanism`] as a row of its table; all cells are text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JointRow {
-    /// Its path.
+    /// Path in the scene: `/arm/hinge`.
     pub path: String,
-    /// Kind of motion: `revolute`.
+    /// Joint type: `revolute`.
     pub kind: String,
-    /// Path of what carries it, or `world`.
+    /// Path of the object that carries it, or `world`.
     pub parent: String,
     /// Axes in the joint's frame; empty where it has none.
     pub axes: String,
     /// Its coordinates: `q0`.
     pub coordinates: String,
-    /// Coordinates at the start, in SI units.
+    /// Values of the coordinates at the start, with their SI units.
     pub start: String,
-    /// Motor and springs; may be empty.
+    /// Motor and springs with their parameters; may be empty.
     pub actuation: String,
 }
 
-/// A body, as text.
+/// Body of a [`Mechanism`] as a row of its table; all cells are text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BodyRow {
-    /// Its path.
+    /// Path in the scene: `/arm`.
     pub path: String,
-    /// Path of what carries it, or `world`.
+    /// Path of the object that carries it, or `world`.
     pub parent: String,
     /// Mass `[kg]`.
     pub mass: String,
-    /// Centre of mass in the frame of the body `[m]`.
+    /// Centre of mass x, y, z in the frame of the body `[m]`.
     pub center: String,
-    /// Moments of inertia Ixx, Iyy, Izz about the centre of mass [kg·m²].
+    /// Moments of inertia Ixx, Iyy, Izz about the centre of mass, in the body's axes `[kg·m²]`.
     pub inertia: String,
 }
 
-/// A run that ended before its time.
+/// End of a run before its duration, shown at the top of the report.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stop {
-    /// Time of the end `[s]`.
+    /// Simulated time of the end `[s]`.
     pub time: f64,
     /// Event and culprit, in words.
     pub reason: String,
     /// Setting that would avoid it; may be empty.
     pub help: String,
-    /// True: the experiment asked for this end.
+    /// True if the experiment asked for this end (a stop condition was met).
     pub is_good: bool,
 }
 
-/// One check, judged. The deviation is given, not derived: for a check over a window it is the worst one.
+/// Check of a run as a row of the report, judged by the caller. The deviation is given, not derived: for a check over a
+/// window it is the worst one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckRow {
     /// The check's name.
     pub name: String,
     /// Subject of the check: a signal, a formula, the run it belongs to; may be empty.
     pub about: String,
-    /// The value measured; at the worst time, if the check covers a window. `None`: there is none to show.
+    /// Measured value in `unit`; at the worst time if the check covers a window. `None`: there is none to show.
     pub measured: Option<f64>,
-    /// The value expected at the same place. `None`: the measured value itself is what must be small.
+    /// Expected value in `unit` at the same time. `None`: the measured value itself must be small.
     pub expected: Option<f64>,
     /// Kind of the expected value: a value to be met, or a bound.
     pub sense: Sense,
-    /// |measured − expected|, divided by the expected value if `is_relative`; for a bound the distance beyond it.
+    /// Deviation |measured − expected| in `unit`, divided by the expected value if `is_relative`; for a bound the
+    /// distance beyond it.
     pub deviation: f64,
-    /// Largest deviation allowed.
+    /// Largest deviation allowed, in the unit of `deviation`.
     pub limit: f64,
-    /// The deviation and its limit are relative, hence without unit.
+    /// True if the deviation and its limit are relative, hence dimensionless.
     pub is_relative: bool,
-    /// Unit of measured and expected.
+    /// Unit of the measured and the expected value; may be empty.
     pub unit: String,
-    /// Time of the measured value `[s]`, if it belongs to one.
+    /// Simulated time of the measured value `[s]`; `None`: it belongs to no instant.
     pub at: Option<f64>,
     /// The judgement.
     pub verdict: CheckVerdict,
 }
 
-/// Finding of the audit: a law whose residual exceeds its limit.
+/// Finding of the audit as a row of the report: a law (conservation of energy, contact law …) whose residual exceeds
+/// its limit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FindingRow {
     /// Name of the run; empty for the main run.
     pub run: String,
-    /// Name of the law.
+    /// Name of the law: `contact-island`.
     pub law: String,
-    /// Element concerned.
+    /// Path of the element concerned: a body, joint or pair of bodies.
     pub element: String,
-    /// Time of the value `[s]`.
+    /// Simulated time of the residual `[s]`.
     pub time: f64,
-    /// The value.
+    /// Residual of the law, in `unit`.
     pub value: f64,
-    /// Largest value allowed.
+    /// Largest residual allowed, in `unit`.
     pub limit: f64,
-    /// Unit of both; empty for relative residuals.
+    /// Unit of residual and limit; empty for relative residuals (dimensionless).
     pub unit: String,
     /// The setting that would help; may be empty.
     pub help: String,
 }
 
-/// The judgement of a check.
+/// Judgement of a check of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CheckVerdict {
     /// The deviation is within its limit.
@@ -178,37 +181,37 @@ pub enum CheckVerdict {
     NotMade,
 }
 
-/// A recorded signal with its error bar.
+/// Recorded signal with its error bar as a row of the report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalRow {
-    /// Its path: `/shoulder.position`.
+    /// Path of the signal: `/shoulder.position`.
     pub path: String,
-    /// Its unit.
+    /// Unit of the signal; may be empty.
     pub unit: String,
-    /// Greatest magnitude in the run, for scale.
+    /// Greatest magnitude in the run, in `unit`; `None`: no value is finite.
     pub largest: Option<f64>,
-    /// Estimated integration error, in the same unit; `None` if it was not estimated.
+    /// Estimated integration error (half width of the error bar), in `unit`; `None`: it was not estimated.
     pub error_bar: Option<f64>,
-    /// Method of the estimate.
+    /// Method of the estimate, in words.
     pub method: String,
 }
 
-/// The balance of energy over a run `[J]`.
+/// Energy balance over a run, a table of the report; all values in `[J]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Energy {
-    /// Total at the start.
+    /// Total energy at the start `[J]`.
     pub start: f64,
-    /// Total at the end.
+    /// Total energy at the end `[J]`.
     pub end: f64,
-    /// Work done by motors and applied forces.
+    /// Work done by motors and applied forces over the run `[J]`.
     pub work: f64,
-    /// Energy taken by dampers and friction.
+    /// Energy dissipated by dampers and friction over the run `[J]`.
     pub dissipated: f64,
-    /// Greatest |total − total(0) − work + dissipated| during the run.
+    /// Greatest `|total − total(0) − work + dissipated|` during the run `[J]`.
     pub residual: f64,
 }
 
-/// The index of many runs.
+/// Content of the index page of many runs; [`index_html`] makes the page of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IndexPage {
     /// Title of the whole.
@@ -217,20 +220,20 @@ pub struct IndexPage {
     pub description: String,
     /// Cards of the experiments, in order.
     pub cards: Vec<Card>,
-    /// Versions, machine, total time.
+    /// Name and value of facts about the whole: versions, machine, total time.
     pub settings: Vec<(String, String)>,
     /// Remarks at the end.
     pub notes: Vec<String>,
 }
 
-/// One experiment in the index.
+/// Experiment on an [`IndexPage`]; [`crate::campaign::card`] makes one of the results of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Card {
     /// Title of the experiment.
     pub title: String,
     /// Place of the original: `§4.2, figure 4.5`.
     pub source: String,
-    /// One sentence.
+    /// Summary in one sentence.
     pub summary: String,
     /// Address of its report, relative to the index.
     pub href: String,
@@ -238,7 +241,7 @@ pub struct Card {
     pub replay: String,
     /// A picture of the scene as SVG; may be empty.
     pub picture: String,
-    /// Its first panel becomes the thumbnail.
+    /// Figure whose first panel is shown small; `None`: no figure.
     pub figure: Option<Figure>,
     /// All its checks. The card shows four: those that fail first, then in this order.
     pub checks: Vec<CheckRow>,
@@ -246,11 +249,11 @@ pub struct Card {
     pub n_findings: usize,
     /// Reason for an early end; `None`: it came to its end.
     pub stop: Option<Stop>,
-    /// Wall time in words: `0.02 s`.
+    /// Wall time of the run with its unit: `0.02 s`.
     pub run_time: String,
 }
 
-/// The comparison of two runs.
+/// Content of the page that compares two runs; [`comparison_html`] makes the page of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ComparisonPage {
     /// Titles of both runs.
@@ -259,18 +262,18 @@ pub struct ComparisonPage {
     pub verdict: String,
     /// Both replays over each other as HTML with their program; may be empty.
     pub replay: String,
-    /// One for each signal that both runs have.
+    /// Signals that both runs have, in the order of the first.
     pub signals: Vec<DifferenceRow>,
-    /// Settings and versions in which the runs differ: name, both values.
+    /// Settings and versions in which the runs differ: the name, and both values as one text.
     pub settings: Vec<(String, String)>,
 }
 
-/// A signal of two runs.
+/// Difference of one signal between two runs, a row of the [`ComparisonPage`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DifferenceRow {
-    /// Its path: `/shoulder.position`.
+    /// Path of the signal: `/shoulder.position`.
     pub path: String,
-    /// Its unit.
+    /// Unit of the signal; may be empty.
     pub unit: String,
     /// First time at which the bits differ `[s]`; `None`: they are the same everywhere.
     pub first: Option<f64>,
@@ -280,19 +283,19 @@ pub struct DifferenceRow {
     pub greatest_at: f64,
 }
 
-/// The page of one run as HTML.
+/// Report page of one run as one HTML text that needs no other file.
 #[must_use]
 pub fn html(page: &Page) -> String {
     page::html(page)
 }
 
-/// The index of many runs as HTML.
+/// Index page of many runs as one HTML text, with links to their reports.
 #[must_use]
 pub fn index_html(page: &IndexPage) -> String {
     index::html(page)
 }
 
-/// The comparison of two runs as HTML.
+/// Page of the comparison of two runs as one HTML text that needs no other file.
 #[must_use]
 pub fn comparison_html(page: &ComparisonPage) -> String {
     comparison::html(page)

@@ -78,7 +78,8 @@ fn figures(figures: &[Figure]) -> String {
     figures.iter().map(figure).collect()
 }
 
-/// The figure twice, for wide and for narrow screens; the style sheet shows one of them.
+/// HTML of a figure as inline SVG in two sizes, for wide and for narrow screens, of which the style sheet of
+/// [`shell::document`](super::shell::document) shows one.
 #[must_use]
 pub fn figure(figure: &Figure) -> String {
     format!(

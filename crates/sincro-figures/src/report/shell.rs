@@ -5,7 +5,8 @@ use crate::draw::DRAW_CSS;
 use crate::plot::number::short;
 use crate::plot::{self, escape, escape_raised};
 
-/// The whole document around a body.
+/// Complete HTML document with the styles of all pages: `title` is a plain text, `class` the class of the body element,
+/// `body` its content as HTML.
 #[must_use]
 pub fn document(title: &str, class: &str, body: &str) -> String {
     let title = escape(title);
@@ -109,7 +110,7 @@ impl Outcome {
 
 /// Symbol and word as a coloured piece of text.
 #[must_use]
-pub fn badge(class: &str, symbol: &str, word: &str) -> String {
+pub(crate) fn badge(class: &str, symbol: &str, word: &str) -> String {
     format!("<span class=\"badge {class}\"><span aria-hidden=\"true\">{symbol}</span> {word}</span>")
 }
 
@@ -124,7 +125,7 @@ pub(super) fn check_badge(verdict: CheckVerdict) -> String {
 
 /// A section with a heading; nothing if its content is empty.
 #[must_use]
-pub fn section(heading: &str, content: &str) -> String {
+pub(crate) fn section(heading: &str, content: &str) -> String {
     if content.is_empty() {
         return String::new();
     }
@@ -136,7 +137,8 @@ fn anchor(heading: &str) -> String {
     heading.to_lowercase().replace(' ', "-")
 }
 
-/// Sections with their headings and contents, behind links to them; empty ones are left out.
+/// HTML of sections, each given by its heading (plain words) and its content as HTML, with links to them in front if
+/// there are several; those without content are left out.
 #[must_use]
 pub fn sections(all: &[(String, String)]) -> String {
     let filled = || all.iter().filter(|(_, content)| !content.is_empty());
@@ -149,17 +151,20 @@ pub fn sections(all: &[(String, String)]) -> String {
     filled().fold(contents, |page, (heading, content)| page + &section(heading, content))
 }
 
-/// Script that reads values from the figures of a page and magnifies them; goes once, behind them.
+/// HTML element with the script that reads values from the figures of a page and magnifies them; put it once, behind
+/// the figures.
 pub const PLOT_SCRIPT: &str = concat!("<script>\n", include_str!("plot.js"), "</script>\n");
 
-/// A table cell; `label` names the column where the table is folded on a phone, `content` is HTML.
+/// HTML of a table cell: `label` names the column where the table is folded on a phone, `class` may be empty, `content`
+/// is HTML.
 #[must_use]
 pub fn cell(label: &str, class: &str, content: &str) -> String {
     let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
     format!("<td{class} data-label=\"{label}\">{content}</td>")
 }
 
-/// A table: column headings with their classes, and rows of cells.
+/// HTML of a table: for each column its class and heading, in the order of the cells; for each row its cells from
+/// [`cell`], joined. Empty if there are no rows.
 #[must_use]
 pub fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> String {
     if rows.is_empty() {
@@ -171,7 +176,7 @@ pub fn table(class: &str, columns: &[(&str, &str)], rows: &[String]) -> String {
     format!("<table class=\"{class}\">\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n")
 }
 
-/// Names and values in two columns.
+/// HTML of names and values (plain texts) in two columns, in their order; empty if there are none.
 #[must_use]
 pub fn settings(settings: &[(String, String)]) -> String {
     if settings.is_empty() {
@@ -182,7 +187,7 @@ pub fn settings(settings: &[(String, String)]) -> String {
     format!("<dl class=\"settings\">\n{rows}</dl>\n")
 }
 
-/// A list of sentences.
+/// HTML of a list of sentences (plain texts, names between backticks set as code); empty if there are none.
 #[must_use]
 pub fn list(items: &[String]) -> String {
     if items.is_empty() {
@@ -192,7 +197,7 @@ pub fn list(items: &[String]) -> String {
     format!("<ul>\n{items}</ul>\n")
 }
 
-/// A paragraph; nothing if the text is empty.
+/// HTML of a paragraph of a class from a plain text, names between backticks set as code; empty if the text is.
 #[must_use]
 pub fn paragraph(class: &str, text: &str) -> String {
     if text.trim().is_empty() { String::new() } else { format!("<p class=\"{class}\">{}</p>\n", prose(text)) }
@@ -200,7 +205,7 @@ pub fn paragraph(class: &str, text: &str) -> String {
 
 /// Escaped text in which names between backticks are set as code, as in the messages of a terminal.
 #[must_use]
-pub fn prose(text: &str) -> String {
+pub(crate) fn prose(text: &str) -> String {
     let escaped = escape(text);
     let pieces: Vec<&str> = escaped.split('`').collect();
     if pieces.len().is_multiple_of(2) {

@@ -7,7 +7,7 @@ mod xml;
 
 use crate::variables::Catalogue;
 
-/// Version of the standard.
+/// Version of the FMI standard that an FMU is written or read in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FmiVersion {
     /// FMI 2.0.
@@ -17,12 +17,12 @@ pub enum FmiVersion {
     V3,
 }
 
-/// Interface types that an FMU offers.
+/// Interface types of the FMI standard that an exported FMU offers; at least one is expected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kinds {
-    /// Co-simulation.
+    /// True for co-simulation: the FMU integrates itself, with the methods of the scene.
     pub co_simulation: bool,
-    /// Model exchange.
+    /// True for model exchange: the importer integrates; not for scenes that switch ([`crate::switching`]).
     pub model_exchange: bool,
 }
 

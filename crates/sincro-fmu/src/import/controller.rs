@@ -6,23 +6,23 @@ use sincro_sim::controller::{Commands, Controller, Instant};
 
 use super::Slave;
 
-/// Connections between a scene and an FMU, and its sample time.
+/// Connections between a scene and an FMU that commands it, and its sample time; made for [`FmuController::new`].
 #[derive(Debug)]
 pub struct Wiring {
-    /// Recorded signals of the scene, one for each input.
+    /// Signals of the scene that are measured at each sample, one for each input, each in its unit.
     pub measured: Recorder,
-    /// Value references of the FMU's inputs, in the order of the signals.
+    /// Value references of the FMU's real inputs, in the order of `measured`.
     pub inputs: Vec<u32>,
-    /// Value references of outputs, with the commands of the scene that they give.
+    /// Value references of real outputs, each with the index of the scene's command that it gives.
     pub outputs: Vec<(u32, usize)>,
-    /// Base steps from one sample to the next.
+    /// Number of base steps from one sample to the next; 0 counts as 1.
     pub every: u64,
     /// Base step `[s]`.
     pub step: f64,
 }
 
-/// A controller that is an FMU: at each sample it gets the measurements, gives the commands until the next one, and
-/// makes its own step. An FMU without direct feedthrough answers a sample later.
+/// Controller of a lock-step that is an FMU: at each sample it takes the measurements, gives the commands until the
+/// next one, and makes its own step. An FMU without direct feedthrough answers a sample later.
 #[derive(Debug)]
 pub struct FmuController {
     name: String,
@@ -33,7 +33,7 @@ pub struct FmuController {
 }
 
 impl FmuController {
-    /// For an instance that was started.
+    /// Creates a controller from an instance that was started ([`Slave::start`]); errors of the run name it `name`.
     #[must_use]
     pub fn new(name: &str, slave: Slave, wiring: Wiring) -> Self {
         let references: Vec<u32> = wiring.outputs.iter().map(|(reference, _)| *reference).collect();

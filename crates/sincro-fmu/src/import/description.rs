@@ -7,58 +7,71 @@ use crate::description::FmiVersion;
 /// Most elements that a model description may have.
 const MAX_NODES: u32 = 2_000_000;
 
-/// Model description of a foreign FMU.
+/// Model description (`modelDescription.xml`) of a foreign FMU, as far as co-simulation needs it; see
+/// [`ForeignFmu::description`](super::ForeignFmu::description).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForeignDescription {
-    /// Version of the standard.
+    /// Version of the FMI standard that the FMU is written in.
     pub version: FmiVersion,
-    /// Name of the model.
+    /// Name of the model, as its author gave it.
     pub name: String,
-    /// Globally unique identifier, or instantiation token.
+    /// Globally unique identifier (FMI 2.0) or instantiation token (FMI 3.0), which instances are made with.
     pub token: String,
     /// Name of the shared library for co-simulation; none if it has no co-simulation.
     pub co_simulation: Option<String>,
-    /// True if its state can be got and set.
+    /// True if an instance can save and restore its state.
     pub can_save: bool,
-    /// True unless it says that no output depends on an input at the same instant.
+    /// True unless the description says that no output depends on an input at the same instant.
     pub has_feedthrough: bool,
-    /// Communication step that it proposes `[s]`.
+    /// Communication step that the FMU proposes `[s]`; none if it proposes none.
     pub step_size: Option<f64>,
-    /// Its variables.
+    /// Variables, in the order of the file.
     pub variables: Vec<ForeignVariable>,
 }
 
-/// Variable of a foreign FMU.
+/// Variable of a foreign FMU, from its model description: what an input or output of a diagram or of a
+/// [`Wiring`](super::Wiring) is connected to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForeignVariable {
-    /// Name.
+    /// Name of the variable.
     pub name: String,
-    /// Value reference.
+    /// Value reference, by which a [`Slave`](super::Slave) reads and sets it.
     pub reference: u32,
-    /// Type, if it is one of numbers.
+    /// Numeric type; none for texts and bytes.
     pub kind: Option<NumberKind>,
-    /// Causality; `local` if none is given.
+    /// Causality (`input`, `output`, `parameter` …); `local` if none is given.
     pub causality: String,
-    /// Unit, if one is given.
+    /// Unit of the values, if one is given.
     pub unit: Option<String>,
-    /// True if it has dimensions.
+    /// True if it is an array, which is not connected.
     pub is_array: bool,
 }
 
-/// Type of a number. Integers beyond 2⁵³ lose digits.
+/// Numeric type of a variable of an FMU in the words of FMI 3.0; of FMI 2.0, `Real` is `Float64`, `Integer` and
+/// enumerations `Int32`. Values pass as `f64`, so integers beyond 2⁵³ lose digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum NumberKind {
+    /// Real number of 64 bits.
     Float64,
+    /// Real number of 32 bits.
     Float32,
+    /// Integer of 8 bits.
     Int8,
+    /// Unsigned integer of 8 bits.
     UInt8,
+    /// Integer of 16 bits.
     Int16,
+    /// Unsigned integer of 16 bits.
     UInt16,
+    /// Integer of 32 bits.
     Int32,
+    /// Unsigned integer of 32 bits.
     UInt32,
+    /// Integer of 64 bits.
     Int64,
+    /// Unsigned integer of 64 bits.
     UInt64,
+    /// Truth value, as 0 or 1.
     Boolean,
 }
 
@@ -83,13 +96,13 @@ impl NumberKind {
 }
 
 impl ForeignVariable {
-    /// Type, if it is one number and no array.
+    /// Numeric type of the variable; none if it is no number, or an array.
     #[must_use]
     pub fn number(&self) -> Option<NumberKind> {
         self.kind.filter(|_| !self.is_array)
     }
 
-    /// Returns true if it is one real number.
+    /// Returns true if the variable is one real number of 64 bits and no array.
     #[must_use]
     pub fn is_real(&self) -> bool {
         self.number() == Some(NumberKind::Float64)
@@ -102,7 +115,7 @@ impl ForeignDescription {
     /// # Errors
     ///
     /// It is no XML, or not one of FMI 2.0 or 3.0; with the line.
-    pub fn read(xml: &str) -> Result<Self, String> {
+    pub(crate) fn read(xml: &str) -> Result<Self, String> {
         let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
         let document = Document::parse_with_options(xml, options)
             .map_err(|error| format!("modelDescription.xml is no XML: {error}"))?;
@@ -136,7 +149,7 @@ impl ForeignDescription {
         })
     }
 
-    /// The real variable of a name.
+    /// Finds a real variable (64 bits, no array) by its name; none if there is none.
     #[must_use]
     pub fn real(&self, name: &str) -> Option<&ForeignVariable> {
         self.variables.iter().find(|variable| variable.name == name && variable.is_real())

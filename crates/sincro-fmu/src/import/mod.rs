@@ -27,7 +27,8 @@ use crate::description::FmiVersion;
 use crate::platform::Platform;
 use library::Functions;
 
-/// An FMU that was read; its library is loaded with the first instance.
+/// FMU of another tool for co-simulation, read and checked; its library is loaded, and its code runs, with the first
+/// [`Slave`].
 pub struct ForeignFmu {
     description: ForeignDescription,
     /// Hash of the archive.
@@ -81,12 +82,12 @@ impl Drop for Folder {
 }
 
 impl ForeignFmu {
-    /// Reads an FMU; none of its code runs.
+    /// Reads the content of an `.fmu` file; none of its code runs.
     ///
     /// # Errors
     ///
-    /// The archive is damaged or hostile, the model description cannot be read, or there is no co-simulation or no
-    /// library for this platform.
+    /// The archive is damaged or hostile, the model description cannot be read or is of another version than FMI 2.0
+    /// and 3.0, the FMU has no co-simulation, or no library for this platform (the text says which it has).
     pub fn read(bytes: &[u8]) -> Result<Arc<Self>, String> {
         let files = unpack(bytes)?;
         let text = files.iter().find(|(name, _)| name == "modelDescription.xml");
@@ -128,7 +129,7 @@ impl ForeignFmu {
         self.opened.get_or_init(open).as_ref().map_err(Clone::clone)
     }
 
-    /// Its model description.
+    /// Model description of the FMU: its variables with their value references, types and units.
     #[must_use]
     pub fn description(&self) -> &ForeignDescription {
         &self.description
@@ -148,7 +149,8 @@ impl Opened {
     }
 }
 
-/// Loader of FMUs for the blocks of diagrams: an argument of [`sincro_sim::load()`].
+/// Loader of FMUs for the blocks of diagrams: the field `fmus` of [`sincro_sim::Extensions`], an argument of
+/// [`sincro_sim::load()`]. Without it, scenes with such blocks are refused.
 #[must_use]
 pub fn loader() -> &'static dyn FmuLoader {
     &Loader

@@ -6,7 +6,8 @@ use super::ForeignFmu;
 use super::description::NumberKind;
 use super::library::{Component, Functions, SavedState};
 
-/// An instance of a foreign FMU in co-simulation.
+/// Instance of a foreign FMU in co-simulation, with a state of its own. After [`Slave::new`] comes [`Slave::start`],
+/// then inputs, steps and outputs in turn; dropping it ends and frees it. An error is the text of the FMU's failure.
 #[derive(Debug)]
 pub struct Slave {
     fmu: Arc<ForeignFmu>,
@@ -17,11 +18,11 @@ pub struct Slave {
 }
 
 impl Slave {
-    /// Makes an instance.
+    /// Creates an instance with a name for the FMU's own messages; the first one of an FMU loads its library.
     ///
     /// # Errors
     ///
-    /// The FMU refuses.
+    /// The library cannot be unpacked or loaded, or the FMU refuses to make an instance.
     pub fn new(fmu: &Arc<ForeignFmu>, name: &str) -> Result<Self, String> {
         let opened = fmu.opened()?;
         let resources = opened.resources(fmu.description.version);
@@ -33,17 +34,12 @@ impl Slave {
         &self.fmu.opened().expect("an instance was made with them").functions
     }
 
-    /// The FMU that it is an instance of.
-    #[must_use]
-    pub fn fmu(&self) -> &Arc<ForeignFmu> {
-        &self.fmu
-    }
-
-    /// Starts it at a time `[s]`, with parameters by their types and value references.
+    /// Initializes the instance at time `t` `[s]` with parameters: type, value reference and value, in the unit of the
+    /// model description.
     ///
     /// # Errors
     ///
-    /// A call fails.
+    /// A call of the FMU fails; the text names it.
     pub fn start(&mut self, t: f64, parameters: &[(NumberKind, u32, f64)]) -> Result<(), String> {
         for (kind, reference, value) in parameters {
             self.set_number(*kind, *reference, *value)?;
@@ -54,11 +50,12 @@ impl Slave {
         Ok(())
     }
 
-    /// Reads real variables by their value references into `values`, one for each, in the units of the description.
+    /// Reads real variables into `values`: entry k is the variable of value reference `references[k]`, in the unit of
+    /// the model description.
     ///
     /// # Errors
     ///
-    /// The call fails, or there are not as many places as variables.
+    /// The slices differ in length, or the call of the FMU fails.
     pub fn get(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), String> {
         if references.len() != values.len() {
             return Err("there are not as many places as variables".into());
@@ -66,11 +63,12 @@ impl Slave {
         self.functions().get(self.component, references, values)
     }
 
-    /// Sets real variables by their value references, one value for each, in the units of the description.
+    /// Sets real variables: the variable of value reference `references[k]` to `values[k]`, in the unit of the model
+    /// description.
     ///
     /// # Errors
     ///
-    /// The call fails, or there are not as many values as variables.
+    /// The slices differ in length, or the call of the FMU fails.
     pub fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), String> {
         if references.len() != values.len() {
             return Err("there are not as many values as variables".into());
@@ -83,7 +81,7 @@ impl Slave {
     /// # Errors
     ///
     /// The call fails.
-    pub fn get_number(&mut self, kind: NumberKind, reference: u32) -> Result<f64, String> {
+    pub(crate) fn get_number(&mut self, kind: NumberKind, reference: u32) -> Result<f64, String> {
         self.functions().get_number(self.component, kind, reference)
     }
 
@@ -93,26 +91,27 @@ impl Slave {
     /// # Errors
     ///
     /// The call fails.
-    pub fn set_number(&mut self, kind: NumberKind, reference: u32, value: f64) -> Result<(), String> {
+    pub(crate) fn set_number(&mut self, kind: NumberKind, reference: u32, value: f64) -> Result<(), String> {
         self.functions().set_number(self.component, kind, reference, value)
     }
 
-    /// Makes a step from `t` by `h` `[s]`; returns false if the FMU ended the simulation.
+    /// Makes a communication step from time `t` to `t + h`, both `[s]`; returns false if the FMU asks to end the
+    /// simulation.
     ///
     /// # Errors
     ///
-    /// The step fails.
+    /// The step fails; the instance is then only to be dropped.
     pub fn step(&mut self, t: f64, h: f64) -> Result<bool, String> {
         let stepped = self.functions().step(self.component, t, h);
         self.has_failed |= stepped.is_err();
         stepped
     }
 
-    /// Keeps the present state, in place of one that was kept before.
+    /// Saves the present state inside the instance, in place of one that was saved before.
     ///
     /// # Errors
     ///
-    /// The FMU cannot save its state; it is named.
+    /// The FMU cannot save its state (the text names it), or the call fails.
     pub fn save(&mut self) -> Result<(), String> {
         if !self.fmu.description.can_save {
             return Err(format!("the FMU `{}` cannot save its state", self.fmu.description.name));
@@ -124,11 +123,11 @@ impl Slave {
         Ok(())
     }
 
-    /// Goes back to the state that was kept.
+    /// Restores the state that was saved last; it can be restored again.
     ///
     /// # Errors
     ///
-    /// None was kept, or the call fails.
+    /// No state was saved, or the call of the FMU fails.
     pub fn restore(&mut self) -> Result<(), String> {
         let state = self.saved.ok_or("no state was kept")?;
         self.functions().restore(self.component, state)

@@ -26,7 +26,9 @@ pub use state::FmuState;
 /// Share of the base step by which times of an importer may miss those of the FMU.
 const SAME_TIME: f64 = 1e-6;
 
-/// An instance of an exported scene.
+/// Instance of an exported scene: what the C interface of an FMU drives. It is created from the resources, takes
+/// parameters, begins, and then makes base steps (co-simulation) or evaluates derivatives (model exchange). Errors are
+/// texts for the importer's log.
 #[derive(Debug)]
 pub struct Instance {
     loaded: Loaded,
@@ -63,22 +65,23 @@ struct Run {
     exchange: Option<Box<Exchange>>,
 }
 
-/// Outcome of one base step.
+/// Outcome of [`Instance::advance`], one base step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
-    /// It was made.
+    /// The step was made; time has advanced by [`Instance::step_size`].
     Made,
-    /// The simulation has come to its end, and why; the state is that of the last good instant.
+    /// The simulation has ended, with the reason; the state is that of the last good instant.
     Ended(String),
 }
 
 impl Instance {
-    /// Loads the scene in a folder of resources. `token` is the identifier that the importer read in the model
-    /// description, `extensions` are those of the program.
+    /// Loads the scene in the folder of resources of an unpacked FMU. `token` is the identifier in the model
+    /// description (`guid` or `instantiationToken`), `extensions` are the languages and loaders that the scene may
+    /// need.
     ///
     /// # Errors
     ///
-    /// The resources are incomplete or belong to another FMU, or the scene cannot be loaded.
+    /// The resources are incomplete, belong to a model description with another token, or the scene cannot be loaded.
     pub fn new(resources: &Path, token: &str, extensions: Extensions) -> Result<Self, String> {
         let manifest = Manifest::read(resources)?;
         if manifest.token != token {
@@ -97,19 +100,19 @@ impl Instance {
         Ok(Self { loaded, catalogue, base, has_states, values, start: 0.0, run: None })
     }
 
-    /// Variables of the FMU with their value references, units and roles.
+    /// Variables of the FMU with their units, start values and roles; the index of a variable is its value reference.
     #[must_use]
     pub fn catalogue(&self) -> &Catalogue {
         &self.catalogue
     }
 
-    /// Base step `[s]`.
+    /// Base step of the scene `[s]`, of which communication steps are whole multiples.
     #[must_use]
     pub fn step_size(&self) -> f64 {
         self.loaded.experiment.step
     }
 
-    /// Present time `[s]`.
+    /// Present simulation time `[s]`; the start time before the run has begun.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.start
@@ -119,22 +122,23 @@ impl Instance {
             })
     }
 
-    /// Returns true if the state of a run can be saved whole: no controller beside the diagram keeps a memory.
+    /// Returns true if [`Instance::save`] can save the state of a run whole: the scene has no scripts, which keep a
+    /// memory of their own.
     #[must_use]
     pub fn can_save(&self) -> bool {
         can_save(&self.loaded)
     }
 
-    /// Sets the time at which the simulation starts `[s]`.
+    /// Sets the time at which the simulation starts `[s]`, 0 by default; to be called before the run begins.
     pub fn set_start_time(&mut self, start: f64) {
         self.start = start;
     }
 
-    /// Begins the run, with the parameters as they were set, unless it has begun.
+    /// Begins the run with the parameters and inputs as they were set; nothing if it has begun.
     ///
     /// # Errors
     ///
-    /// The parameters do not fit the scene, or its controllers cannot start.
+    /// The parameters do not fit the scene, or its controllers cannot start; the run has then not begun.
     pub fn begin(&mut self) -> Result<(), String> {
         if self.run.is_some() {
             return Ok(());
@@ -154,23 +158,24 @@ impl Instance {
         Ok(())
     }
 
-    /// Goes back to before the start, parameters and inputs included.
+    /// Goes back to before the start; parameters and inputs get the values of the export.
     pub fn reset(&mut self) {
         self.run = None;
         self.values = starts(&self.catalogue);
     }
 
-    /// Goes back to before the start; parameters and inputs stay.
+    /// Goes back to before the start; parameters and inputs keep their values.
     pub fn rewind(&mut self) {
         self.run = None;
     }
 
-    /// Sets a parameter or an input, in the unit of the variable `vr`. Before the run has begun, every parameter can be
-    /// set; then only inputs and tunable parameters.
+    /// Sets the variable of value reference `vr`, a parameter or an input, in its unit. Before the run has begun every
+    /// parameter can be set, then only inputs and, in co-simulation, tunable parameters.
     ///
     /// # Errors
     ///
-    /// There is no such variable, it cannot be set now, or the value does not fit.
+    /// There is no such variable, it is computed or cannot be set now, or the value is not finite or not allowed (a
+    /// negative mass).
     pub fn set(&mut self, vr: u32, value: f64) -> Result<(), String> {
         let variable = self.catalogue.variables.get(vr as usize).ok_or_else(|| format!("there is no variable {vr}"))?;
         if !value.is_finite() {
@@ -206,7 +211,8 @@ impl Instance {
         Ok(())
     }
 
-    /// Value of a variable in its unit. Outputs begin the run if it has not begun.
+    /// Returns the value of the variable of value reference `vr` in its unit, at the present instant. An output begins
+    /// the run if it has not begun.
     ///
     /// # Errors
     ///
@@ -235,11 +241,12 @@ impl Instance {
         }
     }
 
-    /// Number of base steps from the present instant to `time + span`, both `[s]`.
+    /// Number of base steps in a communication step from `time` to `time + span`, both `[s]`.
     ///
     /// # Errors
     ///
-    /// `time` is not the present instant, or the span is no whole number of base steps.
+    /// `time` is not the present time, or `span` is no whole number of base steps (within 10⁻⁶ of one); the text says
+    /// what to change.
     pub fn steps_to(&self, time: f64, span: f64) -> Result<u64, String> {
         let (h, now) = (self.step_size(), self.time());
         // times of an importer are often sums: their rounding grows with the number of terms
@@ -259,24 +266,24 @@ impl Instance {
         Ok(n as u64)
     }
 
-    /// Begins a communication step: means of outputs are those over it.
+    /// Begins a communication step: outputs that are means are averaged from now on. Nothing before the run has begun.
     pub fn begin_step(&mut self) {
         if let Some(run) = &mut self.run {
             run.begin_step();
         }
     }
 
-    /// Makes one base step.
+    /// Makes one base step of co-simulation, with the inputs as they are set.
     ///
     /// # Errors
     ///
-    /// The run has not begun.
+    /// The run has not begun. A simulation that stops is no error: see [`Step::Ended`].
     pub fn advance(&mut self) -> Result<Step, String> {
         let run = self.run.as_mut().ok_or("the run has not begun")?;
         Ok(run.advance())
     }
 
-    /// Messages of scripts since the last call.
+    /// Takes the messages that scripts have printed since the last call, in their order, each as `object: text`.
     pub fn take_messages(&mut self) -> Vec<String> {
         let Some(run) = &mut self.run else { return Vec::new() };
         let (messages, _) = run.lockstep.messages();
@@ -285,23 +292,23 @@ impl Instance {
         new
     }
 
-    /// Returns true if the scene has controllers whose messages may be asked for.
+    /// Returns true if the scene has scripts, whose messages [`Instance::take_messages`] gives.
     #[must_use]
     pub fn has_scripts(&self) -> bool {
         !self.loaded.scene.scripts.is_empty()
     }
 
-    /// Hash of all states so far, as `sincro run` prints it; none before the start.
+    /// Hash of all states so far, the one that `sincro run` prints for the same run; none before the run has begun.
     #[must_use]
     pub fn trace(&self) -> Option<Trace> {
         self.run.as_ref().map(|run| run.trace)
     }
 
-    /// Lets the controllers clean up.
+    /// Ends the run: scripts have their cleanup called. Nothing before the run has begun.
     ///
     /// # Errors
     ///
-    /// One of them fails.
+    /// A script fails in its cleanup.
     pub fn end(&mut self) -> Result<(), String> {
         match &mut self.run {
             Some(run) => run.end(),
@@ -309,17 +316,17 @@ impl Instance {
         }
     }
 
-    /// Returns true if the FMU has model exchange.
+    /// Returns true if the FMU was exported for model exchange: it has continuous states among its variables.
     #[must_use]
     pub fn has_model_exchange(&self) -> bool {
         self.has_states
     }
 
-    /// Makes the equations for model exchange, once the run has begun.
+    /// Begins the run, if it has not begun, and prepares the equations for model exchange.
     ///
     /// # Errors
     ///
-    /// A block gives what is not a number.
+    /// The run cannot begin, or a block of the diagram gives what is not a number.
     pub fn start_exchange(&mut self) -> Result<(), String> {
         self.begin()?;
         self.exchange().map(|_| ())
@@ -335,31 +342,32 @@ impl Instance {
         run.exchange.as_deref_mut().ok_or_else(|| "there are no equations".into())
     }
 
-    /// Sets the time of model exchange `[s]`.
+    /// Sets the time `[s]` at which model exchange evaluates derivatives and outputs.
     ///
     /// # Errors
     ///
-    /// The equations cannot be made.
+    /// The run cannot begin, or a block of the diagram gives what is not a number.
     pub fn set_time(&mut self, time: f64) -> Result<(), String> {
         let t = time - self.start;
         self.exchange()?.set_time(t);
         Ok(())
     }
 
-    /// Sets the continuous states, one entry each in the units of the description.
+    /// Sets the continuous states: coordinates q, velocities v, speeds of rotors with a lag, states of continuous
+    /// blocks, in this order and in the units of the model description.
     ///
     /// # Errors
     ///
-    /// There are not as many, or one is not finite.
+    /// `x` is not as long as the states, an entry is not finite (nothing is set then), or the run cannot begin.
     pub fn set_continuous_states(&mut self, x: &[f64]) -> Result<(), String> {
         self.exchange()?.set_states(x)
     }
 
-    /// Writes the continuous states into `out`, one entry each, in the units of the description.
+    /// Writes the continuous states into `out`, in the order and units of [`Instance::set_continuous_states`].
     ///
     /// # Errors
     ///
-    /// There are not as many.
+    /// `out` is not as long as the states (nothing is written then), or the run cannot begin.
     pub fn continuous_states(&mut self, out: &mut [f64]) -> Result<(), String> {
         let x = self.exchange()?.states();
         if x.len() != out.len() {
@@ -369,32 +377,38 @@ impl Instance {
         Ok(())
     }
 
-    /// Writes the derivatives of the continuous states into `out`, one entry each `[unit of the state / s]`.
+    /// Writes the time derivatives of the continuous states into `out`, in the order of
+    /// [`Instance::set_continuous_states`], each in the unit of its state per second.
     ///
     /// # Errors
     ///
-    /// There are not as many.
+    /// `out` is not as long as the states (nothing is written then), or the run cannot begin.
     pub fn derivatives(&mut self, out: &mut [f64]) -> Result<(), String> {
         self.exchange()?.derivatives(out)
     }
 
-    /// Makes the event that is due at the present instant; returns the time of the next one `[s]`.
+    /// Makes the event (sample of a discrete block) that is due at the present time, if there is one; returns the time
+    /// of the next one `[s]`, none if there is none.
     ///
     /// # Errors
     ///
-    /// A block gives what is not a number.
+    /// A block of the diagram gives what is not a number, or the run cannot begin.
     pub fn update_discrete_states(&mut self) -> Result<Option<f64>, String> {
         let next = self.exchange()?.update()?;
         Ok(next.map(|t| t + self.start))
     }
 
-    /// Writes the derivatives of unknowns (derivatives of states, outputs) in the direction `seed` of knowns (states,
-    /// inputs), by central differences; `seed` has one entry for each known, `sensitivity` one for each unknown, in
-    /// their units.
+    /// Writes the derivatives of the unknowns (outputs, derivatives of states) in the direction `seed` of the knowns
+    /// (states, inputs) into `sensitivity`, by central differences. Both are given by value references; `seed[k]` is
+    /// the change of known k, `sensitivity[k]` that of unknown k, in their units. States and inputs keep their values.
     ///
     /// # Errors
     ///
-    /// A variable that is neither.
+    /// There is no variable of a reference, a known is neither a state nor an input, or a value cannot be computed.
+    ///
+    /// # Panics
+    ///
+    /// `sensitivity` is shorter than the unknowns.
     pub fn directional_derivative(
         &mut self,
         (unknowns, knowns): (&[u32], &[u32]),

@@ -10,7 +10,8 @@ use crate::variables::Role;
 
 const MAGIC: &[u8; 8] = b"sfmu0001";
 
-/// Saved state of an instance.
+/// Saved state of an [`Instance`], parameters and inputs included: [`Instance::save`] makes it, [`Instance::restore`]
+/// goes back to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FmuState {
     start: f64,
@@ -19,7 +20,7 @@ pub struct FmuState {
 }
 
 impl FmuState {
-    /// Returns true if the run had begun.
+    /// Returns true if the run had begun when the state was saved.
     #[must_use]
     pub fn has_begun(&self) -> bool {
         self.run.is_some()
@@ -34,11 +35,11 @@ struct SavedRun {
 }
 
 impl Instance {
-    /// Copies the present state of the instance.
+    /// Copies the present state of the instance, to go back to it or on from it.
     ///
     /// # Errors
     ///
-    /// The scene has scripts, whose memory cannot be saved.
+    /// The scene has scripts, whose memory cannot be saved, or the instance is used for model exchange.
     pub fn save(&mut self) -> Result<FmuState, String> {
         if !self.can_save() {
             let script = &self.loaded.scene.scripts[0];
@@ -54,11 +55,11 @@ impl Instance {
         Ok(FmuState { start: self.start, values: self.values.clone(), run })
     }
 
-    /// Goes back, or on, to a state of the same FMU.
+    /// Restores a saved state of this or another instance of the same FMU; the run goes on from there to the same bits.
     ///
     /// # Errors
     ///
-    /// It is the state of another FMU.
+    /// The state belongs to another FMU, or a run with its parameters cannot begin.
     pub fn restore(&mut self, state: &FmuState) -> Result<(), String> {
         if state.values.len() != self.values.len() {
             return Err("the state belongs to another FMU".into());
@@ -85,7 +86,7 @@ impl Instance {
         run.go_back(saved)
     }
 
-    /// Bytes of a saved state, for a file.
+    /// Encodes a saved state of this FMU for a file: little endian, with a version; [`Instance::from_bytes`] reads it.
     #[must_use]
     pub fn to_bytes(&self, state: &FmuState) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -101,11 +102,11 @@ impl Instance {
         bytes
     }
 
-    /// Restores a saved state from the bytes of [`Instance::to_bytes`].
+    /// Decodes a saved state from the bytes of [`Instance::to_bytes`]; the instance itself stays as it is.
     ///
     /// # Errors
     ///
-    /// They are no state, or damaged, or of another FMU.
+    /// The bytes are no state or damaged, or the state is of another FMU or of an instance with other fixed parameters.
     pub fn from_bytes(&self, bytes: &[u8]) -> Result<FmuState, String> {
         let not_a_state = || "these bytes are no state of this FMU".to_owned();
         let mut rest = bytes.strip_prefix(MAGIC.as_slice()).ok_or_else(not_a_state)?;

@@ -18,33 +18,34 @@ use sincro_scene::scene::{Object, ObjectKind, Scene};
 use crate::mesh::{Part, stl};
 use crate::number;
 
-/// Formats that are written.
+/// Robot description format that [`export()`] writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Unified Robot Description Format.
+    /// URDF, the Unified Robot Description Format of ROS.
     Urdf,
-    /// MuJoCo's XML.
+    /// MJCF, the XML format of MuJoCo.
     Mjcf,
-    /// Simulation Description Format.
+    /// SDF, the Simulation Description Format of Gazebo.
     Sdf,
 }
 
-/// A robot in another format.
+/// Scene as a robot file of another format, in memory: the result of [`export()`].
 #[derive(Clone, Debug)]
 pub struct Exported {
-    /// Text of the main file.
+    /// Text of the main file (XML).
     pub text: String,
-    /// Meshes by their path beside the main file.
+    /// Content of the mesh files (STL), by their path relative to the main file.
     pub meshes: BTreeMap<String, Vec<u8>>,
-    /// Things that the format cannot say: object and words.
+    /// Notes on what the format cannot express: path of the object, and a sentence.
     pub notes: Vec<(String, String)>,
 }
 
-/// Writes the mechanism of a scene in another format; `name` is that of the robot.
+/// Writes the mechanism of a scene (links, joints, masses, geometry, motors) in another format; `name` is that of the
+/// robot in the file.
 ///
 /// # Errors
 ///
-/// Joints that the format does not have, each by its path.
+/// Joints of types that the format does not have: a sentence for each, with its path.
 pub fn export(scene: &Scene, name: &str, format: Format) -> Result<Exported, Vec<String>> {
     let mut tree = Tree::new(scene, name);
     tree.note_rest();

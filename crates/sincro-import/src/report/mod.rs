@@ -8,64 +8,65 @@ use sincro_scene::diagnostic::{Diagnostic, Location};
 use crate::Repair;
 use crate::source::{ElementStatus, Entry};
 
-/// Report of an import: `import-report.json`, and as a page `import-report.html`.
+/// Report of an import: status of every element, comparison of the robot with the scene. Written as
+/// `import-report.json` and `import-report.html`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// Version of sincro.
+    /// Version of sincro that made the import.
     pub sincro: &'static str,
-    /// The file that was imported.
+    /// Path of the file that was imported.
     pub source: String,
-    /// URDF, SDF or MJCF.
+    /// Format of the source: `URDF`, `SDF` or `MJCF`.
     pub format: &'static str,
-    /// Name of the robot.
+    /// Name of the robot in the source.
     pub robot: String,
-    /// Numbers of elements and attributes by their fate.
+    /// Numbers of elements and attributes by their status.
     pub counts: Counts,
-    /// Quantities of the whole robot.
+    /// Quantities of the whole robot before and after: mass, degrees of freedom, reach.
     pub comparison: Vec<Comparison>,
-    /// Mass properties link by link.
+    /// Mass properties before and after, link by link, in the order of the source.
     pub links: Vec<LinkComparison>,
     /// Repairs that were asked for and made.
     pub repairs: Vec<RepairMade>,
-    /// Choices that the source leaves open.
+    /// Choices that were made where the source leaves something open, one sentence each.
     pub choices: Vec<String>,
     /// Warnings in the order of the source.
     pub warnings: Vec<Warning>,
-    /// Collision meshes that are missing, with the reason.
+    /// Collision meshes that are missing in the scene, each with the reason.
     pub missing_collision_meshes: Vec<String>,
-    /// Every element, and every attribute that is not read.
+    /// Every element, and every attribute that is not read, with its status, in the order of the source.
     pub elements: Vec<Entry>,
 }
 
-/// Numbers of elements and attributes by their fate.
+/// Numbers of elements and attributes of the source by their [`ElementStatus`].
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Counts {
-    /// As they stand in the source.
+    /// Number of those in the scene as they stand in the source.
     pub kept: usize,
-    /// In another form.
+    /// Number of those in the scene in another form.
     pub changed: usize,
-    /// Not in the scene.
+    /// Number of those not in the scene.
     pub dropped: usize,
 }
 
-/// A quantity in the source and in the scene that was written and read again.
+/// Quantity of the whole robot in the source, and in the scene that was written and read again.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// Name.
+    /// Name of the quantity: `mass`.
     pub quantity: &'static str,
-    /// Unit.
+    /// Unit of both values; empty for numbers.
     pub unit: &'static str,
-    /// In the source, before any repair.
+    /// Value in the source, before any repair.
     pub before: f64,
-    /// In the scene.
+    /// Value in the scene.
     pub after: f64,
-    /// True if they agree to 12 digits.
+    /// True if both agree to 12 digits.
     pub equal: bool,
 }
 
 impl Comparison {
     /// Compares two values.
-    pub fn new(quantity: &'static str, unit: &'static str, before: f64, after: f64) -> Self {
+    pub(crate) fn new(quantity: &'static str, unit: &'static str, before: f64, after: f64) -> Self {
         Self { quantity, unit, before, after, equal: close(before, after) }
     }
 }
@@ -74,24 +75,30 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * a.abs().max(b.abs())
 }
 
-/// Mass `[kg]` and principal moments [kg·m²] of a link, before and after.
+/// Mass properties of a link in the source, and of its body in the scene: mass `[kg]`, then the three principal moments
+/// of inertia `[kg·m²]`.
 #[derive(Clone, Debug, Serialize)]
 pub struct LinkComparison {
-    /// Name in the source.
+    /// Name of the link in the source.
     pub link: String,
-    /// Line in the source.
+    /// Line of the link in the source, from 1.
     pub line: usize,
-    /// In the source; none without mass.
+    /// Mass and principal moments in the source, before any repair; none for a link without mass.
     pub before: Option<(f64, [f64; 3])>,
-    /// In the scene; none for a frame.
+    /// Mass and principal moments in the scene; none if the link has become a frame.
     pub after: Option<(f64, [f64; 3])>,
-    /// True if they agree to 12 digits.
+    /// True if both agree to 12 digits.
     pub equal: bool,
 }
 
 impl LinkComparison {
     /// Compares two bodies.
-    pub fn new(link: &str, at: &Location, before: Option<(f64, [f64; 3])>, after: Option<(f64, [f64; 3])>) -> Self {
+    pub(crate) fn new(
+        link: &str,
+        at: &Location,
+        before: Option<(f64, [f64; 3])>,
+        after: Option<(f64, [f64; 3])>,
+    ) -> Self {
         let equal = match (&before, &after) {
             (None, None) => true,
             (Some((m, i)), Some((n, j))) => {
@@ -104,16 +111,16 @@ impl LinkComparison {
     }
 }
 
-/// A repair that was asked for and made.
+/// Repair of mass properties that was asked for and made on one link.
 #[derive(Clone, Debug, Serialize)]
 pub struct RepairMade {
-    /// Its name on the command line.
+    /// Name of the repair, as [`Repair::word`] gives it.
     pub repair: &'static str,
-    /// Link.
+    /// Name of the link in the source.
     pub link: String,
-    /// Line in the source.
+    /// Line of the link in the source, from 1.
     pub line: usize,
-    /// Values before and after.
+    /// Values before and after, with their units, in words.
     pub what: String,
 }
 
@@ -124,14 +131,14 @@ impl RepairMade {
     }
 }
 
-/// A remark on the source that changes nothing: its place and its words.
+/// Warning about the source, which does not keep it from being imported.
 #[derive(Clone, Debug, Serialize)]
 pub struct Warning {
-    /// Line in the source, if it has one.
+    /// Line in the source, from 1; none if it concerns the whole.
     pub line: Option<usize>,
-    /// Message.
+    /// Message, in words.
     pub message: String,
-    /// Advice.
+    /// Advice on what to change, if there is any.
     pub help: Option<String>,
 }
 
@@ -154,19 +161,19 @@ impl Counts {
 }
 
 impl Report {
-    /// Text of the report in JSON, `import-report.json`.
+    /// Report in JSON, the content of `import-report.json`.
     #[must_use]
     pub fn json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 
-    /// Text of `import-report.html`: one page that needs no other file.
+    /// Report as one HTML page that needs no other file, the content of `import-report.html`.
     #[must_use]
     pub fn html(&self) -> String {
         html::page(self)
     }
 
-    /// Quantities and links that are not equal before and after.
+    /// Sentences about the quantities and links that are not equal before and after; empty if source and scene agree.
     #[must_use]
     pub fn differences(&self) -> Vec<String> {
         let totals = self.comparison.iter().filter(|c| !c.equal);

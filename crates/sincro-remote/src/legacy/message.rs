@@ -4,15 +4,15 @@
 use crate::limits;
 
 /// Bytes of a message's head.
-pub const MESSAGE_HEAD: usize = 18;
+pub(crate) const MESSAGE_HEAD: usize = 18;
 /// Bytes of a command's head.
-pub const COMMAND_HEAD: usize = 26;
+pub(crate) const COMMAND_HEAD: usize = 26;
 /// Version of the protocol.
-pub const VERSION: u8 = 11;
+pub(crate) const VERSION: u8 = 11;
 
 /// Head of a message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Head {
+pub(crate) struct Head {
     /// Number of the message.
     pub id: i32,
     /// Clock of the client `[ms]`.
@@ -28,7 +28,7 @@ pub struct Head {
 impl Head {
     /// Reads the head from the start of a message; none if that is no head.
     #[must_use]
-    pub fn parse(bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn parse(bytes: &[u8]) -> Option<Self> {
         let b = bytes.get(..MESSAGE_HEAD)?;
         let int = |k: usize| i32::from_le_bytes([b[k], b[k + 1], b[k + 2], b[k + 3]]);
         Some(Self {
@@ -41,7 +41,7 @@ impl Head {
     }
 
     /// Appends the head to `out`.
-    pub fn write(&self, out: &mut Vec<u8>) {
+    pub(crate) fn write(&self, out: &mut Vec<u8>) {
         out.extend([0, 0, VERSION]);
         for x in [self.id, self.client_time, self.server_time] {
             out.extend(x.to_le_bytes());
@@ -53,7 +53,7 @@ impl Head {
 
 /// Operation mode of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub(crate) enum Mode {
     /// Once.
     Once,
     /// Again and again.
@@ -66,27 +66,27 @@ pub enum Mode {
     Discontinue,
 }
 
-/// A command, as it was sent.
+/// Command of a message of the legacy API, as it was sent; [`commands`] reads it. Its head is 26 bytes, little endian.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Command<'a> {
-    /// Command in the low 16 bits; operation mode in the rest.
+    /// Number of the function in the low 16 bits, operation mode (once, streaming, split, discontinue) in the rest.
     pub code: i32,
-    /// Whole size; larger than this command if it is a piece.
+    /// Size of the whole command `[bytes]`; larger than this one if it is a piece of a split transfer.
     pub full_size: i32,
-    /// Offset of the data in the whole.
+    /// Offset of `data` in the whole data of a split transfer `[bytes]`.
     pub offset: i32,
-    /// Shortest time between two executions `[ms]`, or longest piece.
+    /// Shortest time between two executions `[ms]` if it is repeated; largest piece `[bytes]` if it is split.
     pub delay: u16,
-    /// Bit 0: keep it beside one like it.
+    /// Flags; bit 0: the command does not replace one with the same code and identification.
     pub status: u8,
-    /// Identifier of its subject.
+    /// Identification of its subject: handles as 32-bit whole numbers, or a text that ends with a zero byte.
     pub ident: &'a [u8],
-    /// With what.
+    /// Arguments, in the encoding of the function.
     pub data: &'a [u8],
 }
 
 impl<'a> Command<'a> {
-    /// Number of the function, without the mode of execution.
+    /// Number of the function: the low 16 bits of [`Command::code`].
     #[must_use]
     pub fn function(&self) -> u16 {
         self.code as u16
@@ -94,7 +94,7 @@ impl<'a> Command<'a> {
 
     /// Mode of operation; none if there is none of that number, or if it is never sent.
     #[must_use]
-    pub fn mode(&self) -> Option<Mode> {
+    pub(crate) fn mode(&self) -> Option<Mode> {
         Some(match self.code as u32 >> 16 {
             0 | 1 => Mode::Once,
             2 => Mode::Stream,
@@ -104,25 +104,15 @@ impl<'a> Command<'a> {
             _ => return None,
         })
     }
-
-    /// Whole number `k` of the identification.
-    #[must_use]
-    pub fn ident_int(&self, k: usize) -> Option<i32> {
-        int(self.ident, 4 * k)
-    }
-
-    /// The text that the identification is.
-    #[must_use]
-    pub fn ident_text(&self) -> Option<&'a str> {
-        text(self.ident).map(|(text, _)| text)
-    }
 }
 
-/// The commands of a message.
+/// Splits a message of the legacy API, head included, into its commands, in their order; the slices point into the
+/// message.
 ///
 /// # Errors
 ///
-/// What is wrong with the message: nothing of it is to be executed.
+/// The message is cut short, a length does not fit, or it has more than [`COMMANDS`](crate::limits::COMMANDS) commands.
+/// Nothing of it is to be executed; the text says why.
 pub fn commands(message: &[u8]) -> Result<Vec<Command<'_>>, &'static str> {
     let mut rest = message.get(MESSAGE_HEAD..).ok_or("a message is shorter than its head")?;
     let mut commands = Vec::new();
@@ -154,7 +144,7 @@ pub fn commands(message: &[u8]) -> Result<Vec<Command<'_>>, &'static str> {
 
 /// Header of a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ReplyHead {
+pub(crate) struct ReplyHead {
     /// As in the command.
     pub code: i32,
     /// Simulation time at execution `[ms]`; 0 while stopped.
@@ -166,7 +156,7 @@ pub struct ReplyHead {
 }
 
 /// Appends a reply to `out`: its head, its identifier, its data.
-pub fn write_reply(head: &ReplyHead, ident: &[u8], data: &[u8], out: &mut Vec<u8>) {
+pub(crate) fn write_reply(head: &ReplyHead, ident: &[u8], data: &[u8], out: &mut Vec<u8>) {
     let size = (COMMAND_HEAD + ident.len() + data.len()) as i32;
     let (full, offset) = head.piece.unwrap_or((size, 0));
     out.extend(size.to_le_bytes());
@@ -183,20 +173,20 @@ pub fn write_reply(head: &ReplyHead, ident: &[u8], data: &[u8], out: &mut Vec<u8
 
 /// The 32-bit whole number at byte `at`, little endian; none if the bytes end before it does.
 #[must_use]
-pub fn int(bytes: &[u8], at: usize) -> Option<i32> {
+pub(crate) fn int(bytes: &[u8], at: usize) -> Option<i32> {
     Some(i32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?))
 }
 
 /// The 32-bit float at byte `at`, little endian, as a double in the unit of the message's field; none if the bytes end
 /// before it does.
 #[must_use]
-pub fn float(bytes: &[u8], at: usize) -> Option<f64> {
+pub(crate) fn float(bytes: &[u8], at: usize) -> Option<f64> {
     Some(f32::from_le_bytes(bytes.get(at..at.checked_add(4)?)?.try_into().ok()?).into())
 }
 
 /// `N` floats from byte `at` on, as [`float`] reads each.
 #[must_use]
-pub fn floats<const N: usize>(bytes: &[u8], at: usize) -> Option<[f64; N]> {
+pub(crate) fn floats<const N: usize>(bytes: &[u8], at: usize) -> Option<[f64; N]> {
     let mut out = [0.0; N];
     for (k, x) in out.iter_mut().enumerate() {
         *x = float(bytes, at + 4 * k)?;
@@ -207,7 +197,7 @@ pub fn floats<const N: usize>(bytes: &[u8], at: usize) -> Option<[f64; N]> {
 /// The text that the bytes begin with, up to a zero or their end, and the bytes that it takes with its zero; none if it
 /// is not UTF-8.
 #[must_use]
-pub fn text(bytes: &[u8]) -> Option<(&str, usize)> {
+pub(crate) fn text(bytes: &[u8]) -> Option<(&str, usize)> {
     let end = bytes.iter().position(|b| *b == 0);
     let text = std::str::from_utf8(&bytes[..end.unwrap_or(bytes.len())]).ok()?;
     Some((text, end.map_or(bytes.len(), |n| n + 1)))

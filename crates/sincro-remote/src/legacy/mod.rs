@@ -33,7 +33,8 @@ use crate::hub::Hub;
 use crate::listen::Connection;
 use client::Client;
 
-/// Functions of the clients' library, each once, with the reason where one is refused.
+/// Functions of the client library of the legacy API (`simx…`), each once, for the table of `docs/compatibility.md`:
+/// the name, and the reason where the function is refused.
 #[must_use]
 pub fn functions() -> Vec<(&'static str, Option<&'static str>)> {
     let mut all: Vec<(&str, Option<&str>)> = Vec::new();

@@ -6,10 +6,10 @@ use std::io::{self, ErrorKind, Read, Write};
 use crate::limits;
 use crate::listen::Connection;
 
-/// Bytes of a packet's head.
+/// Size of the head of a packet `[bytes]`: three 16-bit whole numbers, little endian.
 pub const HEAD: usize = 6;
 /// Bytes of a payload in packets that are sent: all that clients of every version take.
-pub const PAYLOAD: usize = 1294;
+pub(crate) const PAYLOAD: usize = 1294;
 
 /// Receives one message.
 ///
@@ -33,7 +33,8 @@ pub(crate) fn receive(connection: &mut Connection, message: &mut Vec<u8>) -> io:
     }
 }
 
-/// Length of the payload and packets to come; none if it is no head of a packet.
+/// Reads the head of a packet: length of its payload `[bytes]`, then the number of packets of the message that follow.
+/// None if it is no head of a packet.
 #[must_use]
 pub fn parse_head(head: &[u8; HEAD]) -> Option<(usize, u16)> {
     let word = |k: usize| i16::from_le_bytes([head[k], head[k + 1]]);

@@ -282,7 +282,8 @@ fn clock() -> f64 {
     SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0.0, |d| d.as_secs_f64())
 }
 
-/// Present names of all functions of `sim`, without it.
+/// Present names of all functions that the module `sim` of the ZeroMQ API offers, without `sim.`, for the table of
+/// `docs/compatibility.md`.
 #[must_use]
 pub fn present_names() -> Vec<&'static str> {
     let own = FUNCTIONS.iter().map(|(name, _)| *name).filter(|name| functions::function(name).is_none());

@@ -21,7 +21,7 @@ use crate::hub::Hub;
 use crate::listen::Connection;
 pub use functions::present_names;
 pub(crate) use functions::{CallOutcome, Endpoint, info, kind_of};
-pub use steps::Publisher;
+pub(crate) use steps::Publisher;
 
 /// Serves one connection until it ends.
 pub(crate) fn serve(connection: Connection, hub: &Arc<Hub>, publisher: &Publisher) {

@@ -18,7 +18,7 @@ const SUBSCRIPTION: Duration = Duration::from_secs(3);
 
 /// Publisher of the counter of steps to its subscribers (ZeroMQ PUB).
 #[derive(Clone, Debug, Default)]
-pub struct Publisher(Arc<(Mutex<Subscribers>, Condvar)>);
+pub(crate) struct Publisher(Arc<(Mutex<Subscribers>, Condvar)>);
 
 #[derive(Debug, Default)]
 struct Subscribers {
@@ -31,7 +31,7 @@ struct Subscribers {
 
 impl Publisher {
     /// Sends the number of the step, 32 bits little endian.
-    pub fn publish(&self, step: u64) {
+    pub(crate) fn publish(&self, step: u64) {
         let mut frame = Vec::new();
         wire::write_frame(0, &(step as u32).to_le_bytes(), &mut frame);
         let mut all = self.lock();

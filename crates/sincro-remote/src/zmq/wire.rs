@@ -138,7 +138,8 @@ impl Socket {
     }
 }
 
-/// Appends a frame of ZMTP to `out`: flags, length, body.
+/// Appends a frame of ZMTP 3 (the wire protocol of ZeroMQ) to `out`: `flags` (bit 0: more frames follow, bit 2: a
+/// command), length, body. Bodies of 256 bytes and more get the long form by themselves.
 pub fn write_frame(flags: u8, body: &[u8], out: &mut Vec<u8>) {
     match u8::try_from(body.len()) {
         Ok(n) => out.extend([flags, n]),
@@ -150,7 +151,7 @@ pub fn write_frame(flags: u8, body: &[u8], out: &mut Vec<u8>) {
     out.extend(body);
 }
 
-/// Greeting of each side: signature, version 3.0, mechanism NULL.
+/// Greeting that each side of a ZMTP connection sends first, 64 bytes: signature, version 3.0, mechanism NULL.
 #[must_use]
 pub fn greeting() -> [u8; 64] {
     let mut bytes = [0; 64];
@@ -159,14 +160,14 @@ pub fn greeting() -> [u8; 64] {
     bytes
 }
 
-/// Returns true if a peer of version 3 with the NULL mechanism says so.
+/// Returns true if the bytes are the greeting of a peer that speaks version 3 or later of ZMTP with the mechanism NULL.
 #[must_use]
 pub fn is_greeting(bytes: &[u8; 64]) -> bool {
     let mechanism = bytes[12..32].split(|b| *b == 0).next();
     bytes[0] == 0xff && bytes[9] == 0x7f && bytes[10] >= 3 && mechanism == Some(b"NULL")
 }
 
-/// The READY command of a socket of a type.
+/// Command READY of the ZMTP handshake, as a whole frame, with the socket type `kind` (`REQ`, `REP`, `PUB` …).
 #[must_use]
 pub fn ready(kind: &str) -> Vec<u8> {
     let mut body = b"\x05READY\x0bSocket-Type".to_vec();

@@ -2,65 +2,67 @@
 
 use serde::Deserialize;
 
-/// A message of a viewer. The empty braces matter: without them serde would let any other key pass.
+/// Command of a viewer to the [`Engine`](super::Engine) of a live run; in JSON an object whose key `do` is the name of
+/// the variant.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Command {
-    /// Go on.
+    /// Continues the present run.
     Play {},
-    /// Stand still.
+    /// Pauses the present run.
     Pause {},
-    /// One base step.
+    /// Makes one base step and pauses.
     Step {},
-    /// Simulated seconds a second; none: as fast as it goes.
+    /// Sets the speed of simulated time relative to the wall clock.
     Speed {
-        /// Greater than zero.
+        /// Simulated seconds per second of wall time (dimensionless), greater than zero; none: as fast as possible.
         speed: Option<f64>,
     },
-    /// A new run from the start with the settings of the last one.
+    /// Begins a new run from the start with the settings of the last one.
     Restart {},
-    /// A new run from a frame of another.
+    /// Begins a new run from a frame of an earlier one.
     Branch {
-        /// The other run.
+        /// Number of the earlier run, from 0.
         run: usize,
-        /// From its last frame up to here `[s]`.
+        /// Simulated time `[s]`; the new run starts at the last frame of the earlier one up to here.
         t: f64,
-        /// Everything that is set against the files, in the order of setting.
+        /// Overrides of the scene's files, path and value, in the order of setting.
         set: Vec<(String, String)>,
-        /// Coordinates that are put elsewhere, at rest.
+        /// Coordinates that are changed: index in q, and value `[rad]` or `[m]`; the run then starts at rest.
         joints: Vec<(usize, f64)>,
-        /// True if it goes on at once.
+        /// True if the new run continues at once, false if it starts paused.
         play: bool,
     },
-    /// A force on an object until the next push or [`Command::Release`].
+    /// Applies a force to an object until the next push or [`Command::Release`].
     Push {
-        /// Index of the object.
+        /// Index of the object in the scene's view.
         object: usize,
-        /// Point of application, world axes `[m]`.
+        /// Point of application `[m]`: x, y, z in the world frame.
         point: [f64; 3],
-        /// World axes `[N]`.
+        /// Force `[N]`: x, y, z in world axes.
         force: [f64; 3],
     },
-    /// No force any more.
+    /// Removes the force.
     Release {},
-    /// Writes a run as a result, as a run of the command line is.
+    /// Writes a run as a result, as `sincro run` writes one.
     Keep {
-        /// The run.
+        /// Number of the run, from 0.
         run: usize,
     },
     /// Writes the scene's files with these settings beside the old ones.
     Save {
-        /// Everything that is set.
+        /// Overrides, path and value, in the order of setting.
         set: Vec<(String, String)>,
     },
 }
 
 impl Command {
-    /// Reads a command from a viewer's message.
+    /// Reads a command from the JSON text of a viewer's message.
     ///
     /// # Errors
     ///
-    /// A sentence about what is wrong with it.
+    /// A sentence for the viewer: the text is no command, has unknown keys, or a number that is not finite or out of
+    /// range.
     pub fn parse(text: &str) -> Result<Self, String> {
         let command: Self = serde_json::from_str(text).map_err(|e| format!("this message means nothing: {e}"))?;
         let is_finite = |list: &[f64]| list.iter().all(|x| x.is_finite());

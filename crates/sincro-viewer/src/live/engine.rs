@@ -27,38 +27,58 @@ const STRETCH: Duration = Duration::from_millis(8);
 /// Time of sleep when it is ahead of the clock.
 const NAP: Duration = Duration::from_millis(4);
 
-/// Source of a live run.
+/// Scene of a live run and what the engine needs beside it: the argument of [`Engine::open`].
 pub struct Source {
-    /// The scene's folder.
+    /// Path of the scene folder.
     pub folder: PathBuf,
-    /// Overrides of its files.
+    /// Overrides of the scene's files.
     pub settings: Vec<Override>,
-    /// Extensions that the scene may need beyond its files: language of scripts.
+    /// Extensions that the scene may need beyond its files: language of scripts, loader of FMUs.
     pub extensions: Extensions,
-    /// Makes the drawing of a diagram.
+    /// Draws the block diagram of the scene as SVG for the page.
     pub draw: Box<dyn Fn(&ControlDiagram) -> String + Send>,
-    /// Writes a run as a result; its path, or a sentence about what prevents it.
+    /// Writes a run as a result when a viewer asks for it.
     pub keep: ResultWriter,
 }
 
-/// Writes a run as a result: a sentence with its path, or one about what prevents it.
+/// Function that writes a live run as a result: it returns a sentence with the path for the viewer, or one about what
+/// prevents it.
 pub type ResultWriter = Box<dyn Fn(&KeptRun) -> Result<String, String> + Send>;
 
-/// A live run that is to be written as a result: what is needed to compute it again, bit for bit.
+/// Live run that is to be written as a result: what is needed to compute it again, bit for bit.
 #[derive(Clone, Debug)]
 pub struct KeptRun {
-    /// Overrides of the scene's files.
+    /// Overrides of the scene's files that the run had.
     pub settings: Vec<Override>,
-    /// Simulated time up to which it went `[s]`; none: up to the end of the experiment.
+    /// Simulated time that the run reached `[s]`; none: that of the experiment.
     pub duration: Option<f64>,
-    /// Hash of its states.
+    /// Trace hash of the run (hexadecimal), which the repeated run must have.
     pub trace: String,
 }
 
 /// Results that one engine writes; whoever has the link may ask for them, and disks are not endless.
 const MAX_KEPT: usize = 100;
 
-/// A live scene with its runs.
+/// Engine of a live scene: it advances the present run by the wall clock, obeys the commands of viewers and publishes a
+/// [`LiveState`].
+///
+/// ```
+/// # let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/free-body");
+/// use sincro_viewer::live::{Command, Engine, Source};
+///
+/// let engine = Engine::open(Source {
+///     folder: scene,
+///     settings: Vec::new(),
+///     extensions: Default::default(),
+///     draw: Box::new(|_| String::new()),
+///     keep: Box::new(|_| Err("nothing is written here".to_owned())),
+/// })?;
+/// let live_state = engine.live_state();
+/// let commands = engine.start();
+/// commands.send(Command::Step {})?;
+/// assert_eq!(live_state.read().runs.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Engine {
     source: Source,
     live_state: Arc<LiveState>,
@@ -72,11 +92,11 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Loads a scene, stopped at its start.
+    /// Loads a scene with its first run, paused at the start.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the scene.
+    /// All problems of the scene's files and the settings, each with its place in the file.
     pub fn open(source: Source) -> Result<Self, Diagnostics> {
         let loaded = load(&source.folder, &source.settings, source.extensions)?;
         let replay = Replay {
@@ -102,13 +122,14 @@ impl Engine {
         Ok(engine)
     }
 
-    /// Live state that viewers read.
+    /// Live state that the engine publishes, shared with the viewers that read it.
     #[must_use]
     pub fn live_state(&self) -> Arc<LiveState> {
         self.live_state.clone()
     }
 
-    /// Starts the engine's thread; it ends when the last sender is gone.
+    /// Starts the engine in a thread of its own and returns the sender of its commands; the thread ends when the last
+    /// sender is dropped. 64 commands may wait.
     #[must_use]
     pub fn start(mut self) -> SyncSender<Command> {
         let (sender, receiver) = sync_channel(MAX_WAITING);

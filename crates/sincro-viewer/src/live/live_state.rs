@@ -9,7 +9,8 @@ use tokio::sync::watch;
 /// Messages that are kept for viewers; older ones have been read or never will be.
 const MAX_WORDS: usize = 200;
 
-/// State of a live run, shared by the engine, which writes it, and its viewers.
+/// State of a live scene, shared by the engine, which writes it, and the viewers, which read it: the scene, its runs so
+/// far, and messages.
 #[derive(Debug)]
 pub struct LiveState {
     content: Mutex<Content>,
@@ -30,57 +31,57 @@ pub struct Content {
     n_words: u64,
 }
 
-/// A run as viewers get it.
+/// Run of a live scene as viewers get it: frames and recorded signals so far.
 #[derive(Clone, Debug, Default)]
 pub struct RunLog {
-    /// Its description as JSON.
+    /// Description of the run (name, scene, columns) as JSON.
     pub header: String,
-    /// Times `[s]`.
+    /// Simulated times of the frames and rows `[s]`, ascending.
     pub times: Vec<f64>,
-    /// Recorded signals, row by row.
+    /// Recorded signals, row by row, `n_columns` values for each time, in the units of `header`.
     pub rows: Vec<f64>,
-    /// Signals a row.
+    /// Number of signals in a row.
     pub n_columns: usize,
-    /// Frames, one after the other.
+    /// Frames, one after the other, `width` numbers for each time, as those of a `Trajectory`.
     pub frames: Vec<f32>,
-    /// Numbers a frame.
+    /// Number of numbers in a frame.
     pub width: usize,
-    /// Points of contact of the frames.
+    /// Points of contact of each frame.
     pub contacts: Contacts,
 }
 
-/// State of the engine.
+/// State of the engine of a live scene: which run advances, and how fast.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct EngineState {
-    /// Number of the run that goes on.
+    /// Number of the present run, from 0.
     pub run: usize,
-    /// True if it does so now.
+    /// True if it advances, false if it is paused.
     pub playing: bool,
-    /// Simulated seconds a second that are aimed at; none: as fast as it goes.
+    /// Simulated seconds per second of wall time that are asked for (dimensionless); none: as fast as possible.
     pub speed: Option<f64>,
-    /// Simulated seconds a second that come out, while it plays.
+    /// Simulated seconds per second of wall time that are reached (dimensionless); none while paused.
     pub factor: Option<f64>,
-    /// Reason for the early end of the run; empty if there was none.
+    /// Reason for the early end of the present run; empty if there was none.
     pub stop: String,
-    /// True if it has come to its end.
+    /// True if the present run has come to its end.
     pub done: bool,
-    /// Hash of its states.
+    /// Trace hash of the present run so far (hexadecimal).
     pub trace: String,
 }
 
 impl LiveState {
     /// Creates the state of a live run that has not begun; `replay` is the scene, as JSON.
     #[must_use]
-    pub fn new(replay: String) -> Self {
+    pub(crate) fn new(replay: String) -> Self {
         let content = Content { replay, ..Content::default() };
         Self { content: Mutex::new(content), changed: watch::Sender::new(0) }
     }
 
-    /// The content, to be read and let go of at once.
+    /// Locks the content for reading; the engine waits while it is held, so let go of it at once.
     ///
     /// # Panics
     ///
-    /// If a thread panicked while it wrote.
+    /// A thread panicked while it wrote.
     pub fn read(&self) -> MutexGuard<'_, Content> {
         self.content.lock().expect("no thread panics while it writes to the live state")
     }
@@ -103,7 +104,7 @@ impl LiveState {
         });
     }
 
-    /// Receiver that is notified at each change.
+    /// Receiver that is notified after each change of the content; its value is the number of changes so far.
     #[must_use]
     pub fn watch(&self) -> watch::Receiver<u64> {
         self.changed.subscribe()

@@ -37,11 +37,12 @@ struct Recording {
     foxglove: Package,
 }
 
-/// Writes the main run of a campaign.
+/// Writes a run as an MCAP file at `path`: geometry, transforms, forces and recorded signals as topics of Foxglove's
+/// messages, for Foxglove, Lichtblick or Rerun. A file that is there is replaced.
 ///
 /// # Errors
 ///
-/// The file cannot be written.
+/// The file cannot be created or written; the error has its path.
 pub fn write(done: &CompletedRun, path: &Path) -> Result<(), FileError> {
     let failed = |e: io::Error| FileError::new("write", path, e);
     let file = std::fs::File::create(path).map_err(failed)?;

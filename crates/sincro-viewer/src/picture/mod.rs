@@ -28,7 +28,8 @@ const COLORS: [&str; 6] = ["#5b7f9e", "#c98a3c", "#5f9e83", "#a8748f", "#8a8f98"
 /// Default colour of planes.
 const FLOOR: &str = "#d9dde2";
 
-/// The scene in one frame (poses of its movers first), `width` × `height` `[px]`; empty if there is nothing to see.
+/// Draws a scene in one frame as SVG, `size` wide and high `[px]`, through its first camera or from far away; empty if
+/// there is nothing to see. `frame` is one of a [`Trajectory`] of the scene.
 #[must_use]
 pub fn still(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
     let (faces, viewpoint) = (faces(view, frame), viewpoint(view, frame));
@@ -39,7 +40,8 @@ pub fn still(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
     paint(&below, &faces, &viewpoint, (framing(&faces, &viewpoint, size), size))
 }
 
-/// Pictures of a run, all framed alike, to be files of their own: at most `rate` a simulated second and `most` in all.
+/// Draws a run as SVG files, `size` wide and high `[px]`, in the order of their times and all framed alike: at most
+/// `rate` pictures per simulated second, and `most` in all.
 #[must_use]
 pub fn strip(view: &SceneView, trajectory: &Trajectory, (rate, most): (f64, usize), size: (f64, f64)) -> Vec<String> {
     // the whole run is in view from the first picture on

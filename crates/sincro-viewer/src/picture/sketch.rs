@@ -17,8 +17,9 @@ const DIRECTIONS: [(f64, f64); 8] =
     [(1.0, -0.5), (1.0, 0.6), (-1.0, -0.5), (-1.0, 0.6), (0.2, -1.0), (0.2, 1.0), (1.0, -1.4), (-1.0, -1.4)];
 const DISTANCES: [f64; 4] = [12.0, 30.0, 52.0, 80.0];
 
-/// A scene in one frame as [`still`](super::still) draws it, with labels; empty if there is nothing to see. Its ink is
-/// that of the page.
+/// Draws a scene in one frame as [`still`](super::still) does, `size` wide and high `[px]`, with the names of joints
+/// and bodies, axes of joints and of the world; empty if there is nothing to see. Lines have the colour of the text of
+/// the page around it.
 #[must_use]
 pub fn sketch(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
     let (faces, viewpoint) = (faces(view, frame), viewpoint(view, frame));

@@ -40,17 +40,18 @@ use crate::live::{Command, LiveState};
 /// Largest message of a viewer [bytes].
 const MAX_BYTES: usize = 1 << 18;
 
-/// Content that a server shows.
+/// Content that a [`Server`] shows in the browser.
 #[derive(Clone)]
 pub enum ViewerContent {
-    /// Finished runs, as JSON.
+    /// Finished runs: the content of a `replay.json`.
     Replay(Arc<str>),
-    /// A live run.
+    /// A live scene: the state that its engine publishes, and the sender of commands to it.
     Live(Arc<LiveState>, SyncSender<Command>),
 }
 
 impl ViewerContent {
-    /// Paths of the cameras of what is shown.
+    /// Paths of the cameras of the scene that is shown, of its first run, in the order of the scene; empty if there are
+    /// none.
     #[must_use]
     pub fn cameras(&self) -> Vec<String> {
         let parse = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
@@ -71,7 +72,7 @@ struct Shared {
     guard: Arc<Guard>,
 }
 
-/// A server that has its address already and serves as soon as it runs.
+/// HTTP server of the viewer's page on one address; it serves as soon as it [runs](Self::run).
 pub struct Server {
     listener: TcpListener,
     guard: Arc<Guard>,
@@ -79,11 +80,11 @@ pub struct Server {
 }
 
 impl Server {
-    /// Takes an address; port 0 is any free one.
+    /// Binds a TCP address for showing `show`; port 0 is any free one.
     ///
     /// # Errors
     ///
-    /// The address cannot be had.
+    /// The address is in use, not allowed, or none of this machine.
     pub fn bind(address: SocketAddr, show: ViewerContent) -> io::Result<Self> {
         let listener = TcpListener::bind(address)?;
         listener.set_nonblocking(true)?;
@@ -91,23 +92,24 @@ impl Server {
         Ok(Self { listener, guard, show })
     }
 
-    /// Link of the page, with its token.
+    /// Link to the page, with the token that every request needs: `http://127.0.0.1:PORT/?token=…`.
     #[must_use]
     pub fn url(&self) -> String {
         self.guard.link("http")
     }
 
-    /// Link that opens the page once, for the argument list of a browser, which every user of the machine can read.
+    /// Link that opens the page once, for the argument list of a browser, which every user of the machine can read; an
+    /// earlier one becomes void.
     #[must_use]
     pub fn single_use_url(&self) -> String {
         self.guard.single_use_link()
     }
 
-    /// Serves until the process ends.
+    /// Serves until the process ends, in the calling thread.
     ///
     /// # Errors
     ///
-    /// The network fails.
+    /// The network fails: a connection cannot be accepted any more.
     pub fn run(self) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         runtime.block_on(async {

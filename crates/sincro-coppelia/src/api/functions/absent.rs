@@ -385,13 +385,15 @@ const ABSENT: &[(&[&str], &str)] = &[
     ),
 ];
 
-/// Reason why a function, by its present name, is not offered; none if the name is unknown.
+/// Reason why a function of V-REP or CoppeliaSim is not offered, with what to do instead: the text of the error that
+/// callers get. `name` is the present name without `sim.`; none if the function is offered, or unknown.
 #[must_use]
 pub fn why_absent(name: &str) -> Option<&'static str> {
     ABSENT.iter().find(|(names, _)| names.contains(&name)).map(|(_, why)| *why)
 }
 
-/// Names of all functions of V-REP and CoppeliaSim that are absent here, each with a reason in [`why_absent`].
+/// Present names, without `sim.`, of the functions of V-REP and CoppeliaSim that are not offered; [`why_absent`] has
+/// the reason of each.
 pub fn absent() -> impl Iterator<Item = &'static str> {
     ABSENT.iter().flat_map(|(names, _)| names.iter().copied())
 }

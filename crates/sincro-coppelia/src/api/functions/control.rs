@@ -180,7 +180,7 @@ fn named(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 impl Phase {
-    /// Returns true if a run is on, paused or not.
+    /// Returns true for [`Phase::Running`] and [`Phase::Paused`]: a run has been started and not stopped.
     #[must_use]
     pub fn is_on(self) -> bool {
         self != Self::Stopped

@@ -407,7 +407,8 @@ fn path(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(path.map_or(Value::Nil, Value::reals))
 }
 
-/// Constants of `simIK`, named without it.
+/// Constants that scripts and clients see as `simIK.NAME`: the name without `simIK.` and its value, a number without
+/// unit (a code, handle or bit mask).
 pub const CONSTANTS: &[(&str, i64)] = &[
     ("method_pseudo_inverse", 0),
     ("method_damped_least_squares", 1),

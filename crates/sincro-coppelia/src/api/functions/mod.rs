@@ -49,20 +49,22 @@ pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
 pub use waiting::{MOVES, Move};
 pub use windows::is_display_only;
 
-/// Result of a function.
+/// Result of a function of the API: its return values in the order of its call tip ([`Function::tip`]), or the error
+/// that the caller is given.
 pub type Outcome = Result<Vec<Value>, ApiError>;
 
-/// A function that can be called by name.
+/// Function of the API that is called by name, as scripts and remote clients do; adapters list them with [`functions`].
 pub struct Function {
-    /// Name without `sim.`.
+    /// Present name, without its module `sim.`, `simIK.` or `simUI.`.
     pub name: &'static str,
     /// Signature, as call tips show it: `float position=sim.getJointPosition(int jointHandle)`.
     pub tip: &'static str,
-    /// Implementation.
+    /// Implementation, called with the positional arguments that were given.
     pub run: fn(&mut SimApi<'_>, Arguments<'_>) -> Outcome,
 }
 
-/// Every function, by category.
+/// Functions of the module `sim`, by category (objects, poses, joints, signals …), each once; adapters offer all of
+/// them.
 pub fn functions() -> impl Iterator<Item = &'static Function> {
     let categories = [
         control::FUNCTIONS,
@@ -95,17 +97,18 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
     categories.into_iter().flatten()
 }
 
-/// Every function of `simIK`, without it.
+/// Functions of the module `simIK` (inverse kinematics), each once; their names are without `simIK.`.
 pub fn ik_functions() -> impl Iterator<Item = &'static Function> {
     ik::FUNCTIONS.iter()
 }
 
-/// Every function of `simUI`, without it.
+/// Functions of the module `simUI` (widgets), each once; their names are without `simUI.`. Nothing is shown: values of
+/// widgets are kept.
 pub fn ui_functions() -> impl Iterator<Item = &'static Function> {
     ui::FUNCTIONS.iter().chain(ui::SHOWN).chain(ui::KEPT)
 }
 
-/// Older names of functions of `simIK`, with their present ones.
+/// Older names of functions of `simIK`, each with its present name, both without `simIK.`.
 pub fn old_ik_names() -> impl Iterator<Item = (&'static str, &'static str)> {
     ik::OLD.iter().copied()
 }
@@ -116,7 +119,8 @@ fn ik_function(name: &str) -> Option<&'static Function> {
     ik::FUNCTIONS.iter().find(|f| f.name == present)
 }
 
-/// The function of a name: present or old, with or without `sim.`.
+/// Finds a function by its present or an older name, with or without `sim.`; those of `simIK` and `simUI` only with
+/// their module. None if it is not offered.
 #[must_use]
 pub fn function(name: &str) -> Option<&'static Function> {
     static BY_NAME: OnceLock<BTreeMap<&'static str, &'static Function>> = OnceLock::new();
@@ -131,11 +135,14 @@ pub fn function(name: &str) -> Option<&'static Function> {
     by_name.get(bare).or_else(|| by_name.get(&*present_name(name))).copied()
 }
 
-/// Calls a function by name.
+/// Calls a function by its present or an older name, with or without `sim.` (`sim.getJointPosition`,
+/// `simGetJointPosition`). [`Session::call`](crate::session::Session::call) does the same and then carries out requests
+/// such as starting a run.
 ///
 /// # Errors
 ///
-/// There is none of that name, or it refused: the message then names it.
+/// No function of that name is offered (with the reason if V-REP or CoppeliaSim has it), or it has refused its
+/// arguments; the message names the function.
 pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
     let function = function(name).ok_or_else(|| {
         let present = present_name(name);

@@ -77,13 +77,14 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("rMLRemove", "ruckigRemove"),
 ];
 
-/// Every old name, without `sim` and its first letter small, with the present one; what follows the rule is not among
-/// them.
+/// Irregular older names of functions of `sim` with their present names, both without `sim`, the first letter small.
+/// Names that differ only in the prefix (`simGetObject`, `sim.getObject`) are not listed.
 pub fn old_names() -> impl Iterator<Item = (&'static str, &'static str)> {
     IRREGULAR.iter().copied()
 }
 
-/// The present name of a function that may be given by an old one, without `sim.`.
+/// Present name, without `sim.`, of a function that may be given by an older one: `simJointGetForce` gives
+/// `getJointForce`. A name that is not known comes back without its prefix.
 #[must_use]
 pub fn present_name(name: &str) -> Cow<'_, str> {
     let bare: Cow<'_, str> = match name.strip_prefix("sim.") {

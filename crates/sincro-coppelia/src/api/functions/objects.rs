@@ -173,7 +173,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 impl SimApi<'_> {
-    /// The number of an object's type: 0 shapes, 1 joints, 4 points, 9 vision sensors, 12 force sensors.
+    /// Number of an object's type as V-REP has it: 0 shapes and bodies, 1 joints and rotors, 5 proximity sensors, 9
+    /// vision sensors, 12 force sensors, 4 (dummies) for everything else.
     #[must_use]
     pub fn type_of(&self, entry: &Entry) -> i64 {
         match entry.kind {
@@ -190,11 +191,11 @@ impl SimApi<'_> {
         }
     }
 
-    /// The number of a joint's kind: 10 revolute, 11 prismatic, 12 ball.
+    /// Number of a joint's type as V-REP has it: 10 revolute (rotors too), 11 prismatic, 12 spherical.
     ///
     /// # Errors
     ///
-    /// There is no such joint.
+    /// `handle` is no object of the registry, no joint, or a joint with several coordinates that is not spherical.
     pub fn joint_type(&self, handle: Handle) -> Result<i64, ApiError> {
         let entry = self.registry.entry(handle)?;
         if is_ball(self, entry) {
@@ -206,7 +207,8 @@ impl SimApi<'_> {
         Ok(if matches!(self.registry.joint(handle)?.kind, JointKind::Prismatic { .. }) { 11 } else { 10 })
     }
 
-    /// Objects of a type by its number, all of them for −2 and 109; parents before children.
+    /// Handles of the objects with a type number of [`SimApi::type_of`]; −2 and 109 stand for all types. Parents come
+    /// before children, runtime objects last; empty if there are none.
     #[must_use]
     pub fn objects_of_type(&self, wanted: i64) -> Vec<Handle> {
         let fits = |e: &&Entry| matches!(wanted, -2 | 109) || self.type_of(e) == wanted;

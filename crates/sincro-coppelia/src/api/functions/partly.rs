@@ -80,7 +80,9 @@ const IN_SCRIPTS: &[(&[&str], &str)] = &[
     (&["simRemoteApi.status"], "1 if the port is open, else −1; not whether a client is connected"),
 ];
 
-/// Missing part of a function that is offered partly, by its present name; `simIK.…` and `simUI.…` with their modules.
+/// Missing part of a function that is offered with less than V-REP and CoppeliaSim have, for the table of
+/// `docs/compatibility.md`. `name` is the present name, those of `simIK` and `simUI` with their module; none if nothing
+/// is missing.
 #[must_use]
 pub fn missing_part(name: &str) -> Option<&'static str> {
     let is_in = |list: &[Function], name: &str| list.iter().any(|f| f.name == name);
@@ -99,13 +101,14 @@ pub fn missing_part(name: &str) -> Option<&'static str> {
     PARTLY.iter().find(|(names, _)| names.contains(&name)).map(|(_, what)| *what).or(by_table)
 }
 
-/// Missing part of a function in scripts, where clients have it whole or not at all.
+/// Missing part of a function in scripts, where clients have it whole or not at all, for `docs/compatibility.md`.
+/// `name` is the present name without `sim.`; none if scripts have it as clients do.
 #[must_use]
 pub fn missing_in_scripts(name: &str) -> Option<&'static str> {
     IN_SCRIPTS.iter().find(|(names, _)| names.contains(&name)).map(|(_, what)| *what)
 }
 
-/// Names that [`missing_in_scripts`] knows.
+/// Present names of the functions for which [`missing_in_scripts`] has a text.
 pub fn partly_in_scripts() -> impl Iterator<Item = &'static str> {
     IN_SCRIPTS.iter().flat_map(|(names, _)| names.iter().copied())
 }

@@ -11,20 +11,22 @@ use super::motions::{MIN_ACCELERATION, MIN_VELOCITY};
 use crate::api::convention::{numbers_of_pose, pose_of_matrix};
 use crate::api::{ApiError, Arguments, Reference, SimApi, Value};
 
-/// A function that waits.
+/// Function that moves joints or an object and returns when the motion has ended. An adapter, which alone can wait,
+/// makes it of the functions `…_init`, `…_step` and `…_cleanup` of [`Move::stem`], with [`Move::parameters`] and
+/// [`Move::results`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Move {
-    /// `moveToConfig`
+    /// `sim.moveToConfig`: joints, or any numbers, to a configuration.
     Config,
-    /// `moveToPose`
+    /// `sim.moveToPose`: an object, or a pose, to a pose.
     Pose,
-    /// `rmlMoveToJointPositions`
+    /// `rmlMoveToJointPositions` of V-REP: joints to positions.
     JointPositions,
-    /// `rmlMoveToPosition`
+    /// `rmlMoveToPosition` of V-REP: an object to a position and orientation.
     Position,
 }
 
-/// Their names, with what they give and take.
+/// Functions that wait: name without `sim.`, call tip (results, name and parameters with their types), kind.
 pub const MOVES: &[(&str, &str, Move)] = &[
     ("moveToConfig", "map data=sim.moveToConfig(map params)", Move::Config),
     ("moveToPose", "map data=sim.moveToPose(map params)", Move::Pose),
@@ -41,7 +43,8 @@ pub const MOVES: &[(&str, &str, Move)] = &[
 ];
 
 impl Move {
-    /// The function of a name, without `sim.`; older spellings too.
+    /// Finds the kind of a function by its present or an older name, with or without `sim.`; none if it is no function
+    /// that waits.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let present = super::present_name(name);
@@ -53,7 +56,8 @@ impl Move {
         MOVES.iter().find(|(known, _, _)| *known == present).map(|(_, _, this)| *this)
     }
 
-    /// The beginning of the names of its steps: `moveToConfig`, `moveToPose`.
+    /// Name that the functions for the single steps begin with: `moveToConfig` or `moveToPose`, followed by `_init`,
+    /// `_step`, `_cleanup`.
     #[must_use]
     pub fn stem(self) -> &'static str {
         match self {
@@ -62,12 +66,14 @@ impl Move {
         }
     }
 
-    /// Arguments as the map that `_init` takes. The callback of each step is its field `callback`; where that wants
-    /// (position, velocity, acceleration, data) as it did before 4.7, there is a field `legacyFunc`.
+    /// Converts the arguments of the call, in the order of its call tip, to the map that the function `…_init` takes.
+    /// Lengths are in `[m]`, angles in `[rad]`. The field `callback` is the function called after each step; the field
+    /// `legacyFunc` is set if that takes (position, velocity, acceleration, data), as it did before CoppeliaSim 4.7.
     ///
     /// # Errors
     ///
-    /// Something else is given, or an object of it is not there.
+    /// An argument is of another type or length than the call tip says, or an object of it is not there; the message
+    /// has its number.
     pub fn parameters(self, sim: &mut SimApi<'_>, arguments: &[Value]) -> Result<Value, ApiError> {
         let a = Arguments(arguments);
         match self {
@@ -79,7 +85,8 @@ impl Move {
         }
     }
 
-    /// Results of the function, from the map of the motion.
+    /// Return values of the call, in the order of its call tip, taken from `data`, the map that the last `…_step` has
+    /// given.
     #[must_use]
     pub fn results(self, data: &Value) -> Vec<Value> {
         let Ok(fields) = Fields::of(data) else { return vec![data.clone()] };
@@ -99,7 +106,9 @@ impl Move {
         }
     }
 
-    /// Arguments of its callback.
+    /// Arguments of the callback after a step, taken from `data`, the map that `…_step` has given: the map itself, or,
+    /// for callbacks from before CoppeliaSim 4.7, position (or pose, or matrix), velocity, acceleration and, if they
+    /// were given, the caller's data.
     #[must_use]
     pub fn callback_arguments(data: &Value) -> Vec<Value> {
         let Ok(fields) = Fields::of(data) else { return vec![data.clone()] };

@@ -60,7 +60,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
     ),
 ];
 
-/// Returns true if a function is one of these: whatever it is given is as good.
+/// Returns true if the function with a present name, without `sim.`, only affects what windows show (views, consoles,
+/// drawings): it takes any arguments and does nothing.
 #[must_use]
 pub fn is_display_only(name: &str) -> bool {
     FUNCTIONS.iter().any(|f| f.name == name)
