@@ -53,9 +53,13 @@ pub struct EvaluationPoint {
 /// use sincro_scene::scene::from_text;
 ///
 /// let scene = from_text(r#"
-///     joint = [{ name = "hinge", kind = "revolute", axis = [0.0, 1.0, 0.0] }]
-///     body = [{ name = "bob", parent = "/hinge", position = [0.5, 0.0, 0.0], density = 1000.0,
-///               shape = [{ sphere = { radius = 0.1 } }] }]
+///     joint = [{ name = "h", kind = "revolute", axis = [0.0, 1.0, 0.0] }]
+///     [[body]]
+///     name = "bob"
+///     parent = "/h"
+///     position = [0.5, 0.0, 0.0]
+///     density = 1000.0
+///     shape = [{ sphere = { radius = 0.1 } }]
 /// "#).unwrap();
 /// let at = EvaluationPoint { q: vec![0.3], v: vec![2.0], ..EvaluationPoint::default() };
 /// let terms = equation_terms(&scene.model, &at).unwrap();
