@@ -45,8 +45,8 @@ const MAGIC: &[u8; 8] = b"sincro06";
 pub struct Snapshot {
     /// State of the world.
     pub state: State<f64>,
-    /// Parameters of the model, which clients and scripts may have changed.
-    pub params: ModelParams<f64>,
+    /// Parameters of the model, if clients or scripts have changed them; `None` for those of the scene.
+    pub params: Option<Box<ModelParams<f64>>>,
     /// Hash of all states up to here.
     pub trace: Trace,
     /// State of the integrator's error control; `None` for fixed steps.
@@ -94,8 +94,7 @@ impl Snapshot {
         for x in [control.accuracy, control.h, control.last_error] {
             bytes.extend(x.to_le_bytes());
         }
-        let is_of_scene = self.params == *loaded.scene.model.params();
-        let params = if is_of_scene { Vec::new() } else { self.params.to_numbers() };
+        let params = self.params.as_ref().map_or_else(Vec::new, |params| params.to_numbers());
         let s = &self.state;
         let of_diagram = self.diagram.iter().flat_map(|d| [&d.signals, &d.continuous, &d.memory]);
         for vector in [&s.q, &s.v, &s.commands, &s.drives, &s.contacts, &s.totals, &s.rotors, &self.sensors, &params]
@@ -145,8 +144,8 @@ impl Snapshot {
         let sensors = reader.vector()?;
         let (model, numbers) = (&loaded.scene.model, reader.vector()?);
         let params = match numbers.is_empty() {
-            true => model.params().clone(),
-            false => model.params_from_numbers(&numbers).ok_or(SnapshotError::Damaged)?,
+            true => None,
+            false => Some(Box::new(model.params_from_numbers(&numbers).ok_or(SnapshotError::Damaged)?)),
         };
         let diagram = match loaded.controller {
             None => None,

@@ -37,6 +37,7 @@ pub struct MotorConflict {
 ///
 /// ```
 /// use sincro_dynamics::initial::constraint_rates;
+/// use sincro_dynamics::model::GearSpec;
 /// use sincro_dynamics::prelude::*;
 ///
 /// let mut builder = ModelBuilder::new([0.0; 3]);

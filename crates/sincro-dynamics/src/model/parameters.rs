@@ -40,7 +40,7 @@ const MODES: [MotorMode; 5] =
 /// assert_eq!(world.model().gravity()[2], -9.81);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ModelParams<R> {
     /// Gravitational acceleration [m/s²], world axes.
     pub(crate) gravity: Vec3<R>,
@@ -53,6 +53,19 @@ pub struct ModelParams<R> {
     pub(crate) drives: Vec<Drive>,
     /// Loop joints, gears, joint limits and pairs of surfaces: shared between copies until a number of one changes.
     pub(crate) constraints: Arc<ConstraintSet>,
+}
+
+impl<R: PartialEq> PartialEq for ModelParams<R> {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { gravity, inertias, masses, motors, drives, constraints } = self;
+        // constraints may be many, and are mostly shared
+        *gravity == other.gravity
+            && *inertias == other.inertias
+            && *masses == other.masses
+            && *motors == other.motors
+            && *drives == other.drives
+            && (Arc::ptr_eq(constraints, &other.constraints) || *constraints == other.constraints)
+    }
 }
 
 impl<R: Real> ModelParams<R> {

@@ -1,7 +1,9 @@
 //! A scene and its diagram, tick by tick: what a run, a server and a test all drive.
 
 use std::any::Any;
+use std::sync::Arc;
 
+use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
@@ -52,6 +54,8 @@ pub struct LockStep {
     /// All that act besides the diagram, in their order.
     controllers: Vec<Box<dyn Controller>>,
     is_started: bool,
+    /// The model as the scene has it.
+    scene_model: Arc<Model<f64>>,
 }
 
 /// Copy of a lock-step to look ahead with; result of [`LockStep::fork`].
@@ -156,6 +160,7 @@ impl LockStep {
             tick: 0,
             controllers,
             is_started,
+            scene_model: Arc::clone(&scene.model),
         };
         match new.control.as_mut().and_then(Controller::continuous) {
             Some(part) => new.world.initialize_with(0.0, part),
@@ -233,6 +238,7 @@ impl LockStep {
             commands: self.commands.clone(),
             sources: self.sources.clone(),
             controllers,
+            scene_model: Arc::clone(&self.scene_model),
             ..*self
         };
         Fork { lockstep, not_copied }
@@ -540,7 +546,8 @@ impl LockStep {
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
         let diagram = self.control.as_ref().and_then(Controller::save);
         Snapshot {
-            params: self.world.model().params().clone(),
+            params: (self.world.model().params() != self.scene_model.params())
+                .then(|| Box::new(self.world.model().params().clone())),
             state: self.world.state.clone(),
             trace,
             control: self.world.control(),
@@ -573,7 +580,7 @@ impl LockStep {
     /// # }
     /// ```
     pub fn restore(&mut self, snapshot: &Snapshot) {
-        self.world.set_params(&snapshot.params);
+        self.world.set_params(snapshot.params.as_deref().unwrap_or(self.scene_model.params()));
         self.world.state = snapshot.state.clone();
         if let Some(control) = snapshot.control {
             self.world.set_control(control);
