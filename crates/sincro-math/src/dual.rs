@@ -7,6 +7,7 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use crate::real::Task;
 use crate::{Real, elementary};
 
 /// Dual number: a value and its `N` partial derivatives, carried through every operation (forward-mode
@@ -144,6 +145,12 @@ impl<const N: usize> MulAssign for Dual<N> {
 
 impl<const N: usize> Real for Dual<N> {
     const LANES: usize = 1;
+
+    // one compiled copy of a task for all its callers: no step takes derivatives, and code for them is large
+    #[inline(never)]
+    fn run_hot<T: Task>(task: T) -> T::Output {
+        task.run()
+    }
 
     #[inline(always)]
     fn splat(x: f64) -> Self {
