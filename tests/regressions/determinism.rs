@@ -130,8 +130,8 @@ fn a_snapshot_holds_what_was_changed_during_the_run() {
     advance(&mut resumed, &mut continued, 300);
     assert_eq!((resumed.state(), continued), (changed.state(), trace));
 
-    // each of the changes matters: without it the run is another; the mode of the motor decides how many modes of drives
-    // the state has, and is compared above
+    // each of the changes matters: without it the run is another; the mode of the motor decides how many modes of
+    // drives the state has, and is compared above
     let mode = 3 + 3 * 10;
     let of_scene = loaded.scene.model.params();
     let changes = restored.params.as_deref().expect("numbers were changed");

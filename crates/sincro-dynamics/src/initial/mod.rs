@@ -1,5 +1,5 @@
-//! Consistency of an initial state: residuals of loop joints and gears, joint limits, penetrations, velocities that open
-//! loops, and the mobility of the mechanism.
+//! Consistency of an initial state: residuals of loop joints and gears, joint limits, penetrations, velocities that
+//! open loops, and the mobility of the mechanism.
 
 mod velocities;
 

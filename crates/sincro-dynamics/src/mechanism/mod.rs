@@ -1,14 +1,15 @@
 //! The mechanism as a system to integrate: model, commands, drives and constraints as dy/dt = f(t, y).
 //!
-//! y = (δ, v, totals, rotors), [`layout`]: displacement of the generalized coordinates in the chart of the step (`n_v`),
-//! velocities (`n_v`), and, if they are tracked, the totals of [`State`]: work, dissipation, impulse of each motor;
-//! last the states of rotors.
+//! y = (δ, v, totals, rotors), see [`layout`]: displacement of the generalized coordinates in the chart of the step
+//! (`n_v`), velocities (`n_v`), and, if they are tracked, the totals of [`State`]: work, dissipation, impulse of each
+//! motor; last the states of rotors.
 //!
 //! The chart: q = q₀ ⊕ δ ([`displace`]). For a quaternion δ is a rotation vector φ and φ' = dexp⁻¹(φ) ω with ω in child
 //! axes. Source: key `iserles2000`, sections 2.5 and 3.
 //!
 //! A mechanism is working memory for one evaluation after the other: [`State`] is what lasts. Of what lasts it has
-//! copies, which [`Mechanism::load`] makes: the chart's origin, commands, modes. The parameters of the model are its own.
+//! copies, which [`Mechanism::load`] makes: the chart's origin, commands, modes. The parameters of the model are its
+//! own.
 
 mod analysis;
 pub(crate) mod constraints;
