@@ -1,8 +1,11 @@
 //! Starts that contradict themselves: velocities that open loops, and motors whose commands do.
 
+use std::sync::atomic::AtomicBool;
+
 use sincro_testing::{SceneFolder, repository_scene};
 
 use sincro_scene::overrides::Override;
+use sincro_sim::campaign::run_campaign;
 use sincro_sim::{Extensions, load};
 
 const EXPERIMENT: &str =
@@ -56,6 +59,24 @@ fn motors_that_contradict_a_gear_are_refused() {
     assert_eq!(loaded(&motor(4.0, ""), &motor(-1.0, "")), Ok(()));
     assert_eq!(loaded(&motor(4.0, ""), &motor(1.0, ", max_torque = 3.0")), Ok(()));
     assert_eq!(loaded(&motor(4.0, ""), ""), Ok(()));
+}
+
+#[test]
+fn a_run_names_the_motors_that_come_to_contradict_a_gear() {
+    let later = "motor = { mode = \"velocity\", command = { step = { time = 0.05, to = 4.0 } } }";
+    let folder = SceneFolder::of(&wheels(later, &motor(0.0, "")), EXPERIMENT);
+    let done = run_campaign(&folder, &[], &folder.load(&[]).unwrap(), None, &AtomicBool::new(false), &mut |_, _| {});
+    let audit = done.unwrap().main.audit;
+    assert!(!audit.ok);
+    let of_gear: Vec<_> = audit.findings.iter().filter(|finding| finding.element == "/gear").collect();
+    assert!(!of_gear.is_empty());
+    for finding in of_gear {
+        assert_eq!(
+            finding.help,
+            "the motors of `/left`, `/right` hold their velocities exactly, and `/gear` allows only some of them: give \
+             one of the motors a `max_torque`, or commands that agree"
+        );
+    }
 }
 
 #[test]

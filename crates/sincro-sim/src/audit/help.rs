@@ -1,7 +1,10 @@
 //! The setting that helps against a finding in the run at hand: never one that it has already.
 
+use sincro_dynamics::initial::motor_conflict;
+use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 use sincro_scene::experiment::{Experiment, SMALLEST_ACCURACY};
+use sincro_scene::scene::Scene;
 
 use super::Finding;
 
@@ -26,6 +29,27 @@ pub(crate) fn help(finding: &Finding, experiment: &Experiment, method: MethodKin
         }
         _ => finer(experiment, method),
     }
+}
+
+/// Help for a loop that does not stay closed, where velocity motors without a torque limit contradict it whatever the
+/// method; `None` where they do not.
+pub(crate) fn motors_against_loops(finding: &Finding, scene: &Scene) -> Option<String> {
+    if !matches!(finding.law.as_str(), "loop-position" | "loop-velocity") {
+        return None;
+    }
+    // numbers without a relation that a loop could demand
+    let commands = (0..scene.initial.commands.len()).map(|k| 1.0 + 0.618_034 * k as f64).collect();
+    let state = State { commands, ..scene.initial.clone() };
+    let conflict = motor_conflict(&scene.model, &state)?;
+    let joints = scene.model.names().joints.iter();
+    let motors = joints.filter(|joint| joint.motor.is_some_and(|motor| conflict.motors.contains(&motor)));
+    let names: Vec<String> = motors.map(|joint| format!("`{}`", joint.name)).collect();
+    Some(format!(
+        "the motors of {} hold their velocities exactly, and {} allows only some of them: give one of the motors a \
+         `max_torque`, or commands that agree",
+        names.join(", "),
+        conflict.constraints.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    ))
 }
 
 /// A smaller step or sample time for a source.

@@ -17,7 +17,7 @@ mod sources;
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use help::{finer_steps, help};
+pub(crate) use help::{finer_steps, help, motors_against_loops};
 pub use laws::LawAudit;
 pub(crate) use limits::energy_limit;
 pub use sources::source_findings;

@@ -1,7 +1,7 @@
 //! Audit of a run with its error bars: the laws it was measured against, its inputs, its energy balance.
 
 use super::refine::error_bar_factor;
-use crate::audit::{AuditReport, Finding, energy_limit, help, sources};
+use crate::audit::{AuditReport, Finding, energy_limit, help, motors_against_loops, sources};
 use crate::load::Loaded;
 use crate::run::Simulated;
 
@@ -18,7 +18,8 @@ pub fn audit(loaded: &Loaded, run: &Simulated, finer: Option<&Simulated>) -> Aud
     ));
     laws.extend(sources(loaded));
     for law in laws.iter_mut().filter(|law| !law.holds()) {
-        law.help = help(law, &loaded.experiment, run.method);
+        let of_motors = motors_against_loops(law, &loaded.scene);
+        law.help = of_motors.unwrap_or_else(|| help(law, &loaded.experiment, run.method));
     }
     AuditReport::of(laws)
 }
