@@ -416,3 +416,53 @@ fn impossible_regulators_are_refused_in_words() {
     let bad = StateSpace::from_matrices(one.clone(), matrix(2, 1, &[0.0, 0.0]), one.clone(), one);
     assert_eq!(bad.unwrap_err().to_string(), "`B` is 2×1, expected 1×1");
 }
+
+#[test]
+fn the_phase_of_delays_goes_on_beyond_a_turn() {
+    // three delays of one tick: z⁻³ has the phase −3 ω T
+    let tick = 0.1;
+    let mut system = system(3, &[0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 1.0], &[1.0, 0.0, 0.0], 0.0);
+    system.sample_time = Some(tick);
+    let omega = [1.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0];
+    let bode = system.bode_at(0, 0, &omega).unwrap();
+    assert_eq!(bode.phase_deg.len(), omega.len());
+    for (w, phase) in omega.iter().zip(&bode.phase_deg) {
+        assert!((phase + (3.0 * w * tick).to_degrees()).abs() < 1e-9, "{w} {phase}");
+    }
+}
+
+#[test]
+fn a_zero_on_the_grid_leaves_the_phase_beside_it() {
+    // (s² + 1) / (s + 1)²: zero at 1 rad/s, phase −2 atan ω below it
+    let bode = transfer(&[0.0, -2.0], &[1.0, 2.0], 1.0).bode_at(0, 0, &[0.1, 1.0, 10.0]).unwrap();
+    let expected = -2.0 * sincro_math::elementary::atan(0.1).0.to_degrees();
+    assert!((bode.phase_deg[0] - expected).abs() < 1e-9, "{:?}", bode.phase_deg);
+}
+
+#[test]
+fn the_grid_has_sixty_points_a_decade_and_more_about_a_resonance() {
+    // undamped at 100 rad/s: from one decade below to one above, and six on each side of the resonance
+    let omega = transfer(&[1.0], &[1e4, 0.0], 0.0).bode(0, 0).unwrap().omega;
+    assert_eq!((omega[0], omega[omega.len() - 1], omega.len()), (10.0, 1000.0, 2 * 60 + 1 + 12));
+    // its width is taken for 10⁻⁴ of its frequency
+    for distance in [-0.04, -0.0012, 0.0012, 0.04] {
+        assert!(omega.iter().any(|w| (w - 100.0 - distance).abs() < 1e-9), "{distance}");
+    }
+}
+
+#[test]
+fn the_residual_of_a_regulator_is_a_share_of_its_terms() {
+    let (a, b) = (matrix(2, 2, &[0.0, 1.0, 2.0, -0.5]), matrix(2, 1, &[0.0, 1.0]));
+    let regulator = lqr(&a, &b, &DMatrix::identity(2, 2), &matrix(1, 1, &[0.5])).unwrap();
+    // rounding, and no exact zero
+    assert!(regulator.residual > 0.0 && regulator.residual < 1e-13, "{}", regulator.residual);
+}
+
+#[test]
+fn a_sampled_negative_gain_begins_as_a_lag() {
+    // −1 delayed by a tick: on the negative real axis at first
+    let mut delay = system(1, &[0.0], &[-1.0], &[1.0], 0.0);
+    delay.sample_time = Some(1.0);
+    let phase = delay.bode_at(0, 0, &[0.001, 1.0]).unwrap().phase_deg;
+    assert!((phase[0] + 180.0 + 0.001_f64.to_degrees()).abs() < 1e-9, "{phase:?}");
+}
