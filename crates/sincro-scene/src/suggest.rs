@@ -2,6 +2,13 @@
 
 pub use sincro_blocks::suggest::nearest;
 
+/// Returns names in backticks, separated by commas.
+#[must_use]
+pub fn quoted(names: &[&str]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
 /// Number of known names that are listed.
 const LISTED: usize = 8;
 

@@ -40,7 +40,7 @@ fn velocities_that_open_a_gear_are_refused() {
     let message = loaded(&velocity(4.0), "").unwrap_err();
     assert_eq!(
         message,
-        "scene.toml:23:8: error: the initial velocities open closure `/gear`: its ends part at 1.000000e0 m/s\n  \
+        "scene.toml:23:8: error: the initial velocities open coupling `/gear`: its second joint is off by 1.000000e0 rad/s\n  \
          help: it stays closed with the velocities /left = 3.764705882353, /right = -0.941176470588"
     );
     assert_eq!(loaded(&velocity(4.0), &velocity(-1.0)), Ok(()));
@@ -52,13 +52,24 @@ fn motors_that_contradict_a_gear_are_refused() {
     let message = loaded(&motor(4.0, ""), &motor(1.0, "")).unwrap_err();
     assert_eq!(
         message,
-        "scene.toml:3:8: error: the commands of the motors of `/left` and `/right` contradict `/gear`, which they open \
-         at 2.000000e0 m/s or rad/s\n  \
+        "scene.toml:3:8: error: the commands of the motors of `/left`, `/right` open coupling `/gear`: its second \
+         joint is off by 2.000000e0 rad/s\n  \
          help: these motors hold their velocities exactly: give one of them a `max_torque`, or commands that agree"
     );
     assert_eq!(loaded(&motor(4.0, ""), &motor(-1.0, "")), Ok(()));
     assert_eq!(loaded(&motor(4.0, ""), &motor(1.0, ", max_torque = 3.0")), Ok(()));
     assert_eq!(loaded(&motor(4.0, ""), ""), Ok(()));
+}
+
+#[test]
+fn motors_of_loops_that_hold_are_not_named() {
+    // a second pair of wheels below another frame, whose motors agree with their gear
+    let pair = wheels(&motor(4.0, ""), &motor(1.0, ""));
+    let others = wheels(&motor(4.0, ""), &motor(-1.0, "")).replace("format = 2\n", "");
+    let others = others.replace("left", "front").replace("right", "rear").replace("gear", "belt");
+    let message = SceneFolder::of(&format!("{pair}{others}"), EXPERIMENT).load(&[]).map(|_| ()).unwrap_err();
+    assert!(message.contains("the motors of `/left`, `/right` open coupling `/gear`: its second joint"), "{message}");
+    assert!(!message.contains("front") && !message.contains("belt"), "{message}");
 }
 
 #[test]

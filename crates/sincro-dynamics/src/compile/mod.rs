@@ -102,18 +102,18 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
 }
 
 /// Numbers the commands: those of motors come first, then external forces, rotors, actuators of lines.
-fn number_commands(structure: &mut Structure<f64>, names: &Names, n_motors: usize) {
+fn number_commands(model: &mut Model<f64>) {
+    let (n_motors, n_inputs) = (model.params.motors.len(), model.names.inputs.len());
+    let n_before_lines = model.n_commands_before_lines(n_inputs);
+    let structure = model.structure_mut();
     for input in structure.wrenches.iter_mut().filter_map(|w| w.input.as_mut()) {
         *input = n_motors + 6 * *input;
     }
-    let n_before_rotors = n_motors + 6 * names.inputs.len();
-    let mut n_rotors = 0;
     for rotor in &mut structure.rotors {
-        rotor.speed.shift_command(n_before_rotors);
-        n_rotors += usize::from(rotor.speed.command().is_some());
+        rotor.speed.shift_command(n_motors + 6 * n_inputs);
     }
     for (k, actuator) in structure.spring_dampers.iter_mut().filter_map(|s| s.actuator.as_mut()).enumerate() {
-        actuator.command = n_before_rotors + n_rotors + k;
+        actuator.command = n_before_lines + k;
     }
 }
 
@@ -215,11 +215,10 @@ impl Compiler<'_> {
         names.spring_dampers.extend(builder.spring_dampers.iter().map(|(name, _)| name.clone()));
         params.inertias = (0..structure.links.len()).map(|l| link_inertia(&names, &params.masses, l)).collect();
         structure.names = Arc::new(names);
-        let without_lines = Model::new(structure.clone(), params.clone());
-        structure.spring_dampers = spring_dampers(builder, &carriers, &without_lines);
-        let names = Arc::clone(&structure.names);
-        number_commands(&mut structure, &names, params.motors.len());
         let mut model = Model::new(structure, params);
+        let lines = spring_dampers(builder, &carriers, &model);
+        model.structure_mut().spring_dampers = lines;
+        number_commands(&mut model);
         model.params.drives = model.find_drives();
         model
     }

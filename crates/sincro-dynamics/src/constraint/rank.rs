@@ -53,13 +53,7 @@ impl Constraints<f64> {
             }
             let size = norm(&rows[best]);
             let unit: Vec<f64> = rows[best].iter().map(|x| x / size).collect();
-            for row in &mut rows {
-                // twice is enough: the second pass removes the rounding of the first
-                for _ in 0..2 {
-                    let along: f64 = row.iter().zip(&unit).map(|(x, u)| x * u).sum();
-                    row.iter_mut().zip(&unit).for_each(|(x, u)| *x -= along * u);
-                }
-            }
+            rows.iter_mut().for_each(|row| remove(row, &unit));
             independent.push(best);
         }
         independent.sort_unstable();
@@ -117,6 +111,16 @@ impl Constraints<f64> {
     }
 }
 
-fn norm(x: &[f64]) -> f64 {
+/// Removes from a vector its part along a unit vector. Twice is enough: the second pass removes the rounding of the
+/// first.
+pub(crate) fn remove(x: &mut [f64], unit: &[f64]) {
+    for _ in 0..2 {
+        let along: f64 = x.iter().zip(unit).map(|(x, u)| x * u).sum();
+        x.iter_mut().zip(unit).for_each(|(x, u)| *x -= along * u);
+    }
+}
+
+/// Euclidean norm.
+pub(crate) fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

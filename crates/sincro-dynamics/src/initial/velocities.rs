@@ -3,6 +3,7 @@
 
 use super::placed;
 use crate::actuation::DriveKind;
+use crate::constraint::rank::{norm, remove};
 use crate::ids::MotorId;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
@@ -27,10 +28,18 @@ pub struct ConstraintRate {
 pub struct MotorConflict {
     /// The motors that no motion can satisfy together.
     pub motors: Vec<MotorId>,
-    /// Loop joints and gears between them.
-    pub constraints: Vec<String>,
-    /// Rate at which one of these opens if all motors have their targets [m/s], [rad/s].
-    pub rate: f64,
+    /// Loop joints and gears that open if all motors have their targets, with the rates at which they do.
+    pub opened: Vec<ConstraintRate>,
+}
+
+impl MotorConflict {
+    /// Names of the joints of the motors.
+    #[must_use]
+    pub fn joints<'a>(&self, model: &'a Model<f64>) -> Vec<&'a str> {
+        let joints = model.names().joints.iter();
+        let driven = joints.filter(|joint| joint.motor.is_some_and(|motor| self.motors.contains(&motor)));
+        driven.map(|joint| joint.name.as_str()).collect()
+    }
 }
 
 /// Rates of every loop joint and gear in a state, zero where its velocities keep it closed [m/s], [rad/s].
@@ -56,21 +65,8 @@ pub struct MotorConflict {
 /// ```
 #[must_use]
 pub fn constraint_rates(model: &Model<f64>, x: &State<f64>) -> Vec<ConstraintRate> {
-    let set = model.constraints();
     let Some(loops) = Loops::at(model, x) else { return Vec::new() };
-    let rates: Vec<f64> = loops.rows().map(|row| loops.rate(row, &x.v).abs()).collect();
-    let largest = |rates: &[f64]| rates.iter().copied().fold(0.0, f64::max);
-    let mut rest = &rates[..];
-    let loop_joints = set.loop_joints.iter().map(|joint| {
-        let (own, others) = rest.split_at(joint.kind.rows());
-        rest = others;
-        let (linear, angular) = own.split_at(joint.kind.n_translations());
-        ConstraintRate { name: joint.name.clone(), speed: largest(linear), angular_speed: largest(angular) }
-    });
-    let mut all: Vec<ConstraintRate> = loop_joints.collect();
-    let gears = set.gears.iter().zip(rest);
-    all.extend(gears.map(|(gear, rate)| ConstraintRate { name: gear.name.clone(), speed: *rate, angular_speed: 0.0 }));
-    all
+    by_constraint(model, &loops.rates(&x.v))
 }
 
 /// Velocities (n_v) [rad/s], [m/s] that keep all loop joints and gears closed, nearest to those of a state by the
@@ -98,24 +94,51 @@ pub fn motor_conflict(model: &Model<f64>, x: &State<f64>) -> Option<MotorConflic
     let mut unit = vec![0.0; model.n_v()];
     let mut column = |dof: usize| -> Vec<f64> {
         unit[dof] = 1.0;
-        let column = loops.rows().map(|row| loops.rate(row, &unit)).collect();
+        let column = loops.rates(&unit);
         unit[dof] = 0.0;
         column
     };
     let free = Span::of((0..model.n_v()).filter(|dof| !is_driven[*dof]).map(&mut column).collect());
-    let (mut motors, mut missing, mut size) = (Vec::new(), vec![0.0; loops.rows().len()], 0.0_f64);
+    // what the targets ask of the loops beyond what the other joints can do
+    let (mut missing, mut tolerance, mut asked) = (loops.rates(&vec![0.0; model.n_v()]), 0.0_f64, Vec::new());
     for (motor, dof, target) in ideal {
         let whole = column(dof);
-        let left = free.remainder(whole.clone());
-        if norm(&left) > DEPENDENT * norm(&whole) {
-            motors.push(motor);
-        }
+        let least = DEPENDENT * norm(&whole);
+        let left = free.remainder(whole);
         missing.iter_mut().zip(&left).for_each(|(sum, x)| *sum += x * target);
-        size += norm(&whole) * target.abs();
+        tolerance += least * target.abs();
+        asked.push((motor, left, least));
     }
-    let rate = missing.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-    let opens = |row: usize| missing[row].abs() > DEPENDENT * size;
-    (rate > DEPENDENT * size).then(|| MotorConflict { motors, constraints: loops.names(model, opens), rate })
+    let has_part = |left: &[f64], least: f64| {
+        left.iter().zip(&missing).any(|(x, missing)| missing.abs() > tolerance && x.abs() > least)
+    };
+    let of_conflict = asked.iter().filter(|(_, left, least)| has_part(left, *least));
+    let motors: Vec<MotorId> = of_conflict.map(|(motor, ..)| *motor).collect();
+    let is_open = |rate: &ConstraintRate| rate.speed.max(rate.angular_speed) > tolerance;
+    let opened = by_constraint(model, &missing).into_iter().filter(is_open).collect();
+    (!motors.is_empty()).then_some(MotorConflict { motors, opened })
+}
+
+/// Rates of the rows, in their order, by the loop joint or gear that they belong to.
+fn by_constraint(model: &Model<f64>, rates: &[f64]) -> Vec<ConstraintRate> {
+    let set = model.constraints();
+    let largest = |rates: &[f64]| rates.iter().fold(0.0_f64, |largest, rate| largest.max(rate.abs()));
+    let mut rest = rates;
+    let mut take = |n: usize| {
+        let (own, others) = rest.split_at(n.min(rest.len()));
+        rest = others;
+        own
+    };
+    let mut all = Vec::new();
+    for joint in &set.loop_joints {
+        let n = joint.kind.n_translations();
+        let (speed, angular_speed) = (largest(take(n)), largest(take(joint.kind.rows() - n)));
+        all.push(ConstraintRate { name: joint.name.clone(), speed, angular_speed });
+    }
+    for gear in &set.gears {
+        all.push(ConstraintRate { name: gear.name.clone(), speed: largest(take(1)), angular_speed: 0.0 });
+    }
+    all
 }
 
 /// Rows of all loop joints and gears at a configuration.
@@ -135,25 +158,10 @@ impl Loops {
         Some(Self(mechanism))
     }
 
-    fn rows(&self) -> std::ops::Range<usize> {
-        0..self.0.constraints.as_deref().map_or(0, |c| c.n_free)
-    }
-
-    fn rate(&self, row: usize, v: &[f64]) -> f64 {
-        self.0.constraints.as_deref().map_or(0.0, |c| c.motions.rate(&c.rows[row], v))
-    }
-
-    /// Names of the loop joints and gears that have one of these rows.
-    fn names(&self, model: &Model<f64>, has: impl Fn(usize) -> bool) -> Vec<String> {
-        let set = model.constraints();
-        let joints = set.loop_joints.iter().map(|joint| (&joint.name, joint.kind.rows()));
-        let all = joints.chain(set.gears.iter().map(|gear| (&gear.name, 1)));
-        let mut first = 0;
-        let with_rows = all.filter(|(_, n)| {
-            first += n;
-            (first - n..first).any(&has)
-        });
-        with_rows.map(|(name, _)| name.clone()).collect()
+    /// Rates of the rows for joint velocities (n_v).
+    fn rates(&self, v: &[f64]) -> Vec<f64> {
+        let constraints = self.0.constraints.as_deref();
+        constraints.map_or_else(Vec::new, |c| c.rows[..c.n_free].iter().map(|row| c.motions.rate(row, v)).collect())
     }
 }
 
@@ -181,16 +189,4 @@ impl Span {
         self.0.iter().for_each(|unit| remove(&mut column, unit));
         column
     }
-}
-
-/// Removes from a column its part along a unit vector; twice, because the first pass leaves its rounding.
-fn remove(column: &mut [f64], unit: &[f64]) {
-    for _ in 0..2 {
-        let along: f64 = column.iter().zip(unit).map(|(x, u)| x * u).sum();
-        column.iter_mut().zip(unit).for_each(|(x, u)| *x -= along * u);
-    }
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -7,7 +7,6 @@
 
 use crate::actuation::DriveKind;
 use crate::constraint::rank::{INDEPENDENT, INDEPENDENT_OPEN};
-use crate::joint::StageKind;
 use crate::mechanism::Mechanism;
 use crate::recursions::kinematics;
 use crate::spatial::Vec3;
@@ -145,7 +144,7 @@ impl Mechanism<f64> {
         let mut largest = 0.0_f64;
         for k in 0..v.len() {
             v[k] += change[k];
-            largest = largest.max(v[k].abs() / if self.is_length(k) { extent } else { 1.0 });
+            largest = largest.max(v[k].abs() / if self.model.is_translation(k) { extent } else { 1.0 });
         }
         if largest.is_nan() || largest <= 1e-6 {
             return false;
@@ -153,18 +152,6 @@ impl Mechanism<f64> {
         v.iter_mut().for_each(|v| *v *= MOVE / largest);
         self.displace_base(&v);
         true
-    }
-
-    /// Returns true if a degree of freedom is a translation.
-    fn is_length(&self, dof: usize) -> bool {
-        self.model.links.iter().any(|link| {
-            let k = link.v_idx as usize;
-            match link.kind {
-                StageKind::Prismatic => k == dof,
-                StageKind::Free => (k + 3..k + 6).contains(&dof),
-                _ => false,
-            }
-        })
     }
 
     fn displace_base(&mut self, change: &[f64]) {

@@ -46,7 +46,7 @@ use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
-use crate::joint::WORLD;
+use crate::joint::{StageKind, WORLD};
 use crate::spatial::Vec3;
 
 /// Compiled model: the kinematic tree and its elements, immutable but for parameters. Made by [`ModelBuilder::build`].
@@ -98,7 +98,15 @@ impl<R: Real> Model<R> {
     /// If they are of another structure: numbers of links, motors, limits, gears or pairs differ.
     pub fn set_params(&mut self, params: &ModelParams<R>) {
         assert!(self.params.fits(params), "parameters of a model of another structure");
-        self.params.clone_from(params);
+        // mostly the same: a run that goes back and changes nothing
+        if self.params != *params {
+            self.params.clone_from(params);
+        }
+    }
+
+    /// The structure, to be changed while the model is made.
+    pub(crate) fn structure_mut(&mut self) -> &mut Structure<R> {
+        Arc::make_mut(&mut self.structure)
     }
 
     /// Number of coordinates, the length of q; a quaternion has four.
@@ -247,6 +255,17 @@ impl<R: Real> Model<R> {
         self.dofs[dof].q_idx != WORLD
     }
 
+    /// Returns true if degree of freedom `dof` (0 to n_v − 1) is a translation `[m]`, not a rotation `[rad]`.
+    #[must_use]
+    pub fn is_translation(&self, dof: usize) -> bool {
+        let link = self.links.iter().rfind(|link| link.v_idx as usize <= dof);
+        link.is_some_and(|link| match link.kind {
+            StageKind::Prismatic => true,
+            StageKind::Free => dof - link.v_idx as usize >= 3,
+            _ => false,
+        })
+    }
+
     /// Returns true if there are ball or free joints; without them n_q = n_v, and v is the derivative of q.
     #[inline(always)]
     #[must_use]
@@ -275,8 +294,7 @@ impl<R: Real> Model<R> {
         for sensor in &sensors {
             assert!(self.names.frame(&sensor.name).is_some(), "the sensor `{}` is no frame", sensor.name);
         }
-        let structure = Arc::make_mut(&mut self.structure);
-        Arc::make_mut(&mut structure.names).sensors = sensors;
+        Arc::make_mut(&mut self.structure_mut().names).sensors = sensors;
     }
 
     /// Names of the user's objects, with what each is in the model: joints, bodies, frames, rotors, sensors.
@@ -338,7 +356,7 @@ impl Model<f64> {
     ///
     /// If there is no such element.
     pub fn set_free_length(&mut self, k: usize, length: f64) {
-        Arc::make_mut(&mut self.structure).spring_dampers[k].free_length = length;
+        self.structure_mut().spring_dampers[k].free_length = length;
     }
 
     /// Next time event: the first instant after `t` `[s]` at which a force signal or its slope jumps, or a gust begins

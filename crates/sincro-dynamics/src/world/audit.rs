@@ -23,7 +23,6 @@
 use super::Observation;
 use crate::constraint::{Constraints, pair_of};
 use crate::contact::candidate_list::SlotCandidate;
-use crate::joint::StageKind;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::state::State;
@@ -259,7 +258,7 @@ impl Observation<'_> {
             }
         }
         for ((k, gear), (g, rate)) in set.gears.iter().enumerate().zip(rows) {
-            let kinds = if is_linear(self.model(), gear.dofs[1]) {
+            let kinds = if self.model().is_translation(gear.dofs[1]) {
                 [ResidualKind::Length, ResidualKind::Speed]
             } else {
                 [ResidualKind::Angle, ResidualKind::AngularSpeed]
@@ -274,7 +273,7 @@ impl Observation<'_> {
         let (model, set) = (self.model(), self.model().constraints());
         for (k, limit) in set.limits.iter().enumerate() {
             let beyond = -limit.sign * (self.state.q[limit.coordinate] - limit.bound);
-            let kind = if is_linear(model, limit.dof) { ResidualKind::Length } else { ResidualKind::Angle };
+            let kind = if model.is_translation(limit.dof) { ResidualKind::Length } else { ResidualKind::Angle };
             found.add(Law::JointLimit, beyond.max(0.0), limit.bound.abs().max(1.0), kind, LawElement::Limit(k));
         }
         for SlotCandidate { pair, candidate, .. } in c.candidates.iter() {
@@ -293,7 +292,7 @@ impl Observation<'_> {
         let largest = model.params.drives.iter().map(|drive| reaction(drive.dof).abs()).fold(0.0, f64::max);
         for (k, drive) in model.params.drives.iter().enumerate() {
             let element = LawElement::Drive(k);
-            let kind = if is_linear(model, drive.dof) { ResidualKind::Speed } else { ResidualKind::AngularSpeed };
+            let kind = if model.is_translation(drive.dof) { ResidualKind::Speed } else { ResidualKind::AngularSpeed };
             let missing = self.target_velocities[k] - self.state.v[drive.dof];
             if modes[k] != 0.0 {
                 let passed = (-modes[k].signum() * missing).max(0.0);
@@ -329,16 +328,6 @@ fn add_forces(model: &Model<f64>, c: &Constraints<f64>, found: &mut LawResiduals
             found.add(Law::FrictionCone, excess.max(0.0), 1.0, ResidualKind::Dimensionless, element);
         }
     }
-}
-
-/// Returns true if a degree of freedom is a translation.
-fn is_linear(model: &Model<f64>, dof: usize) -> bool {
-    let stage = model.links.iter().rfind(|link| link.v_idx as usize <= dof);
-    stage.is_some_and(|link| match link.kind {
-        StageKind::Prismatic => true,
-        StageKind::Free => dof - link.v_idx as usize >= 3,
-        _ => false,
-    })
 }
 
 #[cfg(test)]

@@ -434,8 +434,7 @@ impl Assembly {
         self.check_fixtures(&model, &mut diagnostics);
         let commands = self.motors(&model);
         let start = Start { model: &model, initial: &initial, file, objects: &self.objects, document };
-        start.check(&mut diagnostics);
-        start.check_motors(&commands, &mut diagnostics);
+        start.check(&commands, &mut diagnostics);
         self.warn_of_idle_forces(&model, &mut diagnostics);
         if model.wind().is_some() && model.rotors().is_empty() && model.drags().is_empty() {
             let diagnostic =

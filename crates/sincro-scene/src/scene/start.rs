@@ -1,7 +1,7 @@
 //! Consistency of the state that a scene starts in: open loops, positions beyond limits, overlaps, velocities that open
 //! loops, and motors that contradict them.
 
-use sincro_dynamics::initial;
+use sincro_dynamics::initial::{self, ConstraintRate};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
@@ -10,6 +10,7 @@ use super::file::SceneFile;
 use super::object::Object;
 use crate::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::document::Document;
+use crate::suggest;
 
 /// A loop open by more than this at the start is an error `[m]`, `[rad]`.
 const CLOSED: f64 = 1e-6;
@@ -33,33 +34,38 @@ pub(super) struct Start<'a> {
 }
 
 impl Start<'_> {
-    /// Looks for everything that cannot start.
-    pub fn check(&self, diagnostics: &mut Diagnostics) {
-        self.check_loops(diagnostics);
-        self.check_limits(diagnostics);
-        if !diagnostics.any_error() {
+    /// Looks for everything that cannot start, with these commands of the scene.
+    pub fn check(&self, commands: &[Signal], diagnostics: &mut Diagnostics) {
+        // of an open loop there are no velocities to speak of
+        if self.check_loops(diagnostics) {
             self.check_velocities(diagnostics);
+            self.check_motors(commands, diagnostics);
         }
+        self.check_limits(diagnostics);
         if !self.file.allow_overlap {
             self.check_overlaps(diagnostics);
         }
     }
 
-    fn check_loops(&self, diagnostics: &mut Diagnostics) {
+    /// Returns true if all loops are closed.
+    fn check_loops(&self, diagnostics: &mut Diagnostics) -> bool {
         let residuals = initial::constraint_residuals(self.model, self.initial);
+        let mut is_closed = true;
         for opening in residuals.into_iter().filter(|o| o.distance > CLOSED || o.angle > CLOSED) {
-            let gap = if opening.angle > CLOSED && opening.distance <= CLOSED {
-                format!("its axes are off by {:.6e} rad", opening.angle)
-            } else {
-                format!("its ends are {:.6e} m apart", opening.distance)
+            is_closed = false;
+            let gap = match self.unit_of_coupling(&opening.name) {
+                Some(unit) => format!("its second joint is off by {:.6e} {unit}", opening.distance),
+                None if opening.distance > CLOSED => format!("its ends are {:.6e} m apart", opening.distance),
+                None => format!("its axes are off by {:.6e} rad", opening.angle),
             };
-            let message = format!("closure `{}` is open at the start: {gap}", opening.name);
+            let message = format!("{} is open at the start: {gap}", self.loop_words(&opening.name));
             let diagnostic = Diagnostic::error(&self.of_loop(&opening.name), message);
             diagnostics.push(diagnostic.with_help(match initial::assemble(self.model, self.initial) {
                 Some(q) => format!("it closes if the joints start at {}", self.positions(&q)),
                 None => "no position of the joints near the given ones closes it: check lengths and places".into(),
             }));
         }
+        is_closed
     }
 
     fn check_limits(&self, diagnostics: &mut Diagnostics) {
@@ -75,12 +81,8 @@ impl Start<'_> {
         let fastest = self.initial.v.iter().fold(1.0_f64, |a, v| a.max(v.abs()));
         let rates = initial::constraint_rates(self.model, self.initial);
         for opening in rates.into_iter().filter(|o| o.speed.max(o.angular_speed) > AT_REST * fastest) {
-            let rate = if opening.speed > AT_REST * fastest {
-                format!("its ends part at {:.6e} m/s", opening.speed)
-            } else {
-                format!("its axes turn against each other at {:.6e} rad/s", opening.angular_speed)
-            };
-            let message = format!("the initial velocities open closure `{}`: {rate}", opening.name);
+            let (words, rate) = (self.loop_words(&opening.name), self.rate_words(&opening));
+            let message = format!("the initial velocities open {words}: {rate}");
             let diagnostic = Diagnostic::error(&self.of_loop(&opening.name), message);
             diagnostics.push(match initial::consistent_velocities(self.model, self.initial) {
                 Some(v) => diagnostic.with_help(format!("it stays closed with the velocities {}", self.velocities(&v))),
@@ -90,18 +92,16 @@ impl Start<'_> {
     }
 
     /// Motors whose commands at the start contradict the loops.
-    pub fn check_motors(&self, commands: &[Signal], diagnostics: &mut Diagnostics) {
+    fn check_motors(&self, commands: &[Signal], diagnostics: &mut Diagnostics) {
         let commands = commands.iter().map(|command| command.value(0.0)).collect();
         let state = State { commands, ..self.initial.clone() };
         let Some(conflict) = initial::motor_conflict(self.model, &state) else { return };
-        let names = |id: &_| self.model.names().joints.iter().find(|joint| joint.motor == Some(*id));
-        let motors: Vec<&str> = conflict.motors.iter().filter_map(names).map(|joint| joint.name.as_str()).collect();
-        let loops: Vec<String> = conflict.constraints.iter().map(|name| format!("`{name}`")).collect();
+        let motors = conflict.joints(self.model);
+        let opened = conflict.opened.iter().map(|o| format!("{}: {}", self.loop_words(&o.name), self.rate_words(o)));
         let message = format!(
-            "the commands of the motors of {} contradict {}, which they open at {:.6e} m/s or rad/s",
-            list(&motors.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>()),
-            list(&loops),
-            conflict.rate
+            "the commands of the motors of {} open {}",
+            suggest::quoted(&motors),
+            opened.collect::<Vec<_>>().join("; ")
         );
         let diagnostic = Diagnostic::error(&self.of_object(&motors), message);
         let help =
@@ -128,6 +128,26 @@ impl Start<'_> {
         self.document.title_at(&closure.or_else(coupling).unwrap_or_default())
     }
 
+    /// Unit of the second joint of a coupling; `None` for a closure.
+    fn unit_of_coupling(&self, name: &str) -> Option<&'static str> {
+        let gear = self.model.constraints().gears.iter().find(|gear| gear.name == name)?;
+        Some(if self.model.is_translation(gear.dofs[1]) { "m" } else { "rad" })
+    }
+
+    fn loop_words(&self, name: &str) -> String {
+        let kind = if self.unit_of_coupling(name).is_some() { "coupling" } else { "closure" };
+        format!("{kind} `{name}`")
+    }
+
+    /// The larger of the rates at which a loop opens.
+    fn rate_words(&self, rate: &ConstraintRate) -> String {
+        match self.unit_of_coupling(&rate.name) {
+            Some(unit) => format!("its second joint is off by {:.6e} {unit}/s", rate.speed),
+            None if rate.speed >= rate.angular_speed => format!("its ends part at {:.6e} m/s", rate.speed),
+            None => format!("its axes turn against each other at {:.6e} rad/s", rate.angular_speed),
+        }
+    }
+
     /// Place of the first of these objects in the file.
     fn of_object(&self, paths: &[&str]) -> Location {
         let object = self.objects.iter().find(|o| paths.contains(&o.path.as_str()));
@@ -152,12 +172,4 @@ fn differing<'a>(joints: impl Iterator<Item = (&'a str, usize, usize)>, given: &
     let numbers = joints.flat_map(|(name, first, n)| (first..first + n).map(move |k| (name, k)));
     let changed = numbers.filter(|(_, k)| (other[*k] - given[*k]).abs() > 1e-9 * other[*k].abs().max(1.0));
     changed.take(MAX_NAMED).map(|(name, k)| format!("{name} = {:.12}", other[k])).collect::<Vec<_>>().join(", ")
-}
-
-/// `a, b and c`.
-fn list(words: &[String]) -> String {
-    match words {
-        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
-        _ => words.concat(),
-    }
 }

@@ -4,6 +4,7 @@ use serde_json::{Map, Value};
 
 use super::{alternatives, exclusive_keys};
 use crate::document::NonJson;
+use crate::suggest::quoted;
 
 /// Longest text of a value that is quoted whole.
 const QUOTED: usize = 40;
@@ -98,12 +99,6 @@ pub(crate) fn words(choice: &Map<String, Value>) -> Option<Vec<&str>> {
         }
     }
     Some(all)
-}
-
-/// Names in backticks, separated by commas.
-pub(super) fn quoted(names: &[&str]) -> String {
-    let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-    names.join(", ")
 }
 
 /// Returns the description of the value that `schema` describes: its own, or that of its type; empty if there is none.

@@ -5,11 +5,11 @@
 
 use serde_json::{Map, Value};
 
-use super::describe::{self, expected, found, quoted};
+use super::describe::{self, expected, found};
 use super::{alternatives, exclusive_keys, property, property_names};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, NonJson, escape, unescape};
-use crate::suggest;
+use crate::suggest::{self, quoted};
 use crate::vocabulary;
 
 /// Units that keys may carry as a suffix, wherever they come from.

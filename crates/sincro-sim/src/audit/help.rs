@@ -5,6 +5,7 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 use sincro_scene::experiment::{Experiment, SMALLEST_ACCURACY};
 use sincro_scene::scene::Scene;
+use sincro_scene::suggest::quoted;
 
 use super::Finding;
 
@@ -41,14 +42,12 @@ pub(crate) fn motors_against_loops(finding: &Finding, scene: &Scene) -> Option<S
     let commands = (0..scene.initial.commands.len()).map(|k| 1.0 + 0.618_034 * k as f64).collect();
     let state = State { commands, ..scene.initial.clone() };
     let conflict = motor_conflict(&scene.model, &state)?;
-    let joints = scene.model.names().joints.iter();
-    let motors = joints.filter(|joint| joint.motor.is_some_and(|motor| conflict.motors.contains(&motor)));
-    let names: Vec<String> = motors.map(|joint| format!("`{}`", joint.name)).collect();
+    let loops: Vec<&str> = conflict.opened.iter().map(|constraint| constraint.name.as_str()).collect();
     Some(format!(
         "the motors of {} hold their velocities exactly, and {} allows only some of them: give one of the motors a \
          `max_torque`, or commands that agree",
-        names.join(", "),
-        conflict.constraints.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+        quoted(&conflict.joints(&scene.model)),
+        quoted(&loops)
     ))
 }
 
