@@ -47,6 +47,41 @@ fn velocities_that_open_a_gear_are_refused() {
     assert_eq!(loaded(&velocity(3.764705882353), &velocity(-0.941176470588)), Ok(()));
 }
 
+/// Two cranks joined by a rod, lengths times `k`, in one order or the other.
+fn parallelogram(k: f64, velocities: [f64; 2], is_reversed: bool) -> String {
+    let crank = |name: &str, x: f64, velocity: f64| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\naxis = [0.0, 1.0, 0.0]\nposition = [{x:?}, 0.0, 0.0]\n\
+             initial = {{ position = 0.3, velocity = {velocity:?} }}\n\
+             [[body]]\nname = \"bar\"\nparent = \"/{name}\"\nposition = [0.0, 0.0, {:?}]\nmass = 1.0\n\
+             inertia = {{ xx = {i:?}, yy = {i:?}, zz = {i:?} }}\n\
+             [[frame]]\nname = \"end\"\nparent = \"/{name}\"\nposition = [0.0, 0.0, {:?}]\n",
+            -0.5 * k,
+            -k,
+            i = 0.1 * k * k
+        )
+    };
+    let mut cranks = [crank("left", 0.0, velocities[0]), crank("right", 2.0 * k, velocities[1])];
+    if is_reversed {
+        cranks.reverse();
+    }
+    let ends = "between = [\"/left/end\", \"/right/end\"]";
+    let rod = format!("[[closure]]\nname = \"rod\"\nkind = \"distance\"\n{ends}\nlength = {:?}\n", 2.0 * k);
+    format!("format = 2\n{}{rod}", cranks.concat())
+}
+
+#[test]
+fn rounded_velocities_pass_in_long_and_short_mechanisms() {
+    for (k, is_reversed) in [(1.0, false), (1e3, false), (1e3, true), (1e-3, false), (1e-3, true)] {
+        let check = |velocities| SceneFolder::of(&parallelogram(k, velocities, is_reversed), EXPERIMENT).load(&[]);
+        // seven figures of a velocity
+        assert!(check([1.0, 0.999_999_9]).is_ok(), "{k}");
+        let message = check([1.0, 0.0]).map(|_| ()).unwrap_err();
+        assert!(message.contains("open closure `/rod`: its ends part at"), "{k} {message}");
+        assert!(message.contains("/left = 0.500000000000") && message.contains("/right = 0.500000000000"), "{message}");
+    }
+}
+
 #[test]
 fn motors_that_contradict_a_gear_are_refused() {
     let message = loaded(&motor(4.0, ""), &motor(1.0, "")).unwrap_err();

@@ -98,8 +98,7 @@ pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<Constrain
 #[must_use]
 pub fn assemble(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f64>> {
     let (mut mechanism, mut y) = placed(model, x);
-    mechanism.drives.fill(1.0);
-    mechanism.mark_locked();
+    mechanism.unlock_joints();
     for _ in 0..20 {
         mechanism.project(&mut y, ProjectedRows::Penetrating);
     }

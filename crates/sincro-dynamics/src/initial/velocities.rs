@@ -8,6 +8,7 @@ use crate::ids::MotorId;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::state::State;
+use crate::world::audit::Scales;
 
 /// Part of a column of the constraint Jacobian below which it depends on others, relative to its norm.
 const DEPENDENT: f64 = 1e-9;
@@ -21,6 +22,9 @@ pub struct ConstraintRate {
     pub speed: f64,
     /// Largest rate of its orientation equations [rad/s].
     pub angular_speed: f64,
+    /// The larger of the two relative to the velocities and the extent of the mechanism, as the audit of a run has it
+    /// (dimensionless).
+    pub relative: f64,
 }
 
 /// Velocity motors without a torque limit whose targets no motion of the mechanism satisfies.
@@ -66,7 +70,7 @@ impl MotorConflict {
 #[must_use]
 pub fn constraint_rates(model: &Model<f64>, x: &State<f64>) -> Vec<ConstraintRate> {
     let Some(loops) = Loops::at(model, x) else { return Vec::new() };
-    by_constraint(model, &loops.rates(&x.v))
+    by_constraint(model, &loops.rates(&x.v), &Scales::of(&x.v, &loops.0.scratch))
 }
 
 /// Velocities (n_v) [rad/s], [m/s] that keep all loop joints and gears closed, nearest to those of a state by the
@@ -84,11 +88,13 @@ pub fn consistent_velocities(model: &Model<f64>, x: &State<f64>) -> Option<Vec<f
 pub fn motor_conflict(model: &Model<f64>, x: &State<f64>) -> Option<MotorConflict> {
     let loops = Loops::at(model, x)?;
     let mut is_driven = vec![false; model.n_v()];
-    let mut ideal = Vec::new();
+    let (mut ideal, mut targets) = (Vec::new(), vec![0.0; model.n_v()]);
     for drive in model.drives().iter().filter(|drive| model.drive_limit(drive).is_none()) {
         is_driven[drive.dof] = true;
         if let DriveKind::Motor(motor) = drive.kind {
-            ideal.push((motor, drive.dof, model.target_velocity(drive, &x.q, &x.commands)));
+            let target = model.target_velocity(drive, &x.q, &x.commands);
+            targets[drive.dof] = target;
+            ideal.push((motor, drive.dof, target));
         }
     }
     let mut unit = vec![0.0; model.n_v()];
@@ -115,12 +121,13 @@ pub fn motor_conflict(model: &Model<f64>, x: &State<f64>) -> Option<MotorConflic
     let of_conflict = asked.iter().filter(|(_, left, least)| has_part(left, *least));
     let motors: Vec<MotorId> = of_conflict.map(|(motor, ..)| *motor).collect();
     let is_open = |rate: &ConstraintRate| rate.speed.max(rate.angular_speed) > tolerance;
-    let opened = by_constraint(model, &missing).into_iter().filter(is_open).collect();
+    let rates = by_constraint(model, &missing, &Scales::of(&targets, &loops.0.scratch));
+    let opened = rates.into_iter().filter(is_open).collect();
     (!motors.is_empty()).then_some(MotorConflict { motors, opened })
 }
 
 /// Rates of the rows, in their order, by the loop joint or gear that they belong to.
-fn by_constraint(model: &Model<f64>, rates: &[f64]) -> Vec<ConstraintRate> {
+fn by_constraint(model: &Model<f64>, rates: &[f64], scales: &Scales) -> Vec<ConstraintRate> {
     let set = model.constraints();
     let largest = |rates: &[f64]| rates.iter().fold(0.0_f64, |largest, rate| largest.max(rate.abs()));
     let mut rest = rates;
@@ -133,10 +140,13 @@ fn by_constraint(model: &Model<f64>, rates: &[f64]) -> Vec<ConstraintRate> {
     for joint in &set.loop_joints {
         let n = joint.kind.n_translations();
         let (speed, angular_speed) = (largest(take(n)), largest(take(joint.kind.rows() - n)));
-        all.push(ConstraintRate { name: joint.name.clone(), speed, angular_speed });
+        let relative = (speed / scales.linear_speed).max(angular_speed / scales.speed);
+        all.push(ConstraintRate { name: joint.name.clone(), speed, angular_speed, relative });
     }
     for gear in &set.gears {
-        all.push(ConstraintRate { name: gear.name.clone(), speed: largest(take(1)), angular_speed: 0.0 });
+        let speed = largest(take(1));
+        let (angular_speed, relative) = (0.0, speed / scales.speed);
+        all.push(ConstraintRate { name: gear.name.clone(), speed, angular_speed, relative });
     }
     all
 }
@@ -147,13 +157,11 @@ struct Loops(Mechanism<f64>);
 impl Loops {
     /// None without loops.
     fn at(model: &Model<f64>, x: &State<f64>) -> Option<Self> {
-        let (mut mechanism, _) = placed(model, x);
-        if model.constraints().n_bilateral() == 0 || mechanism.constraints.is_none() {
+        if model.constraints().n_bilateral() == 0 {
             return None;
         }
-        // every joint may move
-        mechanism.drives.fill(1.0);
-        mechanism.mark_locked();
+        let (mut mechanism, _) = placed(model, x);
+        mechanism.unlock_joints();
         mechanism.place_loops(&x.v);
         Some(Self(mechanism))
     }

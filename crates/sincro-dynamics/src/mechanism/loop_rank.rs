@@ -42,7 +42,7 @@ impl Mechanism<f64> {
         let (mut sizes, mut squares) = (Vec::new(), Vec::new());
         for trial in 0..=TRIALS {
             self.base.copy_from_slice(q);
-            self.find_free_rows();
+            self.unlock_joints();
             if trial > 0 && !self.move_along_loops(trial, extent) {
                 continue;
             }
@@ -74,7 +74,7 @@ impl Mechanism<f64> {
     }
 
     /// Lets every degree of freedom move that is one: all but those of force sensors.
-    fn find_free_rows(&mut self) {
+    pub(crate) fn unlock_joints(&mut self) {
         self.locked_mask.fill(0.0);
         self.prescribed_acceleration.fill(0.0);
         for drive in self.model.params.drives.iter().filter(|drive| drive.kind == DriveKind::Lock) {

@@ -188,14 +188,14 @@ impl LawResiduals {
 }
 
 /// Magnitudes of a state, which residuals are compared with.
-struct Scales {
+pub(crate) struct Scales {
     length: f64,
-    speed: f64,
-    linear_speed: f64,
+    pub(crate) speed: f64,
+    pub(crate) linear_speed: f64,
 }
 
 impl Scales {
-    fn of(v: &[f64], scratch: &Scratch<f64>) -> Self {
+    pub(crate) fn of(v: &[f64], scratch: &Scratch<f64>) -> Self {
         let length = scratch.poses.iter().map(|pose| pose.pos.norm()).fold(1.0, f64::max);
         let speed = v.iter().fold(1.0_f64, |s, v| s.max(v.abs()));
         Self { length, speed, linear_speed: speed * length }

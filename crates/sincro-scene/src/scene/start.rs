@@ -18,7 +18,8 @@ const CLOSED: f64 = 1e-6;
 /// Overlap at the start that is put down to rounding of figures in the file `[m]`.
 const OVERLAP: f64 = 1e-9;
 
-/// Rate of a loop at the start that is put down to rounding of figures in the file, relative to the largest velocity.
+/// Rate of a loop at the start that is put down to rounding of figures in the file, relative to the velocities and the
+/// extent of the mechanism.
 const AT_REST: f64 = 1e-6;
 
 /// Joints named in a help text at most.
@@ -78,9 +79,8 @@ impl Start<'_> {
     }
 
     fn check_velocities(&self, diagnostics: &mut Diagnostics) {
-        let fastest = self.initial.v.iter().fold(1.0_f64, |a, v| a.max(v.abs()));
         let rates = initial::constraint_rates(self.model, self.initial);
-        for opening in rates.into_iter().filter(|o| o.speed.max(o.angular_speed) > AT_REST * fastest) {
+        for opening in rates.into_iter().filter(|opening| opening.relative > AT_REST) {
             let (words, rate) = (self.loop_words(&opening.name), self.rate_words(&opening));
             let message = format!("the initial velocities open {words}: {rate}");
             let diagnostic = Diagnostic::error(&self.of_loop(&opening.name), message);
