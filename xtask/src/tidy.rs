@@ -11,9 +11,10 @@ const MAX_LINES: usize = 1000;
 /// Crates of ours that each crate may use.
 const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-math", &[]),
+    ("sincro-complementarity", &["sincro-math"]),
     ("sincro-geometry", &["sincro-math"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
-    ("sincro-dynamics", &["sincro-math", "sincro-geometry", "sincro-aero"]),
+    ("sincro-dynamics", &["sincro-math", "sincro-complementarity", "sincro-geometry", "sincro-aero"]),
     ("sincro-blocks", &["sincro-math"]),
     ("sincro-scene", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
@@ -89,7 +90,8 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 5] = ["sincro-math", "sincro-geometry", "sincro-aero", "sincro-dynamics", "sincro-blocks"];
+const THINKING: [&str; 6] =
+    ["sincro-math", "sincro-complementarity", "sincro-geometry", "sincro-aero", "sincro-dynamics", "sincro-blocks"];
 
 /// Names that must not stand in them: no files, clock, threads, unordered maps.
 const IMPURE: [&str; 6] = ["std::fs", "std::time", "std::thread", "std::net", "HashMap", "HashSet"];

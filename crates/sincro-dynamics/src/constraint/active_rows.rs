@@ -4,10 +4,10 @@
 //! Loop joints, gears, pressing limits and closed rigid contacts are holonomic: residual and rate are zero. A sticking
 //! friction group has a rate only; it is nonholonomic (rolling without slipping).
 
+use sincro_complementarity::ContactMode;
 use sincro_math::Real;
 
 use super::Constraints;
-use super::cone::ContactMode;
 use crate::model::Model;
 
 /// Origin of an [`ActiveRow`]; indices are those of the lists in [`ConstraintSet`](crate::model::ConstraintSet).

@@ -1,9 +1,9 @@
 //! Assembly of the contact problem: rows, residuals and unilateral constraints of everything closed; the Delassus
 //! matrix; the vector b at velocity level.
 
+use sincro_complementarity::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use sincro_math::Real;
 
-use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use super::row::{Row, force_at, force_rate};
 use super::{CLOSED_DISTANCE, Constraints, ModeRule, dot, pair_of};
 use crate::contact::Pair;
@@ -25,14 +25,7 @@ impl<R: Real> Constraints<R> {
                 self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::joint::WORLD, R::zero())]));
                 self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
                 let row = self.rows.len() - 1;
-                self.blocks.push(UnilateralConstraint {
-                    slot,
-                    row,
-                    open: false,
-                    given: None,
-                    is_compliant: false,
-                    groups: [None; 3],
-                });
+                self.blocks.push(UnilateralConstraint::contact(slot, row, [None; 3]));
             }
         }
         let candidates = core::mem::take(&mut self.candidates);

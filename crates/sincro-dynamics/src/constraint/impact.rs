@@ -1,8 +1,8 @@
 //! Impacts and contact points: constraint rows outside of the evaluation of rates.
 
-use super::active_set::ContactProblem;
+use sincro_complementarity::{ContactMode, ContactProblem, UnilateralConstraint};
+
 use super::assembly::restitution;
-use super::cone::{ContactMode, UnilateralConstraint};
 use super::{Constraints, ContactPoint, dot, pair_of};
 use crate::model::Model;
 use crate::scratch::Scratch;

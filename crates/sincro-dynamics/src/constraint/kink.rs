@@ -6,17 +6,13 @@
 //! drives and contacts are redundant (a robot that brakes four wheels on the ground) they share the load. Source: key
 //! `acary2008`, chapter 3 (set-valued laws).
 
+use sincro_complementarity::{ContactMode, FrictionGroup, HELD_RATE, NO_SLOT, UnilateralConstraint};
 use sincro_math::Real;
 
 use super::Constraints;
-use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use super::row::Row;
-use super::solver::HELD_RATE;
 use crate::joint::WORLD;
 use crate::scratch::Scratch;
-
-/// Slot of a drive: none.
-pub(super) const NO_SLOT: usize = usize::MAX;
 
 /// Normal force under which the limit of a drive is friction `[N]`: a power of two, and far below any force that could
 /// give a problem its scale.
@@ -38,13 +34,6 @@ pub(crate) struct Kink {
     pub infeasible: bool,
 }
 
-impl<R: Real> UnilateralConstraint<R> {
-    /// Returns true if the constraint is a limited drive.
-    pub fn is_drive(&self) -> bool {
-        self.slot == NO_SLOT
-    }
-}
-
 impl<R: Real> Constraints<R> {
     /// Adds the rows of the drives at their kink.
     pub(super) fn add_kinks(&mut self) {
@@ -56,23 +45,14 @@ impl<R: Real> Constraints<R> {
             self.add(Row::of_joints([(dof as u32, R::one()), none]), R::zero());
             self.lambda.extend([R::splat(NORMAL), R::splat(saturation * limit)]);
             let group = FrictionGroup {
-                row: row + 1,
-                dim: 1,
-                coefficient: limit / NORMAL,
                 slack: LIMIT_SLACK,
-                is_sliding: false,
                 mode: if saturation == 0.0 { ContactMode::Stick } else { ContactMode::Slip },
                 direction: [R::splat(saturation), R::zero()],
-                compliance: None,
-                slow_sliding: SlowSliding::default(),
+                ..FrictionGroup::sticking(row + 1, 1, limit / NORMAL)
             };
             self.blocks.push(UnilateralConstraint {
-                slot: NO_SLOT,
-                row,
-                open: false,
                 given: Some(R::splat(NORMAL)),
-                is_compliant: false,
-                groups: [Some(group), None, None],
+                ..UnilateralConstraint::contact(NO_SLOT, row, [Some(group), None, None])
             });
         }
     }

@@ -9,9 +9,9 @@
 //! Eliminating v̇ leaves w = G λ + b with the Delassus matrix G = J M⁻¹ Jᵀ, built from the factors that the
 //! articulated-body recursion leaves (`delassus`); prescribed degrees of freedom (velocity motors, sticking joint
 //! friction) and the implicit terms of an integrator are thereby included. The problem is solved by an active-set
-//! method with a warm start; where that does not converge, by ADMM. Rigid constraints are not regularised: there is no
-//! stiffness, penalty or stabilisation gain. After each accepted sub-step the world projects positions and velocities
-//! onto the constraints in the metric of the mass matrix.
+//! method with a warm start; where that does not converge, by ADMM ([`sincro_complementarity`]). Rigid constraints are
+//! not regularised: there is no stiffness, penalty or stabilisation gain. After each accepted sub-step the world
+//! projects positions and velocities onto the constraints in the metric of the mass matrix.
 //!
 //! | file | content |
 //! |---|---|
@@ -20,16 +20,8 @@
 //! | `loop_joint` | rows and residuals of loop joints |
 //! | `rank` | independent rows of loop joints and gears |
 //! | `delassus` | Delassus matrix G; products with M⁻¹ |
-//! | `dense` | elimination that reveals the rank |
-//! | `cone` | unilateral constraints, friction groups, contact modes |
-//! | `active_set` | linear system of the current active set |
-//! | `load_share` | least multipliers of redundant constraints |
 //! | `kink` | limited drives at the kink of their law, as constraints of the contact problem |
-//! | `held` | solution with held contact modes; laws that it may violate |
-//! | `admm` | ADMM for the same problem, without an active set |
 //! | `implicit_forces` | forces along lines between two points at the new state of a linearly implicit step |
-//! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
-//! | `solver` | solution of one problem: active set first, then ADMM |
 //! | `time_stepping` | problem of a whole step at velocity level with many contacts |
 //! | `impact` | impacts, contact points |
 //! | `projection` | projection of positions and velocities |
@@ -41,48 +33,34 @@
 //! Sources: keys `featherstone2008` (chapter 8, loops; chapter 11, contact), `acary2008` (chapters 3 and 13).
 
 mod active_rows;
-mod active_set;
-mod admm;
 mod assembly;
-mod cone;
 mod delassus;
-mod dense;
-mod engage;
-mod gauss_seidel;
-mod held;
 mod impact;
 pub(crate) mod implicit_forces;
 pub(crate) mod kink;
-mod load_share;
 mod loop_joint;
 mod projection;
 pub(crate) mod rank;
 pub(crate) mod row;
-mod solver;
-#[cfg(test)]
-mod tests;
 mod time_stepping;
 pub(crate) mod warm_start;
 
+pub(crate) use sincro_complementarity::HeldLaw;
+use sincro_complementarity::{ContactProblem, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable};
 use sincro_math::Real;
 
 pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
 pub use active_rows::{ActiveRow, ActiveSource};
-pub use solver::SolverReport;
+pub use sincro_complementarity::SolverReport;
 
 use crate::contact::{Detector, Pair, candidate_list::CandidateList};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
-use active_set::ContactProblem;
-use cone::{SlowSliding, UnilateralConstraint};
-pub(crate) use held::HeldLaw;
-use held::{Solution, is_observable};
 use implicit_forces::ImplicitForces;
 use kink::Kink;
 use row::{Motions, Row};
-use solver::Solver;
 pub(crate) use time_stepping::DIRECT_ROWS;
 use time_stepping::TimeStepping;
 use warm_start::WarmStart;

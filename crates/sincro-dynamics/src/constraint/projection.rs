@@ -1,12 +1,10 @@
 //! Projection of positions and velocities onto the constraints, in the metric of the mass matrix: Δq = M⁻¹ Jᵀ λ with G
 //! λ = −residual.
 
+use sincro_complementarity::{ContactMode, ContactProblem, PROJECTION_RANK, UnilateralConstraint};
 use sincro_math::Real;
 
 use super::Constraints;
-use super::active_set::ContactProblem;
-use super::cone::{ContactMode, UnilateralConstraint};
-use super::dense::PROJECTION_RANK;
 use crate::model::Model;
 use crate::scratch::Scratch;
 

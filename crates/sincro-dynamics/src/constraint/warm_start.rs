@@ -8,9 +8,9 @@
 //!
 //! In the state stands the [`ZenoFallback`], then one record a slot that has been solved: its index and these numbers.
 
+use sincro_complementarity::{ContactMode, UnilateralConstraint};
 use sincro_math::Real;
 
-use super::cone::{ContactMode, UnilateralConstraint};
 use crate::model::{RESERVED_SLOTS, SLOT_LEN};
 
 /// Numbers of a slot in the state: its index, then its multipliers and code.

@@ -4,9 +4,9 @@
 //! through others. Islands and the constraints in them come in the order of their first constraint, which depends on
 //! the model alone and not on how the sets were joined.
 
+use sincro_complementarity::UnilateralConstraint;
 use sincro_math::Real;
 
-use crate::constraint::cone::UnilateralConstraint;
 use crate::constraint::row::Row;
 use crate::joint::WORLD;
 

@@ -7,9 +7,9 @@
 //! is wᵢ = bᵢ + yᵢ·z: a sweep over all contacts costs as much as the rows are long, for free bodies and robots alike.
 //!
 //! Bodies that touch each other directly or through others form an *island*; islands do not depend on each other and
-//! are solved one by one ([`solver`]): Gauss–Seidel sweeps with the exact solution of each contact's own problem
-//! ([`local`]), accelerated by a nonsmooth nonlinear conjugate gradient method. The residual of the Coulomb law is the
-//! test of convergence ([`solver::Island`]), and reported where it misses the tolerance.
+//! are solved one by one ([`sincro_complementarity::sweeps`]): Gauss–Seidel sweeps with the exact solution of each
+//! contact's own problem, accelerated by a nonsmooth nonlinear conjugate gradient method. The residual of the Coulomb
+//! law is the test of convergence, and reported where it misses the tolerance.
 //!
 //! The constraint residual enters the vector b: a distance is used up within the step; a penetration beyond
 //! [`DEAD_ZONE`] is reduced by [`CORRECTION`] a step.
@@ -17,22 +17,20 @@
 //! Sources: keys `acary2008` (chapters 10 and 13), `jain2011` (chapter 7), `jean1999`, `silcowitz2010`.
 
 pub(super) mod islands;
-mod local;
-pub(super) mod solver;
 #[cfg(test)]
 mod tests;
 
+use sincro_complementarity::sweeps::{Law, Sweeper};
+use sincro_complementarity::{ContactMode, UnilateralConstraint};
 use sincro_math::Real;
 
 use super::assembly::restitution;
-use super::cone::{ContactMode, UnilateralConstraint};
 use super::{Constraints, pair_of};
 use crate::joint::WORLD;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
 use islands::Islands;
-use solver::{Law, Sweeper};
 
 /// Number of rows above which a step at velocity level is solved here, and not by an active set.
 pub(crate) const DIRECT_ROWS: usize = 24;
@@ -161,7 +159,7 @@ impl<R: Real> Constraints<R> {
                     continue;
                 }
                 let block = &self.blocks[item - self.n_free];
-                let normal = sweeper.len();
+                let normal = sweeper.block_count();
                 let mut groups = block.groups.iter();
                 match (block.given, block.groups[0]) {
                     (Some(_), _) if block.is_drive() => {

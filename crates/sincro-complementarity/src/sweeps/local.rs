@@ -19,7 +19,7 @@ const REGULARISATION: f64 = 1e-12;
 
 /// Friction problem in a plane: symmetric 2 × 2 matrix A with the solution of (A + s 1) x = r under a limit on ‖x‖.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct TangentialProblem {
+pub(crate) struct TangentialProblem {
     a: [f64; 3],
     /// Root of the last solution.
     s: f64,
@@ -99,7 +99,7 @@ impl TangentialProblem {
 
 /// The problem of one contact with sliding friction.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ContactLocal {
+pub(crate) struct ContactLocal {
     /// Own matrix: nn, nt₁, nt₂, t₁t₁, t₁t₂, t₂t₂.
     g: [f64; 6],
     /// Its inverse, in the same order.

@@ -1,10 +1,10 @@
 //! Solution of the frictional contact problem w = G λ + b: active set first, then ADMM.
 //!
 //! The active set (contact modes) starts from the warm start; the multipliers follow from one linear system
-//! ([`super::active_set`]), solved with its rank revealed ([`Dense`]), as a correction of the last ones; redundant
-//! constraints share the load evenly ([`super::load_share`]). If the multipliers satisfy the complementarity
+//! (`active_set`), solved with its rank revealed (`dense`), as a correction of the last ones; redundant
+//! constraints share the load evenly (`load_share`). If the multipliers satisfy the complementarity
 //! conditions, the problem is solved. If not, the violated modes are changed, a few times; for slip directions this is
-//! Newton's method. If that does not converge, ADMM ([`super::admm`]) finds the solution without an active set, and the
+//! Newton's method. If that does not converge, ADMM (`admm`) finds the solution without an active set, and the
 //! linear system of the modes it implies makes it exact; the last resorts are Gauss–Seidel sweeps and all sets of
 //! closed contacts.
 
@@ -14,17 +14,17 @@ use super::active_set::{ActiveSet, ContactProblem};
 use super::admm::{Admm, activate_all};
 use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use super::dense::Dense;
-pub(super) use super::dense::RANK;
+pub(crate) use super::dense::RANK;
 use super::gauss_seidel;
 use super::held::Solution;
 use super::load_share::LoadShare;
 
 /// Complementarity tolerance, relative to the largest force or rate.
-pub(super) const SLACK: f64 = 1e-9;
+pub(crate) const SLACK: f64 = 1e-9;
 
 /// Tolerance of rates that must be zero, relative to the largest rate: redundant contacts whose distances differ by
 /// rounding contradict each other by as much; an inconsistent active set leaves far more.
-pub(super) const HELD_RATE: f64 = 1e-6;
+pub const HELD_RATE: f64 = 1e-6;
 
 /// Relative rate above which a solution of the linear system is refined once.
 const REFINED: f64 = 1e-12;
@@ -39,13 +39,12 @@ const MAX_ENUMERATED: usize = 5;
 const SWEEPS: [usize; 5] = [20, 40, 80, 160, 320];
 
 /// Maximum number of turns of slow sliding friction.
-pub(super) const MAX_TURNS: usize = 20;
+pub(crate) const MAX_TURNS: usize = 20;
 
 /// Iterations of ADMM before its active set is tried the first time; doubled after each trial.
 const FIRST_ITERATIONS: usize = 25;
 
-/// Statistics of the constraint solver since the world was made; from
-/// [`World::solver_report`](crate::world::World::solver_report).
+/// Statistics of the solver of constraints since it was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolverReport {
     /// Number of complementarity problems solved.
@@ -68,7 +67,7 @@ pub struct SolverReport {
 
 impl SolverReport {
     /// Takes back the failures since `before`, of steps that were not accepted.
-    pub(crate) fn discard(&mut self, before: &Self) {
+    pub fn discard(&mut self, before: &Self) {
         self.not_converged = before.not_converged;
         self.worst_residual = before.worst_residual;
         (self.islands, self.sweeps) = (before.islands, before.sweeps);
@@ -76,11 +75,11 @@ impl SolverReport {
     }
 }
 
-/// Working memory; grows to the largest problem it has seen.
+/// Solver of small problems, with its working memory, which grows to the largest problem it has seen.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Solver<R> {
+pub struct Solver<R> {
     dense: Dense<R>,
-    pub(super) active_set: ActiveSet<R>,
+    pub(crate) active_set: ActiveSet<R>,
     admm: Admm,
     delta: Vec<R>,
     all_active: Vec<UnilateralConstraint<R>>,
@@ -89,9 +88,10 @@ pub(crate) struct Solver<R> {
     swept: Vec<R>,
     swept_rates: Vec<R>,
     share: LoadShare<R>,
-    /// Solution found first, and the one in which all friction sticks ([`super::engage`]).
-    pub(super) found: Solution<R>,
-    pub(super) sticking: Solution<R>,
+    /// Solution found first, and the one in which all friction sticks (`engage`).
+    pub(crate) found: Solution<R>,
+    pub(crate) sticking: Solution<R>,
+    /// Statistics since it was made.
     pub report: SolverReport,
     /// Report at the start of the trial step that is being made, none outside of one.
     trial: Option<SolverReport>,
@@ -239,7 +239,7 @@ impl<R: Real> Solver<R> {
     }
 
     /// Active-set iteration: corrects the multipliers and updates violated modes; returns true on convergence.
-    pub(super) fn iterate_active_set(
+    pub(crate) fn iterate_active_set(
         &mut self,
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],
@@ -266,7 +266,7 @@ impl<R: Real> Solver<R> {
     }
 
     /// Repeats the correction where elimination left more than rounding.
-    pub(super) fn refine(
+    pub(crate) fn refine(
         &mut self,
         problem: &ContactProblem<'_, R>,
         blocks: &[UnilateralConstraint<R>],
@@ -328,7 +328,7 @@ impl<R: Real> Solver<R> {
 
 /// Absolute tolerances of one problem.
 #[derive(Clone, Copy)]
-pub(super) struct Tolerances {
+pub(crate) struct Tolerances {
     pub force: f64,
     pub rate: f64,
     pub held: f64,
@@ -410,7 +410,7 @@ fn turn_slow_sliding<R: Real>(rates: &[R], blocks: &mut [UnilateralConstraint<R>
 
 /// Turns the friction of a group that slides slowly against its velocity at the end of the step; returns true if it was
 /// not turned so yet.
-pub(super) fn turn_slow_friction<R: Real>(
+pub(crate) fn turn_slow_friction<R: Real>(
     group: &mut FrictionGroup<R>,
     normal: f64,
     rates: &[R],
@@ -457,7 +457,7 @@ fn update_friction_mode<R: Real>(
 
 /// Turns friction at its limit against the impending slip; returns true if it was not turned so yet, none if the slip
 /// goes along the force: it sticks then.
-pub(super) fn turn_impending_slip<R: Real>(
+pub(crate) fn turn_impending_slip<R: Real>(
     group: &mut FrictionGroup<R>,
     normal: f64,
     small: Tolerances,
@@ -493,10 +493,10 @@ pub(super) fn turn_impending_slip<R: Real>(
 }
 
 /// Components of a group in a list over rows.
-pub(super) fn pair<R: Real>(group: &FrictionGroup<R>, list: &[R]) -> [f64; 2] {
+pub(crate) fn pair<R: Real>(group: &FrictionGroup<R>, list: &[R]) -> [f64; 2] {
     std::array::from_fn(|k| if k < group.dim { list[group.row + k].lane(0) } else { 0.0 })
 }
 
-pub(super) fn norm(x: [f64; 2]) -> f64 {
+pub(crate) fn norm(x: [f64; 2]) -> f64 {
     (x[0] * x[0] + x[1] * x[1]).sqrt()
 }

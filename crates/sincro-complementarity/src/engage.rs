@@ -17,7 +17,7 @@ const MAX_ENUMERATED: usize = 6;
 impl<R: Real> Solver<R> {
     /// Takes the solution in which open contacts that do not separate are closed, and friction without slip sticks,
     /// where there is one.
-    pub(super) fn engage(
+    pub(crate) fn engage(
         &mut self,
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],

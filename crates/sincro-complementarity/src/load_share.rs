@@ -47,7 +47,7 @@ impl<R: Real> Creeping<R> {
 
 /// Working memory; grows to the largest problem it has seen.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LoadShare<R> {
+pub(crate) struct LoadShare<R> {
     /// Compliance of each row, but for ε.
     compliances: Vec<R>,
     deformation: Vec<R>,

@@ -10,7 +10,7 @@ pub(crate) const RANK: f64 = 1e-11;
 /// Rank tolerance of projections: close to a singular position of a loop (0.2° off one for arms of equal length) an
 /// error of a thousandth of a micrometre across the loop is a micrometre along it, and correcting it would move the
 /// mechanism to another branch.
-pub(crate) const PROJECTION_RANK: f64 = 1e-5;
+pub const PROJECTION_RANK: f64 = 1e-5;
 
 /// Scaled pivots on the diagonal above this are accepted without a search.
 const LARGE: f64 = 0.05;

@@ -51,15 +51,18 @@ impl<R> Default for ActiveSet<R> {
 
 /// Frictional contact problem w = G λ + b at one instant.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ContactProblem<'a, R> {
+pub struct ContactProblem<'a, R> {
     /// Delassus matrix G, row by row, symmetric.
     pub a: &'a [R],
+    /// Rates without forces.
     pub b: &'a [R],
     /// Number of bilateral rows, which come first.
     pub n_free: usize,
 }
 
 impl<R: Real> ContactProblem<'_, R> {
+    /// Number of rows.
+    #[must_use]
     pub fn m(&self) -> usize {
         self.b.len()
     }

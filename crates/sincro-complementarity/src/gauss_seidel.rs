@@ -12,7 +12,7 @@ use super::solver::{norm, pair};
 const AT_LIMIT: f64 = 1.0 - 1e-7;
 
 /// Makes `sweeps` over all rows, from λ and its rates w = G λ + b; then sets the modes that λ implies.
-pub(super) fn sweep<R: Real>(
+pub(crate) fn sweep<R: Real>(
     problem: &ContactProblem<'_, R>,
     sweeps: usize,
     blocks: &mut [UnilateralConstraint<R>],

@@ -18,7 +18,7 @@ const OBSERVABLE: f64 = 0.1 * SLACK;
 
 /// Law that held modes may violate; indices of constraint and friction group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum HeldLaw {
+pub enum HeldLaw {
     /// A closed contact does not pull.
     Unilateral(usize),
     /// An open contact is not approached.
@@ -31,9 +31,12 @@ pub(crate) enum HeldLaw {
 
 /// A solution, kept while another one is sought.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Solution<R> {
+pub struct Solution<R> {
+    /// Constraints with their modes.
     pub blocks: Vec<UnilateralConstraint<R>>,
+    /// Multipliers λ.
     pub lambda: Vec<R>,
+    /// Rates w.
     pub rates: Vec<R>,
 }
 
@@ -46,6 +49,7 @@ impl<R: Real> Solution<R> {
         }
     }
 
+    /// Takes over a solution.
     pub fn keep(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R], rates: &[R]) {
         self.blocks.clear();
         self.blocks.extend_from_slice(blocks);
@@ -70,7 +74,7 @@ impl<R: Real> Solver<R> {
     }
 
     /// As [`Solver::hold`], as a part of another problem.
-    pub(super) fn hold_modes(
+    pub(crate) fn hold_modes(
         &mut self,
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],
@@ -105,6 +109,7 @@ impl<R: Real> Solver<R> {
     }
 
     /// Law that the solution with held modes violates most; none if it violates none.
+    #[must_use]
     pub fn worst_law(
         &self,
         problem: &ContactProblem<'_, R>,
@@ -139,6 +144,7 @@ impl<R: Real> Solver<R> {
     }
 
     /// Excess of `law` over its tolerance, relative to the largest force or rate; above zero if it is violated.
+    #[must_use]
     pub fn excess(
         &self,
         law: HeldLaw,
@@ -155,13 +161,15 @@ impl<R: Real> Solver<R> {
     }
 
     /// Rates of the last solution.
+    #[must_use]
     pub fn rates(&self) -> &[R] {
         &self.active_set.rates
     }
 }
 
 /// Returns true if `rates` differ from those of another solution of the problem.
-pub(crate) fn is_observable<R: Real>(problem: &ContactProblem<'_, R>, rates: &[R], others: &[R]) -> bool {
+#[must_use]
+pub fn is_observable<R: Real>(problem: &ContactProblem<'_, R>, rates: &[R], others: &[R]) -> bool {
     let largest = problem.b.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
     rates.iter().zip(others).any(|(x, y)| (*x - *y).lane(0).abs() > OBSERVABLE * largest)
 }

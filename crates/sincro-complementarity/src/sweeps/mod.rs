@@ -1,6 +1,6 @@
 //! Nonsmooth nonlinear conjugate gradient method on block Gauss–Seidel sweeps, island by island.
 //!
-//! A sweep solves each contact's own problem exactly, one after the other ([`super::local`]). Its change of all forces
+//! A sweep solves each contact's own problem exactly, one after the other ([`local`]). Its change of all forces
 //! is taken for a descent direction: with ∇ the change and β = ‖∇_k‖²/‖∇_{k−1}‖² the forces are moved further along the
 //! last direction, p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖:
 //! they weigh forces and torques by their effect. Source: key `silcowitz2010`.
@@ -8,10 +8,12 @@
 //! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
 //! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
 
+mod local;
+
 use sincro_math::{Real, Task};
 
-use super::local::{ContactLocal, TangentialProblem};
-use crate::constraint::solver::SolverReport;
+use crate::solver::SolverReport;
+use local::{ContactLocal, TangentialProblem};
 
 /// Residual at which an island counts as solved.
 const TOLERANCE: f64 = 1e-6;
@@ -32,19 +34,33 @@ const MAX_SWEEPS: usize = 60;
 
 /// Force law of a block of rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Law {
+pub enum Law {
     /// Loop joint or gear: any force.
     Bilateral,
     /// Joint limit, contact without friction: pushes.
     Unilateral,
     /// Contact with sliding friction: normal row and two across.
-    Coulomb { friction: f64 },
+    Coulomb {
+        /// Friction coefficient.
+        friction: f64,
+    },
     /// Force that is given: of a compliant contact.
-    Given { force: f64 },
-    /// Limited drive.
-    Interval { limit: f64 },
+    Given {
+        /// That force.
+        force: f64,
+    },
+    /// Limited drive: |λ| ≤ `limit`.
+    Interval {
+        /// Largest torque or force.
+        limit: f64,
+    },
     /// Rolling or spinning friction: at most `coefficient` times the first force of the block `normal`.
-    Disc { coefficient: f64, normal: usize },
+    Disc {
+        /// Coefficient.
+        coefficient: f64,
+        /// Index of the block of the contact.
+        normal: usize,
+    },
 }
 
 impl Law {
@@ -102,7 +118,7 @@ struct IslandRange {
 
 /// Blocks of all islands with their whitened rows.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Sweeper {
+pub struct Sweeper {
     blocks: Vec<Block>,
     values: Vec<f64>,
     /// Places in z of the numbers of each row.
@@ -140,7 +156,8 @@ impl Sweeper {
     }
 
     /// Number of blocks so far.
-    pub fn len(&self) -> usize {
+    #[must_use]
+    pub fn block_count(&self) -> usize {
         self.blocks.len()
     }
 
