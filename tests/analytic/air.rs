@@ -233,7 +233,7 @@ fn spinning(spin: Spin, axis: f64, law: impl Fn(Spin) -> RotorLaw, mode: MotorMo
     let yaw = b.joint("yaw", NodeId::WORLD, Pose::identity(), yaw);
     let body = b.body("body", yaw, Pose::identity(), brick(5.0));
     let shaft =
-        JointSpec { motor: Some(Motor::new(mode)), ..JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, axis] }) };
+        JointSpec { motor: vec![Motor::new(mode)], ..JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, axis] }) };
     let shaft = b.joint("shaft", body, at(0.3, 0.0, 0.1), shaft);
     let disc = BodySpec { mass: Shape::Cylinder { radius: 0.1, length: 0.01 }.mass_properties(300.0) };
     let disc = b.body("disc", shaft, Pose::identity(), disc);
@@ -300,7 +300,7 @@ fn commands_of_rotors_come_after_those_of_motors_and_forces() {
         b.rotor(name, body, Pose::identity(), rotor(law.clone(), drive));
     }
     let shaft = JointSpec {
-        motor: Some(Motor::new(MotorMode::Torque)),
+        motor: vec![Motor::new(MotorMode::Torque)],
         ..JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] })
     };
     let shaft = b.joint("shaft", body, Pose::identity(), shaft);

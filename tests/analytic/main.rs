@@ -11,6 +11,7 @@ mod power;
 mod reactions;
 mod rotors;
 mod sensors;
+mod spherical_motors;
 mod spring_dampers;
 mod springs;
 mod wind;

@@ -27,7 +27,7 @@ pub fn cart(mass: f64, spec: JointSpec) -> Model<f64> {
 }
 
 pub fn motor(motor: Motor<f64>) -> JointSpec {
-    JointSpec { motor: Some(motor), ..slider() }
+    JointSpec { motor: vec![motor], ..slider() }
 }
 
 pub fn slider() -> JointSpec {

@@ -211,7 +211,7 @@ fn the_reaction_along_the_axis_is_what_the_joint_gives() {
         spring: vec![(7.0, 0.1)],
         damping: vec![0.3],
         armature: vec![0.5],
-        motor: Some(motor),
+        motor: vec![motor],
         ..revolute(axis)
     };
     let model = pendulum(&[spec], [0.3, 0.2, 0.1], [0.3, 0.2, 0.5], [1.0, 0.4, 0.2], SLENDER);

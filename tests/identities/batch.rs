@@ -28,7 +28,7 @@ fn arm(r: &mut Random, friction: f64) -> Model<f64> {
     for (i, kind) in kinds.into_iter().enumerate() {
         let mut spec = JointSpec::new(kind);
         if i == 0 {
-            spec.motor = Some(Motor::new(MotorMode::Velocity));
+            spec.motor = vec![Motor::new(MotorMode::Velocity)];
         }
         if i == 1 {
             spec.spring = vec![(5.0 + r.unit(), r.unit())];

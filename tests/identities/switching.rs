@@ -46,7 +46,7 @@ fn decade(r: &mut Random, low: f64, high: f64) -> f64 {
 fn joint(r: &mut Random, axis: [f64; 3], commands: &mut Vec<Command>, motors: usize) -> JointSpec {
     let mut joint = JointSpec::new(JointKind::Revolute { axis });
     if r.below(4) < motors {
-        joint.motor = Some(Motor { max_torque: decade(r, -3.0, 6.0), ..Motor::new(MotorMode::Velocity) });
+        joint.motor = vec![Motor { max_torque: decade(r, -3.0, 6.0), ..Motor::new(MotorMode::Velocity) }];
         commands.push(Command {
             shape: r.below(3),
             amplitude: 1.0 + 0.8 * r.unit(),

@@ -36,7 +36,7 @@ id! {
     ///
     /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
     /// # let mut hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
-    /// # hinge.motor = Some(Motor::new(MotorMode::Torque));
+    /// # hinge.motor = vec![Motor::new(MotorMode::Torque)];
     /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
     /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
     /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
@@ -58,7 +58,7 @@ id! {
     ///
     /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
     /// # let mut hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
-    /// # hinge.motor = Some(Motor::new(MotorMode::Torque));
+    /// # hinge.motor = vec![Motor::new(MotorMode::Torque)];
     /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
     /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
     /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
@@ -80,7 +80,7 @@ id! {
     ///
     /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
     /// # let mut hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
-    /// # hinge.motor = Some(Motor::new(MotorMode::Torque));
+    /// # hinge.motor = vec![Motor::new(MotorMode::Torque)];
     /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
     /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
     /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });

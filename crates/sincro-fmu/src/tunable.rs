@@ -49,7 +49,12 @@ pub(crate) fn tunable(path: &str, loaded: &Loaded) -> Option<Tunable> {
             mass_number(key).map(|number| Tunable::Mass(frame, number))
         }
         ObjectKind::Joint { motor: Some(motor), .. } => {
-            let number = match key.strip_prefix("motor.")? {
+            let (motor, key) = match key.strip_prefix("motor.")?.split_once('.') {
+                // one of several: `motor.K.max_torque`
+                Some((k, key)) => (scene.model.names().joint(object)?.motors().nth(k.parse().ok()?)?.index(), key),
+                None => (motor, key.strip_prefix("motor.")?),
+            };
+            let number = match key {
                 "kp" => MotorNumber::Kp,
                 "stiffness" => MotorNumber::Stiffness,
                 "damping" => MotorNumber::Damping,

@@ -103,8 +103,8 @@ initial = { position = [0, 0, 0, 0] }
 motor"#,
         r#"kind = "ball"
 motor"#,
-        r#"scene.toml:26:9: error: joint `/shoulder/rod/tip/wrist` has 3 degrees of freedom; a motor drives one
-  help: use a chain of revolute or prismatic joints"#,
+        r#"scene.toml:26:9: error: joint `/shoulder/rod/tip/wrist` has 3 degrees of freedom and 1 motors
+  help: give a list with one motor for each degree of freedom, with mode `free` for those without"#,
     ),
     (
         "scene.toml",

@@ -47,7 +47,7 @@ pub enum MotorMode {
 ///
 /// let mut builder = ModelBuilder::new([0.0; 3]);
 /// let mut shaft = JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
-/// shaft.motor = Some(Motor { max_torque: 2.0, ..Motor::new(MotorMode::Torque) });
+/// shaft.motor = vec![Motor { max_torque: 2.0, ..Motor::new(MotorMode::Torque) }];
 /// let shaft = builder.joint("shaft", NodeId::WORLD, Pose::identity(), shaft);
 /// let mass = MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [0.4, 0.0, 0.0, 0.4, 0.0, 0.5] };
 /// builder.body("rotor", shaft, Pose::identity(), BodySpec { mass });

@@ -1,6 +1,6 @@
 //! Checks of the builder's objects: errors, for which no model is built, and warnings.
 
-use crate::actuation::{DriveKind, SpringDamper};
+use crate::actuation::{DriveKind, MotorMode, SpringDamper};
 use crate::aero::rotor::RotorLaw;
 use crate::joint::{Friction, JointKind};
 use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
@@ -281,15 +281,23 @@ fn check_friction(found: &mut Findings, id: NodeId, name: &str, friction: &Frict
 }
 
 fn check_motor(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec, n: usize) {
-    let Some(motor) = &spec.motor else { return };
-    if n != 1 {
-        let message = format!("joint `{name}` has {n} degrees of freedom; a motor drives one");
-        found.error(id, "motor", message, "use a chain of revolute or prismatic joints");
+    if !spec.motor.is_empty() && spec.motor.len() != n {
+        let message = format!("joint `{name}` has {n} degrees of freedom and {} motors", spec.motor.len());
+        let help = "give a list with one motor for each degree of freedom, with mode `free` for those without";
+        found.error(id, "motor", message, if n == 0 { "a fixed joint has none: leave it out" } else { help });
     }
-    for (field, x) in motor.numbers() {
-        if x.is_nan() || x < 0.0 {
-            let message = format!("motor of `{name}`: {field} {x} is negative or not a number");
-            found.error(id, "motor", message, "give zero or more");
+    for motor in &spec.motor {
+        let is_servo = matches!(motor.mode, MotorMode::Position | MotorMode::Spring);
+        if is_servo && matches!(spec.kind, JointKind::Ball | JointKind::Free) {
+            let message = format!("motor of `{name}`: the orientation of the joint is no list of positions");
+            let help = "take mode `torque` or `velocity`, or a `spring` of the joint with a rest orientation";
+            found.error(id, "motor", message, help);
+        }
+        for (field, x) in motor.numbers() {
+            if x.is_nan() || x < 0.0 {
+                let message = format!("motor of `{name}`: {field} {x} is negative or not a number");
+                found.error(id, "motor", message, "give zero or more");
+            }
         }
     }
 }

@@ -310,10 +310,10 @@ impl Compiler<'_> {
         if has_quaternion && self.structure.dofs[v_idx..].iter().any(|dof| dof.stiffness != 0.0) {
             self.structure.sprung.push(link);
         }
-        let motor = spec.motor.map(|motor| {
-            self.params.motors.push(Motor { dof: v_idx, ..motor });
-            MotorId::new(self.params.motors.len() - 1)
-        });
+        let first = MotorId::new(self.params.motors.len());
+        let motors = spec.motor.iter().enumerate().map(|(k, motor)| Motor { dof: v_idx + k, ..*motor });
+        self.params.motors.extend(motors);
+        let motor = (!spec.motor.is_empty()).then_some(first);
         let name = self.nodes[node.0 as usize].name.clone();
         let (base, moving) = (at.attached(), carrier.attached());
         self.names.joints.push(JointInfo { name, node, kind: spec.kind, q_idx, n_q, v_idx, n_v, motor, base, moving });

@@ -41,7 +41,7 @@ impl MotorConflict {
     #[must_use]
     pub fn joints<'a>(&self, model: &'a Model<f64>) -> Vec<&'a str> {
         let joints = model.names().joints.iter();
-        let driven = joints.filter(|joint| joint.motor.is_some_and(|motor| self.motors.contains(&motor)));
+        let driven = joints.filter(|joint| joint.motors().any(|motor| self.motors.contains(&motor)));
         driven.map(|joint| joint.name.as_str()).collect()
     }
 }

@@ -1,5 +1,7 @@
 //! Passive properties of a degree of freedom: armature, spring, damper, Coulomb friction, constant torque.
 
+use sincro_math::Real;
+
 use super::{Friction, WORLD};
 
 /// Passive properties of one degree of freedom: armature, spring, damper, friction; listed in
@@ -27,5 +29,13 @@ impl<R> Dof<R> {
     #[must_use]
     pub fn coordinate(&self) -> Option<usize> {
         (self.q_idx != WORLD).then_some(self.q_idx as usize)
+    }
+}
+
+impl<R: Real> Dof<R> {
+    /// Coordinate in `q` that this degree of freedom moves `[rad]` or `[m]`; zero for those of ball and free joints.
+    #[inline(always)]
+    pub(crate) fn coordinate_in(&self, q: &[R]) -> R {
+        q.get(self.q_idx as usize).copied().unwrap_or(R::zero())
     }
 }

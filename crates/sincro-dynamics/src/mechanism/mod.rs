@@ -491,7 +491,7 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     pub(crate) fn find_motor_torques(&mut self, v: &[R], steps: (R, R)) {
         for (i, motor) in self.model.params.motors.iter().enumerate() {
-            let q = self.q[self.model.dofs[motor.dof].q_idx as usize];
+            let q = self.model.dofs[motor.dof].coordinate_in(&self.q);
             self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], steps).0;
         }
         for d in 0..self.model.params.drives.len() {

@@ -47,7 +47,7 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     }
     for (motor, &command) in model.params.motors.iter().zip(at.commands) {
         let k = motor.dof;
-        let q = at.q[model.dofs[k].q_idx as usize];
+        let q = model.dofs[k].coordinate_in(at.q);
         let (tau, implicit) = motor.torque(q, at.v[k], command, steps);
         torque[k] += tau;
         diagonal[k] += implicit;

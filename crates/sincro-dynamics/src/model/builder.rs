@@ -87,8 +87,9 @@ pub struct JointSpec {
     pub limits: Vec<(f64, f64)>,
     /// Restitution at the limits: speed after over speed before the impact, 0 to 1.
     pub limit_restitution: f64,
-    /// Motor, for a joint with one degree of freedom; its command is an input of the world.
-    pub motor: Option<Motor<f64>>,
+    /// Motors; their commands are inputs of the world. Those of ball and free joints are in mode free, torque or
+    /// velocity: torques about the axes of the child frame, then, of free ones, forces along them.
+    pub motor: Vec<Motor<f64>>,
 }
 
 impl JointSpec {
@@ -106,7 +107,7 @@ impl JointSpec {
             sensor: false,
             limits: Vec::new(),
             limit_restitution: 0.0,
-            motor: None,
+            motor: Vec::new(),
         }
     }
 }

@@ -40,7 +40,7 @@ impl<R: Real> Model<R> {
         match drive.kind {
             DriveKind::Friction | DriveKind::Lock => R::zero(),
             DriveKind::Motor(i) => {
-                let q = q[self.dofs[drive.dof].q_idx as usize];
+                let q = self.dofs[drive.dof].coordinate_in(q);
                 self.motor(i).target_velocity(q, commands[i.index()])
             }
         }

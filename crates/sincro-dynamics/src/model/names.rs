@@ -31,12 +31,20 @@ pub struct JointInfo {
     pub v_idx: usize,
     /// Number of its degrees of freedom, which are consecutive in v.
     pub n_v: usize,
-    /// Id of its motor; `None` without one.
+    /// Id of the motor of its first degree of freedom; `None` without motors. See [`JointInfo::motors`].
     pub motor: Option<MotorId>,
     /// Joint frame on the side of the parent.
     pub base: Attached<f64>,
     /// Joint frame on the side of the child; coincides with `base` at zero coordinates.
     pub moving: Attached<f64>,
+}
+
+impl JointInfo {
+    /// Ids of its motors, one for each degree of freedom; none for a joint without motors.
+    pub fn motors(&self) -> impl Iterator<Item = MotorId> {
+        let first = self.motor.into_iter();
+        first.flat_map(|first| (0..self.n_v).map(move |k| MotorId::new(first.index() + k)))
+    }
 }
 
 /// Body or frame as the user built it; entry of [`Names::frames`].
@@ -70,7 +78,7 @@ pub struct SensorInfo {
 ///
 /// let mut builder = ModelBuilder::new([0.0; 3]);
 /// let mut elbow = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
-/// elbow.motor = Some(Motor::new(MotorMode::Torque));
+/// elbow.motor = vec![Motor::new(MotorMode::Torque)];
 /// let elbow = builder.joint("elbow", NodeId::WORLD, Pose::identity(), elbow);
 /// let mass = Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
 /// builder.body("forearm", elbow, Pose::identity(), BodySpec { mass });
@@ -127,7 +135,8 @@ impl Names {
         self.frames.iter().position(|f| f.name == name).map(BodyId::new)
     }
 
-    /// Id of the motor of the joint of that name; `None` if there is no such joint, or if it has no motor.
+    /// Id of the motor of the joint of that name, of its first degree of freedom if it has several; `None` if there is
+    /// no such joint, or if it has no motor.
     #[must_use]
     pub fn motor_id(&self, joint: &str) -> Option<MotorId> {
         self.joint(joint)?.motor

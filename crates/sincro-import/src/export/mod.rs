@@ -171,7 +171,7 @@ impl<'a> Tree<'a> {
             pose,
             dofs,
             limits,
-            motor: info.and_then(|i| i.motor).map(|id| *model.motor(id)),
+            motor: info.filter(|i| i.n_v == 1).and_then(|i| i.motor).map(|id| *model.motor(id)),
             start: info.map_or_else(Vec::new, |i| self.scene.initial.q[i.q_idx..i.q_idx + i.n_q].to_vec()),
         })
     }
@@ -200,6 +200,9 @@ impl<'a> Tree<'a> {
         for spring in scene.model.nonlinear_springs() {
             let joint = scene.model.names().dof_joint[spring.dof];
             self.note(&scene.model.names().joint_info(joint).name, "the law of its spring is not written");
+        }
+        for joint in scene.model.names().joints.iter().filter(|joint| joint.n_v > 1 && joint.motor.is_some()) {
+            self.note(&joint.name, "motors of several axes are not written");
         }
         for script in &scene.scripts {
             self.note(&script.path, "a script is not written");

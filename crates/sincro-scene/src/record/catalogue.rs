@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::aero::rotor::RotorLaw;
-use sincro_dynamics::ids::JointId;
+use sincro_dynamics::ids::{JointId, MotorId};
 use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
@@ -180,19 +180,47 @@ fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
             passive(list, name, model, ("force", "N"), v + 3);
         }
     }
-    if let Some(motor) = joint.motor.map(sincro_dynamics::ids::MotorId::index) {
-        let is_length = matches!(joint.kind, JointKind::Prismatic { .. });
-        let units = if is_length { LENGTH.0 } else { ANGLE.0 };
-        let torque = units[3];
-        let command = match model.motors()[motor].mode {
-            MotorMode::Torque => torque,
+    motor_signals(list, joint, model);
+}
+
+/// Signals of the motors of a joint, components of one vector together.
+fn motor_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
+    let motors: Vec<MotorId> = joint.motors().collect();
+    if motors.is_empty() {
+        return;
+    }
+    // first degree of freedom, names of the components, true for lengths
+    const SPATIAL: [&str; 3] = [".x", ".y", ".z"];
+    let groups: &[(usize, &[&str], bool)] = match joint.kind {
+        JointKind::Fixed | JointKind::Revolute { .. } | JointKind::Screw { .. } => &[(0, &[""], false)],
+        JointKind::Prismatic { .. } => &[(0, &[""], true)],
+        JointKind::Universal { .. } => &[(0, &[".1", ".2"], false)],
+        JointKind::Planar => &[(0, &[".x", ".y"], true), (2, &[".angle"], false)],
+        JointKind::Ball => &[(0, &SPATIAL, false)],
+        JointKind::Free => &[(0, &SPATIAL, false), (3, &SPATIAL, true)],
+    };
+    for (first, components, is_length) in groups {
+        // a free joint has both kinds along one axis: `command.x` belongs to `velocity.x`
+        let (command, torque) = match (joint.kind, is_length) {
+            (JointKind::Free, false) => ("angular_command", "motor_torque"),
+            (JointKind::Free, true) => ("command", "motor_force"),
+            _ => ("command", "motor_torque"),
+        };
+        let units = if *is_length { LENGTH.0 } else { ANGLE.0 };
+        let of_command = |motor: MotorId| match model.motor(motor).mode {
+            MotorMode::Torque => units[3],
             MotorMode::Velocity => units[1],
             MotorMode::Position | MotorMode::Spring => units[0],
             MotorMode::Free => "",
         };
-        list.add(format!("{name}.command"), command, Probe::Command(motor));
-        list.add(format!("{name}.motor_torque"), torque, Probe::MotorTorqueMean(motor));
-        list.add(format!("{name}.motor_torque_now"), torque, Probe::MotorTorqueNow(motor));
+        let mut add = |what: &str, unit: &dyn Fn(MotorId) -> &'static str, probe: fn(usize) -> Probe| {
+            for (component, motor) in components.iter().zip(&motors[*first..]) {
+                list.add(format!("{}.{what}{component}", joint.name), unit(*motor), probe(motor.index()));
+            }
+        };
+        add(command, &of_command, Probe::Command);
+        add(torque, &|_| units[3], Probe::MotorTorqueMean);
+        add(&format!("{torque}_now"), &|_| units[3], Probe::MotorTorqueNow);
     }
 }
 

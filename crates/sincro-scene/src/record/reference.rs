@@ -16,9 +16,9 @@ const SECTIONS: [(&str, &str); 18] = [
     ("/slide", "Prismatic joint"),
     ("/hinge", "Revolute joint, with a motor, a spring and stops; a screw joint has the same"),
     ("/universal", "Universal joint: two angles"),
-    ("/ball", "Ball joint"),
+    ("/ball", "Ball joint, with velocity motors"),
     ("/planar", "Planar joint"),
-    ("/free", "Free joint"),
+    ("/free", "Free joint, with torque motors"),
     (
         "/free/solid",
         "Body with contact; without contact the first seven rows, and for a frame without the centre of mass",

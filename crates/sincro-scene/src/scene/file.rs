@@ -254,8 +254,8 @@ pub(crate) struct JointFile {
     pub force_sensor: bool,
     /// Rigid stops; a list for several degrees of freedom.
     pub limits: Option<OneOrList<LimitsFile>>,
-    /// Motor, on a joint with one degree of freedom.
-    pub motor: Option<MotorFile>,
+    /// Motor; a list for several degrees of freedom.
+    pub motor: Option<OneOrList<MotorFile>>,
 }
 
 /// How a joint moves.

@@ -14,8 +14,8 @@ const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// The specification of a joint, and the command of its motor if it has one.
-pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> (JointSpec, Option<Signal>) {
+/// The specification of a joint, and the commands of its motors.
+pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> (JointSpec, Vec<Signal>) {
     let mut spec = JointSpec::new(kind(file, pointer, signals));
     spec.armature = numbers(&file.armature);
     spec.damping = numbers(&file.damping);
@@ -50,15 +50,23 @@ pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'
         spec.limit_restitution = limits.as_slice().iter().map(|l| l.restitution).fold(0.0, f64::max);
     }
     spec.torque = torques(file, pointer, signals);
-    let command = file.motor.as_ref().map(|file| {
-        let pointer = format!("{pointer}/motor");
-        spec.motor = Some(motor(file, &pointer, signals));
-        match &file.command {
-            Some(command) => signals.read(command, &format!("{pointer}/command")),
-            None => Signal::Constant(0.0),
-        }
+    let motors = entries(&file.motor, &format!("{pointer}/motor"));
+    let commands = motors.iter().map(|(file, pointer)| match &file.command {
+        Some(command) => signals.read(command, &format!("{pointer}/command")),
+        None => Signal::Constant(0.0),
     });
-    (spec, command)
+    let commands = commands.collect();
+    spec.motor = motors.iter().map(|(file, pointer)| motor(file, pointer, signals)).collect();
+    (spec, commands)
+}
+
+/// Entries of one value or a list, each with its pointer.
+fn entries<'a, T>(file: &'a Option<OneOrList<T>>, pointer: &str) -> Vec<(&'a T, String)> {
+    match file {
+        None => Vec::new(),
+        Some(OneOrList::One(x)) => vec![(x, pointer.to_owned())],
+        Some(OneOrList::List(list)) => list.iter().enumerate().map(|(k, x)| (x, format!("{pointer}/{k}"))).collect(),
+    }
 }
 
 fn numbers(list: &Option<OneOrList<f64>>) -> Vec<f64> {
@@ -75,13 +83,8 @@ fn friction(file: &FrictionFile) -> Friction<f64> {
 }
 
 fn torques(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> Vec<Signal> {
-    match &file.torque {
-        None => Vec::new(),
-        Some(OneOrList::One(torque)) => vec![signals.read(torque, &format!("{pointer}/torque"))],
-        Some(OneOrList::List(list)) => {
-            list.iter().enumerate().map(|(k, torque)| signals.read(torque, &format!("{pointer}/torque/{k}"))).collect()
-        }
-    }
+    let torques = entries(&file.torque, &format!("{pointer}/torque"));
+    torques.iter().map(|(torque, pointer)| signals.read(torque, pointer)).collect()
 }
 
 fn kind(file: &JointFile, pointer: &str, signals: &mut SignalReader<'_>) -> JointKind {

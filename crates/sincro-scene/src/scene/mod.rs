@@ -129,7 +129,7 @@ impl Scene {
 
 /// Specification of an object for the builder.
 enum Spec {
-    Joint(JointSpec, Option<Signal>),
+    Joint(JointSpec, Vec<Signal>),
     Body(BodySpec, Vec<ShapeInstance>, contact::Skin),
     Fixture(Vec<ShapeInstance>, contact::Skin),
     Frame,
@@ -280,8 +280,8 @@ struct Assembly {
     builder: ModelBuilder,
     nodes: Vec<NodeId>,
     objects: Vec<Object>,
-    /// Command of the motor of the joint, or speed of the rotor, that is object k.
-    commands: BTreeMap<usize, Signal>,
+    /// Commands of the motors of the joint, or speed of the rotor, that is object k.
+    commands: BTreeMap<usize, Vec<Signal>>,
     /// Commands of springs and dampers with an actuator, by their paths.
     line_commands: BTreeMap<String, Signal>,
     sensors: Vec<SensorSpec>,
@@ -307,11 +307,9 @@ impl Assembly {
         let path = place.path.clone();
         let (mut shapes, mut skin) = (Vec::new(), contact::Skin::default());
         let (node, kind) = match spec {
-            Spec::Joint(spec, command) => {
+            Spec::Joint(spec, commands) => {
                 let kind = ObjectKind::Joint { kind: spec.kind, motor: None };
-                if let Some(command) = command {
-                    self.commands.insert(self.objects.len(), command);
-                }
+                self.commands.insert(self.objects.len(), commands);
                 (self.builder.joint(&path, parent, pose, spec), kind)
             }
             Spec::Fixture(of_body, of_skin) => {
@@ -333,7 +331,7 @@ impl Assembly {
             Spec::Force(spec) => (self.builder.force(&path, parent, spec), ObjectKind::Force),
             Spec::Drag(spec) => (self.builder.drag(&path, parent, pose, spec), ObjectKind::Drag),
             Spec::Rotor(made, speed) => {
-                self.commands.insert(self.objects.len(), speed);
+                self.commands.insert(self.objects.len(), vec![speed]);
                 let joint = made.joint.as_ref().and_then(|path| self.objects.iter().position(|o| o.path == *path));
                 let spec = made.spec(joint.map(|k| self.nodes[k]));
                 (self.builder.rotor(&path, parent, pose, spec), ObjectKind::Rotor)
@@ -463,7 +461,8 @@ impl Assembly {
         for (rotor, name) in model.rotors().iter().zip(&model.names().rotors) {
             let speed = self.objects.iter().position(|o| o.path == *name).and_then(|k| self.commands.remove(&k));
             if let Some(command) = rotor.speed.command() {
-                commands[command] = speed.expect("a rotor that takes a command has one");
+                commands[command] =
+                    speed.and_then(|mut speed| speed.pop()).expect("a rotor that takes a command has one");
             }
         }
         for (line, name) in model.spring_dampers().iter().zip(&model.names().spring_dampers) {
@@ -477,7 +476,8 @@ impl Assembly {
                 (joint.motor.map(sincro_dynamics::ids::MotorId::index), &mut self.objects[index].kind)
             {
                 *known = Some(motor);
-                commands[motor] = self.commands.remove(&index).expect("a joint with a motor has a command");
+                let own = self.commands.remove(&index).expect("a joint with motors has commands");
+                commands[motor..motor + own.len()].clone_from_slice(&own);
             }
         }
         commands

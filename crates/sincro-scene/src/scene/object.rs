@@ -97,7 +97,7 @@ pub enum ObjectKind {
     Joint {
         /// Kind of its motion.
         kind: JointKind,
-        /// Index of its motor among the model's motors, if it has one.
+        /// Index of its motor among the model's motors, if it has one; of the first one, if it has several.
         motor: Option<usize>,
     },
     /// Body with mass.

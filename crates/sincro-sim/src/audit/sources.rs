@@ -72,7 +72,7 @@ pub fn sources(loaded: &Loaded) -> Vec<Finding> {
 /// Name of the motor, rotor or spring and damper of a command.
 fn command_name(loaded: &Loaded, command: usize) -> String {
     let model = &loaded.scene.model;
-    let joint = model.names().joints.iter().find(|joint| joint.motor.is_some_and(|motor| motor.index() == command));
+    let joint = model.names().joints.iter().find(|joint| joint.motors().any(|motor| motor.index() == command));
     let rotor = model.rotors().iter().position(|rotor| rotor.speed.command() == Some(command));
     let is_its_own = |line: &SpringDamper<f64>| line.actuator.is_some_and(|a| a.command == command);
     let line = model.spring_dampers().iter().position(is_its_own);

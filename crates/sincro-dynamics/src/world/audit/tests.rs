@@ -121,7 +121,7 @@ fn penetration_adhesion_and_friction_beyond_the_cone_are_found() {
 /// A cart whose velocity motor has to hold 3 N; its limit.
 fn driven(max_torque: f64) -> World {
     let motor = Motor { max_torque, ..Motor::new(MotorMode::Velocity) };
-    let spec = JointSpec { motor: Some(motor), torque: vec![Signal::Constant(-3.0)], ..slider([1.0, 0.0, 0.0]) };
+    let spec = JointSpec { motor: vec![motor], torque: vec![Signal::Constant(-3.0)], ..slider([1.0, 0.0, 0.0]) };
     let model = cart(spec);
     let mut x = State::new(&model);
     x.commands[0] = 0.5;
