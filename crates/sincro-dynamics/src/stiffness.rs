@@ -5,10 +5,11 @@
 //! beyond left free (`joint_inertias` in `recursions/aba.rs`), the rate is that of the faster root of D s² + c s + k
 //! = 0. Coupling between joints is neglected, and D changes with the pose.
 
-use crate::actuation::{MotorMode, SpringDamper};
+use crate::actuation::MotorMode;
+use crate::actuation::spring_damper::Line;
 use crate::constraint::implicit_forces::ImplicitForces;
 use crate::model::Model;
-use crate::recursions::aba::{factor_at_rest, joint_inertias};
+use crate::recursions::aba::AtRest;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::state::State;
@@ -61,43 +62,86 @@ impl Stiffness {
 /// held by ideal velocity motors are left out.
 #[must_use]
 pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
-    let inertias = joint_inertias(model, state);
-    let held = |dof: usize| model.drives().iter().any(|d| d.dof == dof && model.drive_limit(d).is_none());
-    let of_joints = model.dofs().iter().enumerate().filter(|(k, _)| !held(*k)).map(|(k, dof)| {
-        let (mut stiffness, mut damping) = (dof.stiffness, dof.damping);
-        for spring in model.nonlinear_springs.iter().filter(|spring| spring.dof == k) {
-            let x = state.q[dof.q_idx as usize] - dof.rest;
-            let (of_x, of_v) = spring.law.negated_partials(x, state.v[k]);
-            stiffness += of_x.max(0.0);
-            damping += of_v.max(0.0);
-        }
-        for motor in model.motors().iter().filter(|m| m.dof == k && m.mode == MotorMode::Spring) {
-            stiffness += motor.stiffness;
-            damping += motor.damping;
-        }
-        Stiffness::new(StiffElement::Dof(k), stiffness, damping, inertias[k])
-    });
-    let each = of_joints.chain(of_lines(model, state));
-    each.filter(|s| s.rate > 0.0).max_by(|a, b| a.rate.total_cmp(&b.rate))
+    StiffnessProbe::new(model).stiffest(model, state)
 }
 
-/// Springs and dampers between two points, with everything between them left free.
-fn of_lines(model: &Model<f64>, state: &State<f64>) -> Vec<Stiffness> {
-    let Some(mut forces) = ImplicitForces::new(model) else { return Vec::new() };
-    let (mut scratch, rest) = (Scratch::new(model), vec![0.0; model.n_v()]);
-    kinematics::motions(model, &state.q, &state.v, &rest, &mut scratch);
-    let of_element = |element: &SpringDamper<f64>| element.line(|link| (scratch.links[link].v, scratch.poses[link]));
-    let lines: Vec<_> = model.spring_dampers.iter().map(of_element).collect();
-    factor_at_rest(model, state, &mut scratch);
-    forces.place(model, &lines, &scratch, &rest);
-    forces.factor(model, &scratch, lines.iter().map(|_| 1.0), &rest);
-    let each = model.spring_dampers.iter().zip(&lines).zip(forces.inverse_inertias()).enumerate();
-    each.filter(|(_, (_, inverse))| *inverse > 0.0)
-        .map(|(k, ((element, line), inverse))| {
+/// Working memory of [`stiffest`], for many states of one model without allocation.
+#[derive(Clone, Debug)]
+pub struct StiffnessProbe {
+    scratch: Scratch<f64>,
+    at_rest: AtRest,
+    forces: Option<Box<ImplicitForces<f64>>>,
+    lines: Vec<Line<f64>>,
+}
+
+impl StiffnessProbe {
+    /// Memory for states of `model`.
+    #[must_use]
+    pub fn new(model: &Model<f64>) -> Self {
+        Self {
+            scratch: Scratch::new(model),
+            at_rest: AtRest::new(model),
+            forces: ImplicitForces::new(model),
+            lines: Vec::with_capacity(model.spring_dampers.len()),
+        }
+    }
+
+    /// Fastest spring or damper at a state, as [`stiffest`]; `model` may have other parameters than that of
+    /// [`StiffnessProbe::new`], and must have the same structure.
+    #[must_use]
+    pub fn stiffest(&mut self, model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
+        let of_lines = self.stiffest_line(model, state);
+        if of_lines.is_none() {
+            self.at_rest.factor(model, &state.q, &mut self.scratch);
+        }
+        let joints = (0..model.n_v()).filter_map(|k| stiffness_of_joint(model, state, k, self.scratch.dofs[k].d));
+        of_lines.into_iter().chain(joints).max_by(|a, b| a.rate.total_cmp(&b.rate))
+    }
+
+    /// Fastest spring or damper between two points, with everything between them left free; leaves the factors of the
+    /// mass matrix.
+    fn stiffest_line(&mut self, model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
+        let Self { scratch, at_rest, forces, lines } = self;
+        let forces = forces.as_mut()?;
+        kinematics::motions(model, &state.q, &state.v, at_rest.zeros(), scratch);
+        lines.clear();
+        lines.extend(
+            model
+                .spring_dampers
+                .iter()
+                .map(|element| element.line(|link| (scratch.links[link].v, scratch.poses[link]))),
+        );
+        at_rest.factor(model, &state.q, scratch);
+        forces.place(model, lines, scratch, at_rest.zeros());
+        forces.factor(model, scratch, lines.iter().map(|_| 1.0), at_rest.zeros());
+        let each = model.spring_dampers.iter().zip(lines.iter()).zip(forces.inverse_inertias()).enumerate();
+        let each = each.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, ((element, line), inverse))| {
             let (stiffness, damping) = element.implicit_terms(line.length, line.rate);
             Stiffness::new(StiffElement::SpringDamper(k), stiffness, damping, 1.0 / inverse)
-        })
-        .collect()
+        });
+        each.filter(|s| s.rate > 0.0).max_by(|a, b| a.rate.total_cmp(&b.rate))
+    }
+}
+
+/// Spring and damper of degree of freedom `k` on `inertia`, spring motors included; `None` without, and where an ideal
+/// velocity motor holds it.
+fn stiffness_of_joint(model: &Model<f64>, state: &State<f64>, k: usize, inertia: f64) -> Option<Stiffness> {
+    if model.is_held(k) {
+        return None;
+    }
+    let dof = &model.dofs[k];
+    let (mut stiffness, mut damping) = (dof.stiffness, dof.damping);
+    for spring in model.nonlinear_springs.iter().filter(|spring| spring.dof == k) {
+        let x = dof.coordinate_in(&state.q) - dof.rest;
+        let (of_x, of_v) = spring.law.negated_partials(x, state.v[k]);
+        stiffness += of_x.max(0.0);
+        damping += of_v.max(0.0);
+    }
+    for motor in model.motors().iter().filter(|m| m.dof == k && m.mode == MotorMode::Spring) {
+        stiffness += motor.stiffness;
+        damping += motor.damping;
+    }
+    Some(Stiffness::new(StiffElement::Dof(k), stiffness, damping, inertia)).filter(|s| s.rate > 0.0)
 }
 
 /// Magnitude of the larger root of D s² + c s + k.

@@ -1,9 +1,9 @@
 //! Snapshots: everything a run needs to continue bit for bit, as bytes.
 //!
-//! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the error
-//! control of the integrator, the seven vectors of [`State`] with their lengths, that of the sensors, the parameters of
-//! the model (none if they are those of the scene), the three of the diagram's state (if there is one), and a checksum
-//! of all that.
+//! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the integration
+//! method and its error control, the seven vectors of [`State`] with their lengths, that of the sensors, the
+//! parameters of the model (none if they are those of the scene), the three of the diagram's state (if there is one),
+//! and a checksum of all that.
 
 use std::fmt;
 use std::hash::Hasher;
@@ -11,12 +11,13 @@ use std::hash::Hasher;
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::model::ModelParams;
 use sincro_dynamics::state::State;
+use sincro_dynamics::world::MethodKind;
 use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
 use crate::trace::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro06";
+const MAGIC: &[u8; 8] = b"sincro07";
 
 /// Snapshot of a run: everything needed to go on from there bit for bit. Made by
 /// [`LockStep::snapshot`](crate::run::LockStep::snapshot).
@@ -49,6 +50,8 @@ pub struct Snapshot {
     pub params: Option<Box<ModelParams<f64>>>,
     /// Hash of all states up to here.
     pub trace: Trace,
+    /// Integration method: `auto` may have changed it.
+    pub method: MethodKind,
     /// State of the integrator's error control; `None` for fixed steps.
     pub control: Option<Control>,
     /// Last values of all sensors, in their order and units.
@@ -90,6 +93,7 @@ impl Snapshot {
         bytes.extend(plant_hash(loaded).as_bytes());
         bytes.extend(self.state.tick.to_le_bytes());
         bytes.extend(self.trace.0.to_le_bytes());
+        bytes.extend(code(self.method).to_le_bytes());
         let control = self.control.unwrap_or(Control { accuracy: f64::NAN, h: 0.0, last_error: 0.0 });
         for x in [control.accuracy, control.h, control.last_error] {
             bytes.extend(x.to_le_bytes());
@@ -129,6 +133,7 @@ impl Snapshot {
         }
         let tick = reader.integer()?;
         let trace = Trace(reader.integer()?);
+        let method = METHODS.into_iter().nth(reader.integer()? as usize).ok_or(SnapshotError::Damaged)?;
         let [accuracy, h, last_error] = [reader.number()?, reader.number()?, reader.number()?];
         let control = (!accuracy.is_nan()).then_some(Control { accuracy, h, last_error });
         let state = State {
@@ -155,8 +160,21 @@ impl Snapshot {
                 memory: reader.vector()?,
             }),
         };
-        Ok(Self { state, params, trace, control, sensors, diagram })
+        Ok(Self { state, params, trace, method, control, sensors, diagram })
     }
+}
+
+/// Methods in the order of their codes.
+const METHODS: [MethodKind; 5] = [
+    MethodKind::SemiImplicitEuler,
+    MethodKind::Rk4,
+    MethodKind::Implicit,
+    MethodKind::DormandPrince,
+    MethodKind::Stiff,
+];
+
+fn code(method: MethodKind) -> u64 {
+    METHODS.into_iter().position(|known| known == method).expect("every method has a code") as u64
 }
 
 fn checksum(bytes: &[u8]) -> u64 {

@@ -348,26 +348,46 @@ fn advance<S: Stage, R: Real>(
 #[must_use]
 pub(crate) fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64> {
     let mut scratch = Scratch::new(model);
-    factor_at_rest(model, state, &mut scratch);
+    AtRest::new(model).factor(model, &state.q, &mut scratch);
     scratch.dofs.iter().map(|d| d.d).collect()
 }
 
-/// Factors of the mass matrix at the coordinates of a state, with all velocities and forces zero.
-pub(crate) fn factor_at_rest(model: &Model<f64>, state: &State<f64>, scratch: &mut Scratch<f64>) {
-    let n = model.n_v();
-    let diagonal: Vec<f64> = model.dofs.iter().map(|d| d.armature).collect();
-    let (torque, mut v_dot, mut mask) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    for drive in model.drives().iter().filter(|drive| drive.kind == DriveKind::Lock) {
-        mask[drive.dof] = 1.0;
+/// Mechanism at rest and without forces, all of it left free but force sensors, for factors of its mass matrix.
+#[derive(Clone, Debug)]
+pub(crate) struct AtRest {
+    zeros: Vec<f64>,
+    v_dot: Vec<f64>,
+    diagonal: Vec<f64>,
+    mask: Vec<f64>,
+}
+
+impl AtRest {
+    pub fn new(model: &Model<f64>) -> Self {
+        let zeros = vec![0.0; model.n_v()];
+        let mut mask = zeros.clone();
+        for drive in model.drives().iter().filter(|drive| drive.kind == DriveKind::Lock) {
+            mask[drive.dof] = 1.0;
+        }
+        let diagonal = model.dofs.iter().map(|d| d.armature).collect();
+        Self { v_dot: zeros.clone(), zeros, diagonal, mask }
     }
-    let input = Input {
-        q: &state.q,
-        v: &torque,
-        torque: &torque,
-        diagonal: &diagonal,
-        prescribed: Some(Prescribed { mask: &mask, acceleration: &torque }),
-        external: None,
-        gravity: false,
-    };
-    forward_dynamics(model, &input, scratch, &mut v_dot);
+
+    /// Velocities and accelerations of the mechanism: zero.
+    pub fn zeros(&self) -> &[f64] {
+        &self.zeros
+    }
+
+    /// Factors the mass matrix at the coordinates `q`.
+    pub fn factor(&mut self, model: &Model<f64>, q: &[f64], scratch: &mut Scratch<f64>) {
+        let input = Input {
+            q,
+            v: &self.zeros,
+            torque: &self.zeros,
+            diagonal: &self.diagonal,
+            prescribed: Some(Prescribed { mask: &self.mask, acceleration: &self.zeros }),
+            external: None,
+            gravity: false,
+        };
+        forward_dynamics(model, &input, scratch, &mut self.v_dot);
+    }
 }

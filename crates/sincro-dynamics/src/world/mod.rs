@@ -46,6 +46,9 @@ use switching::NO_KINK;
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
+/// Rows of the extrapolation of the stiff method: it has order 8 at most.
+const STIFF_ROWS: usize = 6;
+
 /// Integration method with its working memory.
 #[derive(Clone, Debug)]
 enum Method {
@@ -148,6 +151,8 @@ pub struct World {
     pub state: State<f64>,
     mechanism: Mechanism<f64>,
     method: Method,
+    /// The method before the last change.
+    spare_method: Option<Method>,
     y: Vec<f64>,
     before: Vec<f64>,
     base_before: Vec<f64>,
@@ -232,7 +237,7 @@ impl World {
             MethodKind::Rk4 => Method::Rk4(Rk4::new(dim)),
             MethodKind::Implicit => Method::Implicit(Extrapolated::new(dim, 2, control)),
             MethodKind::DormandPrince => Method::DormandPrince(DormandPrince::new(dim, control)),
-            MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, 6, control)),
+            MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, STIFF_ROWS, control)),
         };
         let switches = n_drives > 0 || !mechanism.model().constraints().is_empty();
         let time_stepping = (switches || kind == MethodKind::SemiImplicitEuler).then(|| SemiImplicitEuler::new(dim));
@@ -242,6 +247,7 @@ impl World {
             state,
             mechanism,
             method,
+            spare_method: None,
             y: vec![0.0; dim],
             before: vec![0.0; dim],
             slope: vec![0.0; dim],
@@ -322,6 +328,39 @@ impl World {
             Method::Stiff(m) => m.control = control,
             _ => {}
         }
+    }
+
+    /// Integration method.
+    #[must_use]
+    pub fn method(&self) -> MethodKind {
+        match &self.method {
+            Method::SemiImplicitEuler => MethodKind::SemiImplicitEuler,
+            Method::Rk4(_) => MethodKind::Rk4,
+            Method::Implicit(_) => MethodKind::Implicit,
+            Method::DormandPrince(_) => MethodKind::DormandPrince,
+            Method::Stiff(_) => MethodKind::Stiff,
+        }
+    }
+
+    /// Changes the integration method between two base steps, from one with error control to the other; accuracy and
+    /// step size go on. No effect if it is the present one. Memory is allocated at the first change alone.
+    ///
+    /// # Panics
+    ///
+    /// If the present method or `kind` has a fixed step.
+    pub fn set_method(&mut self, kind: MethodKind) {
+        if kind == self.method() {
+            return;
+        }
+        let control = self.control().expect("a method with error control");
+        assert!(matches!(kind, MethodKind::DormandPrince | MethodKind::Stiff), "{kind:?} has a fixed step");
+        let dim = self.y.len();
+        let new = self.spare_method.take().unwrap_or_else(|| match kind {
+            MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, STIFF_ROWS, control)),
+            _ => Method::DormandPrince(DormandPrince::new(dim, control)),
+        });
+        self.spare_method = Some(std::mem::replace(&mut self.method, new));
+        self.set_control(control);
     }
 
     /// Divides every fixed step into `n` equal ones (0 counts as 1), and limits steps of error control to that length;

@@ -200,7 +200,8 @@ impl Status {
 /// Settings with which a run was made, part of a [`RunReport`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Integration method that was used; never `auto`.
+    /// Integration method that was used; never `auto`. Where that changed its method, the first one: a warning tells of
+    /// the change.
     pub integrator: String,
     /// Base step `[s]`.
     pub step: f64,

@@ -8,6 +8,7 @@ use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
+use super::method_choice::{MethodChanges, MethodChoice};
 use super::world_with_room;
 use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, Source};
 use crate::diagram_controller::DiagramController;
@@ -40,6 +41,8 @@ use sincro_scene::script::ScriptError;
 #[derive(Debug)]
 pub struct LockStep {
     world: World,
+    /// Choice of `auto`; none for a method by name.
+    method: Option<MethodChoice>,
     control: Option<DiagramController<f64>>,
     sensors: Sensors,
     /// Signals of the diagram, then recorded float signals, then values of sensors, as they were last observed.
@@ -150,6 +153,7 @@ impl LockStep {
         let (sources, is_started) = (vec![Source::Scene; world.state.commands.len()], false);
         let mut new = Self {
             world,
+            method: MethodChoice::new(loaded, method),
             control,
             sensors,
             signals,
@@ -231,6 +235,7 @@ impl LockStep {
         }
         let lockstep = Self {
             world: self.world.clone(),
+            method: self.method.clone(),
             control: self.control.clone(),
             sensors: self.sensors.clone(),
             signals: self.signals.clone(),
@@ -425,6 +430,9 @@ impl LockStep {
         // 3 remember
         all(&mut self.control, &mut self.controllers).for_each(|controller| controller.latched(tick, t));
         // 4 advance
+        if let Some(method) = &mut self.method {
+            method.choose(tick, t, &mut self.world);
+        }
         let advanced = match self.control.as_mut().and_then(Controller::continuous) {
             Some(part) => self.world.advance_with(t, self.step, part),
             None => self.world.advance(t, self.step),
@@ -550,6 +558,7 @@ impl LockStep {
                 .then(|| Box::new(self.world.model().params().clone())),
             state: self.world.state.clone(),
             trace,
+            method: self.world.method(),
             control: self.world.control(),
             sensors: self.sensors.values.clone(),
             diagram,
@@ -583,6 +592,7 @@ impl LockStep {
         self.world.set_params(snapshot.params.as_deref().unwrap_or(self.scene_model.params()));
         self.world.state = snapshot.state.clone();
         if let Some(control) = snapshot.control {
+            self.world.set_method(snapshot.method);
             self.world.set_control(control);
         }
         self.tick = snapshot.state.tick;
@@ -590,6 +600,11 @@ impl LockStep {
         if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
             control.restore(state, &snapshot.state);
         }
+    }
+
+    /// Changes of the integration method so far, by `auto`.
+    pub(super) fn method_changes(&self) -> MethodChanges {
+        self.method.as_ref().map_or(MethodChanges::default(), |method| method.changes)
     }
 
     /// Returns the notices of the diagram's blocks about the run so far, one sentence each.

@@ -8,6 +8,7 @@
 
 mod bounds;
 mod lockstep;
+mod method_choice;
 mod recording;
 mod stop;
 mod streams;
@@ -70,7 +71,7 @@ pub struct Simulated {
     pub table: Table,
     /// Status at the end of the run.
     pub status: Status,
-    /// Integration method that was used.
+    /// Integration method that was used; with `auto`, the first one.
     pub method: MethodKind,
     /// Hash of the states of all ticks: equal hashes mean equal bits.
     pub trace: Trace,
@@ -194,14 +195,13 @@ impl From<FileError> for RunError {
 pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec<String>) {
     let fastest = stiffest(&scene.model, &scene.initial);
     let product = fastest.map_or(0.0, |s| s.rate * experiment.step);
-    let of_lag = fastest_lag(scene).map_or(0.0, |(_, rate)| rate * experiment.step);
     let kind = match experiment.integrator {
         Integrator::SemiImplicitEuler => MethodKind::SemiImplicitEuler,
         Integrator::Rk4 => MethodKind::Rk4,
         Integrator::Implicit => MethodKind::Implicit,
         Integrator::DormandPrince => MethodKind::DormandPrince,
         Integrator::Stiff => MethodKind::Stiff,
-        Integrator::Auto if product > STIFF_FROM || of_lag > SLOW_FROM => MethodKind::Stiff,
+        Integrator::Auto if product > STIFF_FROM || has_fast_lag(scene, experiment) => MethodKind::Stiff,
         Integrator::Auto => MethodKind::DormandPrince,
     };
     let mut warnings = Vec::new();
@@ -234,6 +234,23 @@ fn fastest_lag(scene: &Scene) -> Option<(usize, f64)> {
         _ => None,
     };
     scene.model.rotors().iter().enumerate().filter_map(rate).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Returns true if a rotor follows its command so fast that an explicit method with error control would be slow.
+fn has_fast_lag(scene: &Scene, experiment: &Experiment) -> bool {
+    fastest_lag(scene).is_some_and(|(_, rate)| rate * experiment.step > SLOW_FROM)
+}
+
+/// Block of the diagram that decays so fast that an explicit method with error control would be slow, and its rate
+/// [1/s].
+fn fast_block(loaded: &Loaded) -> Option<(String, f64)> {
+    let controller = loaded.controller.as_ref().filter(|c| c.wiring.program().is_continuous())?;
+    controller.fastest_decay().filter(|(_, rate)| rate * loaded.experiment.step > SLOW_FROM)
+}
+
+/// Returns true if something else than springs and dampers asks for the stiff method.
+fn is_stiff_otherwise(loaded: &Loaded) -> bool {
+    has_fast_lag(&loaded.scene, &loaded.experiment) || fast_block(loaded).is_some()
 }
 
 /// Warnings about the lag of rotors under an explicit method.
@@ -280,13 +297,12 @@ fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Opti
 #[must_use]
 pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     let (kind, mut warnings) = choose_method(&loaded.scene, &loaded.experiment);
-    let Some(controller) = loaded.controller.as_ref().filter(|c| c.wiring.program().is_continuous()) else {
+    if !loaded.controller.as_ref().is_some_and(|c| c.wiring.program().is_continuous()) {
         return (kind, warnings);
-    };
+    }
     let step = loaded.experiment.step;
-    if let Some((block, rate)) = controller.fastest_decay()
+    if let Some((block, rate)) = fast_block(loaded)
         && kind == MethodKind::DormandPrince
-        && rate * step > SLOW_FROM
     {
         if loaded.experiment.integrator == Integrator::Auto {
             return (MethodKind::Stiff, warnings);

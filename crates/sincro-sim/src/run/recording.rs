@@ -7,7 +7,8 @@ use sincro_dynamics::world::{MethodKind, Observation, World};
 
 use super::bounds::Bounds;
 use super::lockstep::LockStep;
-use super::{RunError, RunOptions, Simulated};
+use super::method_choice::MethodChanges;
+use super::{RunError, RunOptions, Simulated, method_word};
 use crate::audit::LawAudit;
 use crate::file::FileError;
 use crate::load::Loaded;
@@ -159,6 +160,7 @@ impl Recording {
         let wall_time = clock.elapsed().as_secs_f64();
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
         warnings.extend(lockstep.notices());
+        warnings.extend(about_method(lockstep.method_changes()));
         let world = lockstep.world();
         let (energy, statistics) = (ledger.close(world), world.statistics());
         let laws = audit.close(world, &experiment, method);
@@ -189,6 +191,16 @@ impl Recording {
             wall_time,
         })
     }
+}
+
+/// Warning about changes of the method.
+fn about_method(changes: MethodChanges) -> Option<String> {
+    let (t, method) = changes.first?;
+    let word = method_word(method);
+    Some(match changes.count {
+        1 => format!("`auto` changed to `{word}` at t = {t:.6} s, where the stiffness had changed"),
+        n => format!("`auto` changed its method {n} times with the stiffness, first to `{word}` at t = {t:.6} s"),
+    })
 }
 
 /// Warnings about the convergence of the constraint solver.
