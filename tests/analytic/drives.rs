@@ -139,7 +139,7 @@ fn friction_stops_a_sliding_body_where_the_closed_form_says() {
 
 #[test]
 fn stiction_breaks_at_its_limit_and_stribecks_curve_stops_a_body_where_its_integral_says() {
-    let friction = Friction { sliding: 4.0, at_rest: 6.0, stribeck_velocity: 0.2 };
+    let friction = Friction { stribeck_velocity: 0.2, at_rest: 6.0, ..Friction::coulomb(4.0) };
     for kind in ALL {
         for (share, slips) in [(0.999_999, false), (1.000_001, true)] {
             let torque = vec![Signal::Constant(share * 6.0)];

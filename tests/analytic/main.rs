@@ -3,6 +3,7 @@
 mod air;
 mod contacts;
 mod drives;
+mod load_friction;
 mod loop_kinds;
 mod loops;
 mod mechanisms;

@@ -86,6 +86,7 @@ fn friction_of_a_joint_is_a_number_a_table_or_a_list() {
         Ok::<_, String>([of(0), of(1), of(2)].map(|f| (f.sliding, f.at_rest, f.stribeck_velocity)))
     };
     assert_eq!(friction("[0.1, 0.2, 0.3]").unwrap(), [0.1, 0.2, 0.3].map(|x| (x, x, 1.0)));
+    assert_eq!(friction("[{ sliding = 0.3 }, 0.0, 0.0]").unwrap()[0], (0.3, 0.3, 0.01));
     let table = "{ sliding = 0.1, static = 0.2 }";
     let mixed = friction(&format!("[{table}, 0.0, {{ sliding = 1.0, static = 2.0, stribeck_velocity = 0.5 }}]"));
     assert_eq!(mixed.unwrap(), [(0.1, 0.2, 0.01), (0.0, 0.0, 1.0), (1.0, 2.0, 0.5)]);
@@ -93,7 +94,8 @@ fn friction_of_a_joint_is_a_number_a_table_or_a_list() {
         (table, "`friction` of `/j` has 1 entries, the joint has 3 degrees of freedom"),
         ("[{ sliding = 0.3, static = 0.2 }, 0.0, 0.0]", "friction of `/j` is 0.2 at rest, less than 0.3 in motion"),
         ("[-1.0, 0.0, 0.0]", "friction -1 of `/j` is negative or not finite"),
-        ("[{ sliding = 0.3 }, 0.0, 0.0]", "static"),
+        ("[{ load_coefficient = 0.3 }, 0.0, 0.0]", "friction of `/j` cannot grow with the load: the joint has no axis"),
+        ("[{ load_coefficient = -0.3 }, 0.0, 0.0]", "`load_coefficient` is -0.3"),
         ("[{ sliding = 0.3, static = 0.4, stribeck = 1.0 }, 0.0, 0.0]", "stribeck_velocity"),
     ] {
         let found = friction(text).unwrap_err();

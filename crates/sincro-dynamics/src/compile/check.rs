@@ -245,7 +245,7 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
         }
     }
     for friction in &spec.friction {
-        check_friction(found, id, name, friction);
+        check_friction(found, id, name, friction, &spec.kind);
     }
     for (stiffness, rest) in &spec.spring {
         if !(stiffness.is_finite() && *stiffness >= 0.0 && rest.is_finite()) {
@@ -264,8 +264,17 @@ fn check_joint(found: &mut Findings, id: NodeId, node: &Node, spec: &JointSpec, 
     }
 }
 
-fn check_friction(found: &mut Findings, id: NodeId, name: &str, friction: &Friction<f64>) {
-    let Friction { sliding, at_rest, stribeck_velocity } = *friction;
+fn check_friction(found: &mut Findings, id: NodeId, name: &str, friction: &Friction<f64>, kind: &JointKind) {
+    let Friction { sliding, at_rest, stribeck_velocity, load_coefficient } = *friction;
+    if !(load_coefficient.is_finite() && load_coefficient >= 0.0) {
+        let message =
+            format!("the load coefficient of the friction of `{name}`, {load_coefficient}, is negative or not finite");
+        found.error(id, "friction", message, "give zero or more");
+    }
+    if load_coefficient > 0.0 && !matches!(kind, JointKind::Revolute { .. } | JointKind::Prismatic { .. }) {
+        let message = format!("the friction of `{name}` cannot grow with the load: the joint has no axis");
+        found.error(id, "friction", message, "revolute and prismatic joints have a `load_coefficient`");
+    }
     let is_positive = |x: f64| x.is_finite() && x >= 0.0;
     if !is_positive(sliding) || !is_positive(at_rest) {
         let x = if is_positive(sliding) { at_rest } else { sliding };

@@ -25,8 +25,12 @@ const LIMIT_SLACK: f64 = 1e-2;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kink {
     pub dof: usize,
-    /// Sum of the limits [N·m] or `[N]`.
+    /// Sum of the limits without load [N·m] or `[N]`.
     pub limit: f64,
+    /// Sum of the load coefficients of its friction.
+    pub load_coefficient: f64,
+    /// Force that the bearing of the joint transmits, where friction grows with it `[N]`.
+    pub load: f64,
     /// Target velocity [rad/s] or [m/s].
     pub target: f64,
     /// 0 locked, ±1 saturated.
@@ -34,11 +38,30 @@ pub(crate) struct Kink {
     pub infeasible: bool,
 }
 
+impl Kink {
+    /// Kink of a degree of freedom at target velocity zero, locked, without drives.
+    pub fn locked(dof: usize) -> Self {
+        Self { dof, limit: 0.0, load_coefficient: 0.0, load: 0.0, target: 0.0, saturation: 0.0, infeasible: false }
+    }
+
+    /// Adds a drive with these numbers.
+    pub fn add(&mut self, limit: f64, load_coefficient: f64) {
+        self.limit += limit;
+        self.load_coefficient += load_coefficient;
+    }
+
+    /// Sum of the limits under the force `load` `[N]` of the bearing [N·m] or `[N]`.
+    pub fn limit_under(&self, load: f64) -> f64 {
+        self.limit + self.load_coefficient * load
+    }
+}
+
 impl<R: Real> Constraints<R> {
     /// Adds the rows of the drives at their kink.
     pub(super) fn add_kinks(&mut self) {
         for k in 0..self.kinks.len() {
-            let Kink { dof, limit, saturation, .. } = self.kinks[k];
+            let Kink { dof, saturation, load, .. } = self.kinks[k];
+            let limit = self.kinks[k].limit_under(load);
             let row = self.rows.len();
             let none = (WORLD, R::zero());
             self.add(Row::of_joints([none, none]), R::zero());

@@ -5,6 +5,7 @@
 use sincro_math::Real;
 
 use super::Mechanism;
+use crate::actuation::Drive;
 use crate::spatial::Vec3;
 
 /// Relative width below which two velocities count as equal.
@@ -192,6 +193,12 @@ impl<R: Real> Mechanism<R> {
         reaction - (limit * (1.0 + SAME_FORCE)).max(limit + self.rounding() * self.reaction_scale(dof))
     }
 
+    /// Torque limit of a drive under the loads of the last evaluation [N·m] or `[N]`; none without a limit.
+    #[inline(always)]
+    pub(crate) fn limit(&self, drive: &Drive) -> Option<R> {
+        self.model.limit_under(drive, self.loads[drive.dof])
+    }
+
     /// Returns true if the reaction on locked drive `i`, in the last evaluation, is more than the drives that lock its
     /// joint can give together.
     pub(crate) fn is_drive_overloaded(&self, i: usize) -> bool {
@@ -204,8 +211,7 @@ impl<R: Real> Mechanism<R> {
         let dof = self.model.params.drives[i].dof;
         let locked =
             self.model.params.drives.iter().zip(&self.drives).filter(|(d, s)| d.dof == dof && s.lane(0) == 0.0);
-        let limit =
-            locked.map(|(drive, _)| self.model.drive_limit(drive).map_or(f64::INFINITY, |limit| limit.lane(0))).sum();
+        let limit = locked.map(|(drive, _)| self.limit(drive).map_or(f64::INFINITY, |limit| limit.lane(0))).sum();
         self.overload(dof, limit)
     }
 

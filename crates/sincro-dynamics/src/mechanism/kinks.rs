@@ -28,9 +28,10 @@ impl Mechanism<f64> {
             let dof = drive.dof;
             let Some(limit) = model.drive_limit(drive).filter(|_| !model.is_held(dof)) else { continue };
             self.locked_mask[dof] = 0.0;
+            let load_coefficient = model.load_coefficient(drive);
             match c.kinks.iter_mut().find(|kink| kink.dof == dof) {
-                Some(kink) => kink.limit += limit,
-                None => c.kinks.push(Kink { dof, limit, target: 0.0, saturation: 0.0, infeasible: false }),
+                Some(kink) => kink.add(limit, load_coefficient),
+                None => c.kinks.push(Kink { limit, load_coefficient, ..Kink::locked(dof) }),
             }
         }
     }

@@ -12,6 +12,7 @@
 //! own.
 
 mod analysis;
+mod bearing_load;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
 mod kinks;
@@ -37,6 +38,7 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Quat, Vec3};
 use crate::state::{State, displace};
+use bearing_load::Bearings;
 use drive_monitor::DriveMonitor;
 use layout::Layout;
 pub use singular::PassedSingularities;
@@ -70,6 +72,10 @@ pub struct Mechanism<R> {
     pub(crate) diagonal: Vec<R>,
     pub(crate) locked_mask: Vec<R>,
     pub(crate) prescribed_acceleration: Vec<R>,
+    /// Forces that the bearings of joints transmit in the last evaluation `[N]`; zero where friction does not grow with
+    /// them.
+    pub(crate) loads: Vec<R>,
+    bearings: Option<Box<Bearings<R>>>,
     external: Vec<Force<R>>,
     /// External forces from outside the model, until they are removed.
     external_forces: Vec<ExternalForce<R>>,
@@ -110,6 +116,8 @@ impl<R: Real> Mechanism<R> {
             diagonal: zero.clone(),
             locked_mask: zero.clone(),
             prescribed_acceleration: zero.clone(),
+            loads: zero.clone(),
+            bearings: Bearings::new(&model),
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
             external_forces: Vec::new(),
             air_dissipation: R::zero(),
@@ -266,7 +274,32 @@ impl<R: Real> Mechanism<R> {
     /// Accelerations at (t, q in `self.q`, v); `implicit` as in [`Instant`].
     #[inline(always)]
     fn accelerations(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
-        let at = TorqueInput { t, q: &self.q, v, commands: &self.commands, drives: &self.drives, implicit };
+        if self.bearings.is_none() {
+            self.accelerations_under_loads(t, v, rotors, implicit, v_dot);
+        } else {
+            self.accelerations_and_loads(t, v, rotors, implicit, v_dot);
+        }
+    }
+
+    /// Accelerations for the loads of bearings that are known.
+    #[inline(always)]
+    fn accelerations_under_loads(
+        &mut self,
+        t: f64,
+        v: &[R],
+        rotors: &[R],
+        implicit: Option<(f64, Implicit)>,
+        v_dot: &mut [R],
+    ) {
+        let at = TorqueInput {
+            t,
+            q: &self.q,
+            v,
+            commands: &self.commands,
+            drives: &self.drives,
+            loads: &self.loads,
+            implicit,
+        };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
         let external = if self.has_external() {
             self.external_wrenches(t, v, rotors, implicit);
@@ -482,7 +515,7 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     pub(crate) fn friction_torque(&self, i: usize, v: R) -> R {
         let drive = self.model.params.drives[i];
-        let friction = &self.model.dofs[drive.dof].friction;
+        let friction = self.model.dofs[drive.dof].friction.under(self.loads[drive.dof]);
         let locked = self.scratch.reaction[drive.dof].clamp_abs(friction.at_rest);
         self.drives[i].abs().if_less(R::splat(0.5), locked, self.drives[i] * friction.limit_at(v))
     }

@@ -5,9 +5,12 @@
 //! joints. Torques of motors, springs, dampers, friction, limits and gears of the joint itself are part of it. Source:
 //! key `featherstone2008`, section 5.3.
 
+use sincro_math::Real;
+
 use super::Mechanism;
 use crate::model::JointInfo;
 use crate::recursions::kinematics::frame_pose;
+use crate::scratch::Scratch;
 use crate::spatial::{Force, Motion, Vec3};
 
 impl Mechanism<f64> {
@@ -18,34 +21,13 @@ impl Mechanism<f64> {
         let Some(child) = joint.moving.link.filter(|_| joint.n_v > 0) else { return Force::zero() };
         let mut sum = Force::zero();
         for i in (child..self.model.links.len()).filter(|i| self.hangs_on(*i, child)) {
-            sum += self.net_wrench(i);
+            sum += self.net_wrench(i, &self.scratch);
         }
         sum -= self.constraint_wrench(|link| self.hangs_on(link, child));
         let turn = frame_pose(&self.scratch, &joint.base).rot;
         let origin = frame_pose(&self.scratch, &joint.moving).pos;
         let about_origin = sum.ang - origin.cross(sum.lin);
         Force { ang: turn.tr_mul_vec(about_origin), lin: turn.tr_mul_vec(sum.lin) }
-    }
-
-    /// Returns true if a link is `root` or hangs on it.
-    fn hangs_on(&self, link: usize, root: usize) -> bool {
-        let mut at = Some(link);
-        while let Some(link) = at.filter(|link| *link > root) {
-            at = self.model.links[link].parent();
-        }
-        at == Some(root)
-    }
-
-    /// Inertial wrench of a link less gravity and the wrenches of elements, about the world's origin, world axes.
-    fn net_wrench(&self, i: usize) -> Force<f64> {
-        let (inertia, at, pose) = (&self.model.params.inertias[i], &self.scratch.links[i], &self.scratch.poses[i]);
-        let upward = Motion { ang: Vec3::zero(), lin: -pose.rot.tr_mul_vec(self.model.params.gravity) };
-        let mut wrench = inertia.mul(&(at.a + upward)) + at.v.cross_force(&inertia.mul(&at.v));
-        if let Some(external) = self.external.get(i).filter(|_| self.has_external()) {
-            wrench -= *external;
-        }
-        let lin = pose.rot.mul_vec(wrench.lin);
-        Force { ang: pose.rot.mul_vec(wrench.ang) + pose.pos.cross(lin), lin }
     }
 
     /// Wrench of contacts and loop joints on the links of a set, about the world's origin, world axes.
@@ -72,5 +54,29 @@ impl Mechanism<f64> {
             }
         }
         sum
+    }
+}
+
+impl<R: Real> Mechanism<R> {
+    /// Returns true if a link is `root` or hangs on it.
+    pub(super) fn hangs_on(&self, link: usize, root: usize) -> bool {
+        let mut at = Some(link);
+        while let Some(link) = at.filter(|link| *link > root) {
+            at = self.model.links[link].parent();
+        }
+        at == Some(root)
+    }
+
+    /// Inertial wrench of a link less gravity and the wrenches of elements, about the world's origin, world axes, for
+    /// motions in `scratch`.
+    pub(super) fn net_wrench(&self, i: usize, scratch: &Scratch<R>) -> Force<R> {
+        let (inertia, at, pose) = (&self.model.params.inertias[i], &scratch.links[i], &scratch.poses[i]);
+        let upward = Motion { ang: Vec3::zero(), lin: -pose.rot.tr_mul_vec(self.model.params.gravity) };
+        let mut wrench = inertia.mul(&(at.a + upward)) + at.v.cross_force(&inertia.mul(&at.v));
+        if let Some(external) = self.external.get(i).filter(|_| self.has_external()) {
+            wrench -= *external;
+        }
+        let lin = pose.rot.mul_vec(wrench.lin);
+        Force { ang: pose.rot.mul_vec(wrench.ang) + pose.pos.cross(lin), lin }
     }
 }

@@ -15,6 +15,8 @@ pub(crate) struct TorqueInput<'a, R> {
     pub v: &'a [R],
     pub commands: &'a [R],
     pub drives: &'a [R],
+    /// Forces that the bearings of joints transmit, where friction grows with them `[N]`.
+    pub loads: &'a [R],
     /// Step of a linearly implicit method, and which terms it takes at the new state; none: all at this one.
     pub implicit: Option<(f64, Implicit)>,
 }
@@ -54,7 +56,7 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     }
     for (drive, &saturation) in model.params.drives.iter().zip(at.drives) {
         // a locked drive (0) gives the reaction of its constraint; a saturated one its limit
-        if let Some(limit) = model.saturated_torque(drive, at.v[drive.dof]) {
+        if let Some(limit) = model.saturated_torque(drive, at.v[drive.dof], at.loads[drive.dof]) {
             torque[drive.dof] += saturation * limit;
         }
     }

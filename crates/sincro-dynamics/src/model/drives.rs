@@ -24,12 +24,29 @@ impl<R: Real> Model<R> {
         self.params.drives.iter().any(|drive| drive.dof == dof && self.drive_limit(drive).is_none())
     }
 
-    /// Torque of a saturated drive at rate `v`, without its sign [N·m] or `[N]`: its limit, or less for friction in
-    /// motion; none if no lane has a limit.
+    /// As [`Model::drive_limit`], while the bearing of the joint transmits the force `load` `[N]`.
     #[inline(always)]
-    pub(crate) fn saturated_torque(&self, drive: &Drive, v: R) -> Option<R> {
+    pub(crate) fn limit_under(&self, drive: &Drive, load: R) -> Option<R> {
         match drive.kind {
-            DriveKind::Friction => Some(self.dofs[drive.dof].friction.limit_at(v)),
+            DriveKind::Friction => Some(self.dofs[drive.dof].friction.under(load).at_rest),
+            DriveKind::Motor(_) | DriveKind::Lock => self.drive_limit(drive),
+        }
+    }
+
+    /// Load coefficient of a drive: of friction that grows with the load of its bearing, else zero.
+    pub(crate) fn load_coefficient(&self, drive: &Drive) -> R {
+        match drive.kind {
+            DriveKind::Friction => self.dofs[drive.dof].friction.load_coefficient,
+            DriveKind::Motor(_) | DriveKind::Lock => R::zero(),
+        }
+    }
+
+    /// Torque of a saturated drive at rate `v`, without its sign [N·m] or `[N]`: its limit, or less for friction in
+    /// motion, while the bearing of the joint transmits the force `load` `[N]`; none if no lane has a limit.
+    #[inline(always)]
+    pub(crate) fn saturated_torque(&self, drive: &Drive, v: R, load: R) -> Option<R> {
+        match drive.kind {
+            DriveKind::Friction => Some(self.dofs[drive.dof].friction.under(load).limit_at(v)),
             DriveKind::Motor(_) | DriveKind::Lock => self.drive_limit(drive),
         }
     }
@@ -48,8 +65,7 @@ impl<R: Real> Model<R> {
 
     /// Drives that follow from joints and motors: friction first, then motors, then locked degrees of freedom.
     pub(crate) fn find_drives(&self) -> Vec<Drive> {
-        let zero = R::zero();
-        let friction = self.dofs.iter().enumerate().filter(|(_, d)| d.friction.at_rest != zero);
+        let friction = self.dofs.iter().enumerate().filter(|(_, d)| !d.friction.is_none());
         let friction = friction.map(|(dof, _)| Drive { dof, kind: DriveKind::Friction });
         let motors = self.params.motors.iter().enumerate().filter(|(_, m)| m.is_drive());
         let motors = motors.map(|(i, m)| Drive { dof: m.dof, kind: DriveKind::Motor(MotorId::new(i)) });

@@ -76,6 +76,7 @@ impl<R: Real> Model<R> {
                 sliding: num(&|m| m.dofs[d].friction.sliding),
                 at_rest: num(&|m| m.dofs[d].friction.at_rest),
                 stribeck_velocity: num(&|m| m.dofs[d].friction.stribeck_velocity),
+                load_coefficient: num(&|m| m.dofs[d].friction.load_coefficient),
             },
             torque: num(&|m| m.dofs[d].torque),
             q_idx: first.dofs[d].q_idx,
@@ -198,7 +199,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         };
         m.spring_dampers.iter().map(structure).collect()
     };
-    let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| x.friction.at_rest > 0.0).collect() };
+    let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| !x.friction.is_none()).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),
         (motors(a) == motors(b), "motors"),

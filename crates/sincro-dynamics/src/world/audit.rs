@@ -301,7 +301,7 @@ impl Observation<'_> {
             }
             found.add(Law::DriveVelocity, missing.abs(), scales.speed, kind, element);
             let limits = model.params.drives.iter().zip(modes).filter(|(d, mode)| d.dof == drive.dof && **mode == 0.0);
-            let limit = limits.map(|(d, _)| model.drive_limit(d)).try_fold(0.0, |sum, limit| Some(sum + limit?));
+            let limit = limits.map(|(d, _)| self.mechanism.limit(d)).try_fold(0.0, |sum, limit| Some(sum + limit?));
             let (Some(limit), true) = (limit, self.inputs_are_continuous) else { continue };
             let excess = (reaction(drive.dof).abs() - limit).max(0.0);
             let excess = if excess > 0.0 { excess / (limit + largest) } else { excess };

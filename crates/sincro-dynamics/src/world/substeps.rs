@@ -171,7 +171,12 @@ impl World {
         *share *= 2.0;
         self.statistics.fallback_steps += 1;
         self.velocity_level_step(t, h, system)?;
-        Ok(if h < end - t { t + h } else { end })
+        let reached = if h < end - t { t + h } else { end };
+        if !self.is_constrained() {
+            // with constraints that is the start of the next sub-step; the accelerations of this one end here
+            self.resolve_actuator_modes(reached, end - reached, system);
+        }
+        Ok(reached)
     }
 
     /// Longest step within a tick of `span`, for methods with error control too: a finer run must not end up the same.

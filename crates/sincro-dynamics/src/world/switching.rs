@@ -109,13 +109,15 @@ impl World {
     /// Adds limited drive `i` to a kink, or a new one with its mode; it takes the mode of the kink.
     fn add_to_kink(&mut self, i: usize, known: Option<usize>) {
         let drive = self.mechanism.model.params.drives[i];
-        let limit = self.mechanism.model.saturated_torque(&drive, self.velocity(drive.dof)).unwrap_or(f64::INFINITY);
+        let model = &self.mechanism.model;
+        let limit = model.saturated_torque(&drive, self.velocity(drive.dof), 0.0).unwrap_or(f64::INFINITY);
+        let load_coefficient = model.load_coefficient(&drive);
         let k = known.unwrap_or(self.kinks.len());
         if known.is_none() {
             let (target, saturation) = (self.target_velocities[i], self.mechanism.drives[i]);
-            self.kinks.push(Kink { dof: drive.dof, limit: 0.0, target, saturation, infeasible: false });
+            self.kinks.push(Kink { target, saturation, ..Kink::locked(drive.dof) });
         }
-        self.kinks[k].limit += limit;
+        self.kinks[k].add(limit, load_coefficient);
         self.kink_of[i] = k;
         self.mechanism.drives[i] = self.kinks[k].saturation;
     }
@@ -202,7 +204,8 @@ impl World {
         let (layout, rounding) = (self.layout(), self.mechanism.rounding());
         let mut count = 0;
         for k in 0..self.kinks.len() {
-            let Kink { dof, limit, target, saturation, .. } = self.kinks[k];
+            let Kink { dof, target, saturation, .. } = self.kinks[k];
+            let limit = self.kinks[k].limit_under(self.mechanism.loads[dof]);
             let infeasible = if saturation == 0.0 {
                 self.mechanism.is_overloaded(dof, limit)
             } else if law == Law::Acceleration {
@@ -262,7 +265,7 @@ impl World {
     pub(super) fn reaches_target(&self, i: usize, resolution: f64) -> bool {
         let drive = self.mechanism.model.params.drives[i];
         let (target, v) = (self.target_velocities[i], self.velocity(drive.dof));
-        let Some(limit) = self.mechanism.model.drive_limit(&drive).filter(|_| self.mechanism.drives[i] != 0.0) else {
+        let Some(limit) = self.mechanism.limit(&drive).filter(|_| self.mechanism.drives[i] != 0.0) else {
             return false;
         };
         let acceleration =

@@ -436,21 +436,26 @@ fn of_table<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<StribeckFile,
     serde_json::from_value(table.into()).map_err(serde::de::Error::custom)
 }
 
-/// Friction that is larger at rest: limit = sliding + (static − sliding)·exp(−(q̇/stribeck_velocity)²).
+/// Friction that is larger at rest, or grows with the load: limit = sliding + (static − sliding)·exp(−(q̇/stribeck_velocity)²) + load_coefficient·N.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StribeckFile {
-    /// Limit in fast motion [N·m] or [N].
+    /// Limit in fast motion without load [N·m] or [N].
+    #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub sliding: f64,
-    /// Limit at rest, at least that in motion [N·m] or [N].
+    /// Limit at rest without load, at least that in motion; by default the same [N·m] or [N].
     #[serde(rename = "static")]
     #[schemars(range(min = 0.0))]
-    pub at_rest: f64,
+    pub at_rest: Option<f64>,
     /// Speed at which the excess over `sliding` has fallen to 37 % [rad/s] or [m/s].
     #[serde(default = "stribeck_velocity")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub stribeck_velocity: f64,
+    /// Friction over the force N that the bearing transmits, of revolute joints (friction coefficient times radius of the pin) [m] and prismatic ones [1].
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub load_coefficient: f64,
 }
 
 /// A linear spring.

@@ -76,8 +76,8 @@ fn numbers(list: &Option<OneOrList<f64>>) -> Vec<f64> {
 fn friction(file: &FrictionFile) -> Friction<f64> {
     match *file {
         FrictionFile::Coulomb(limit) => Friction::coulomb(limit),
-        FrictionFile::Stribeck(StribeckFile { sliding, at_rest, stribeck_velocity }) => {
-            Friction { sliding, at_rest, stribeck_velocity }
+        FrictionFile::Stribeck(StribeckFile { sliding, at_rest, stribeck_velocity, load_coefficient }) => {
+            Friction { sliding, at_rest: at_rest.unwrap_or(sliding), stribeck_velocity, load_coefficient }
         }
     }
 }
