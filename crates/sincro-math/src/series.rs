@@ -7,7 +7,7 @@ const NOISE: f64 = 0.01;
 /// two turning points. For choosing a sample time or step size.
 ///
 /// `times` are the ascending sample times `[s]`; `value(k)` is the sample at `times[k]`, in any unit. Reversals by less
-/// than a hundredth of the range count as noise; with fewer than two turning points the result is 0.
+/// than or equal to a hundredth of the range count as noise; with fewer than two turning points the result is 0.
 #[must_use]
 pub fn highest_frequency(times: &[f64], value: impl Fn(usize) -> f64, until: f64) -> f64 {
     let n = times.partition_point(|t| *t <= until);

@@ -285,3 +285,17 @@ fn a_name_is_what_a_formula_can_refer_to() {
 fn a_formula_prints_as_it_was_written() {
     assert_eq!(Expression::parse(" x+ 1 ", &NAMES).expect("it is a formula").to_string(), " x+ 1 ");
 }
+
+#[test]
+fn a_stack_of_fixed_length_gives_the_same_bits() {
+    let names = ["x", "y"];
+    for text in ["x", "-x", "x - y", "x - (y - 3*x)", "max(x, y)^2 + 1/(x - 2*y)", "if(x > y, sin(x), y*y - x)"] {
+        let formula = Expression::parse(text, &names).unwrap_or_else(|e| panic!("{text}: {e}"));
+        for values in [[0.7, -1.3], [-2.0, 5.5]] {
+            let mut stack = vec![f64::NAN; formula.stack_depth()];
+            let (fixed, growing) =
+                (formula.eval_in(&values, &mut stack), formula.eval(&values, &mut formula.scratch()));
+            assert_eq!(fixed.to_bits(), growing.to_bits(), "{text} at {values:?}");
+        }
+    }
+}

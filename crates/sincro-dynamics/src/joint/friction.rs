@@ -21,8 +21,9 @@ pub struct Friction<R> {
     pub at_rest: R,
     /// Stribeck velocity v_s [rad/s] or [m/s], positive.
     pub stribeck_velocity: R,
-    /// Load coefficient c, friction over the force that the bearing transmits: of a hinge the friction coefficient times
-    /// the radius of its pin `[m]`, of a slider the friction coefficient (dimensionless). Revolute and prismatic joints.
+    /// Load coefficient c, friction over the force that the bearing transmits: of a hinge the friction coefficient
+    /// times the radius of its pin `[m]`, of a slider the friction coefficient (dimensionless). Revolute and
+    /// prismatic joints.
     pub load_coefficient: R,
 }
 
