@@ -235,3 +235,137 @@ fn with_lengths_a_thousand_times_as_large_or_small() {
         assert_alike(&format!("lengths in units of {s} m"), &plain, &run(s), least);
     }
 }
+
+/// Joint or other object that a number of a scene belongs to.
+#[derive(Clone, Copy, PartialEq)]
+enum Owner {
+    Revolute,
+    Free,
+    /// A prismatic joint, and all that is no joint.
+    Other,
+}
+
+/// Power of a length by which a number of a scene grows, by the path of its keys and its place in a list, where times
+/// grow as the root of lengths and masses as their cube.
+fn power(owner: Owner, mode: &str, path: &[&str], place: usize) -> f64 {
+    let (coordinate, velocity, torque) = if owner == Owner::Revolute { (0.0, -0.5, 4.0) } else { (1.0, 0.5, 3.0) };
+    match path {
+        ["format" | "gravity"]
+        | ["camera", ..]
+        | [.., "axis" | "density" | "rotation_deg" | "quaternion_wxyz" | "restitution" | "group"]
+        | [.., "contact", "friction"] => 0.0,
+        // three lengths and a quaternion; angular velocity and velocity
+        [.., "initial", "position"] if owner == Owner::Free => {
+            if place < 3 {
+                1.0
+            } else {
+                0.0
+            }
+        }
+        [.., "initial", "velocity"] if owner == Owner::Free => {
+            if place < 3 {
+                -0.5
+            } else {
+                0.5
+            }
+        }
+        [.., "initial", "position"] | [.., "limits", _] | [.., "spring", "rest"] => coordinate,
+        [.., "initial", "velocity"] => velocity,
+        [.., "motor", "command"] => {
+            if mode == "torque" {
+                torque
+            } else {
+                velocity
+            }
+        }
+        [.., "spring", "stiffness"] => torque - coordinate,
+        [.., "damping"] => torque - velocity,
+        [.., "armature"] => torque - velocity + 0.5,
+        [.., "max_torque"] => torque,
+        [.., "inertia", _] => 5.0,
+        [.., "mass"] => 3.0,
+        [.., "position" | "size" | "radius" | "length" | "point" | "center_of_mass" | "from" | "to"] => 1.0,
+        _ => panic!("power of a length of {path:?}"),
+    }
+}
+
+/// Makes all lengths of a scene `s` times as large.
+fn scale<'a>(value: &'a mut toml::Value, (owner, mode): (Owner, &str), path: &mut Vec<&'a str>, place: usize, s: f64) {
+    match value {
+        toml::Value::Table(table) => {
+            let word = |key: &str| table.get(key).and_then(|x| x.as_str()).unwrap_or("").to_owned();
+            let (kind, mode) = (word("kind"), word("mode"));
+            let owner = match &*kind {
+                "revolute" => Owner::Revolute,
+                "free" => Owner::Free,
+                "" => owner,
+                _ => Owner::Other,
+            };
+            for (key, value) in table.iter_mut() {
+                path.push(key);
+                scale(value, (owner, &mode), path, 0, s);
+                path.pop();
+            }
+        }
+        toml::Value::Array(list) => {
+            for (place, x) in list.iter_mut().enumerate() {
+                scale(x, (owner, mode), path, place, s);
+            }
+        }
+        toml::Value::Integer(_) | toml::Value::Float(_) => {
+            let x = value.as_float().or(value.as_integer().map(|x| x as f64)).expect("a number");
+            let power = power(owner, mode, path, place);
+            if power != 0.0 {
+                *value = toml::Value::Float(x * libm::pow(s, power));
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn scenes_with_lengths_a_thousand_times_as_large_or_small() {
+    for (name, duration, step) in SCENES {
+        let text = scene_text(name);
+        if text.contains("[[force]]") {
+            // as in `turned_with_gravity`: its forces are signals
+            continue;
+        }
+        let run = |s: f64| {
+            let mut scene = toml::Value::Table(text.parse().unwrap());
+            scale(&mut scene, (Owner::Other, ""), &mut Vec::new(), 0, s);
+            let table = scene.as_table_mut().unwrap();
+            table.insert("rest_speed".into(), (1e-3 * s.sqrt()).into());
+            let outer = "[[instance]]\nfile = \"inner.toml\"\nname = \"t\"\n";
+            let (mut inner, mut of_world) = (table.clone(), String::new());
+            for key in ["gravity", "rest_speed"] {
+                if let Some(x) = inner.remove(key) {
+                    of_world += &format!("{key} = {x}\n");
+                }
+            }
+            let times = (duration * s.sqrt(), step * s.sqrt());
+            run_around(&toml::to_string(&inner).unwrap(), &(of_world + outer), times, ENERGIES)
+        };
+        let plain = run(1.0);
+        // 4^k: the roots are exact
+        for s in [1024.0_f64, 1.0 / 1024.0] {
+            let scaled = run(s);
+            for which in [&plain, &scaled] {
+                assert!(which.main.audit.ok, "{name}, {s}: {:?}", which.main.audit.findings);
+            }
+            let energies = |run: &Campaign, k: usize| run.main.simulated.table.columns[k].values.clone();
+            for k in 1..3 {
+                let (one, other) = (energies(&plain, k), energies(&scaled, k));
+                let unit = s.powi(4);
+                let largest = one.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+                let apart = one.iter().zip(&other).map(|(x, y)| (x - y / unit).abs()).fold(0.0, f64::max);
+                let bar = |run: &Campaign| run.report.columns[k].error_bar.unwrap_or(0.0);
+                let bars = bar(&plain) + bar(&scaled) / unit;
+                let what = ["energy.kinetic", "energy.potential"][k - 1];
+                // rounding of energies that are sums of larger ones
+                let rounding = 1e-12 * largest + 1e-13;
+                assert!(apart <= bars + rounding, "{name}, {s}: {what} differs by {apart:.1e}, bars {bars:.1e}");
+            }
+        }
+    }
+}
