@@ -5,6 +5,7 @@ use sincro_math::Real;
 
 use crate::actuation::{damper, spring};
 use crate::integrate::Implicit;
+use crate::joint::WORLD;
 use crate::model::Model;
 
 /// State at which joint torques are evaluated.
@@ -27,10 +28,12 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     // at h = 0 these are the explicit torques
     let (of_dampers, of_springs) = at.implicit.map_or((0.0, 0.0), |(h, implicit)| implicit.steps(h));
     let steps = (R::splat(of_dampers), R::splat(of_springs));
+    let n = model.dofs.len();
+    let (v, torque, diagonal) = (&at.v[..n], &mut torque[..n], &mut diagonal[..n]);
     for (k, dof) in model.dofs.iter().enumerate() {
-        let v = at.v[k];
+        let v = v[k];
         // spring at q + h v⁺, damper at v⁺: what is known now to the right-hand side, the rest to the diagonal
-        let spring_at = if model.has_scalar_coordinate(k) { at.q[dof.q_idx as usize] + steps.1 * v } else { dof.rest };
+        let spring_at = if dof.q_idx == WORLD { dof.rest } else { at.q[dof.q_idx as usize] + steps.1 * v };
         torque[k] = (dof.torque + spring::torque(dof, spring_at)) + damper::torque(dof, v);
         diagonal[k] = dof.armature + steps.0 * (dof.damping + steps.1 * dof.stiffness);
     }

@@ -105,11 +105,9 @@ impl<R: Real> Task for ForwardDynamics<'_, R> {
 
 #[inline(always)]
 fn velocities_base_to_tip<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
-    for i in 0..model.links.len() {
-        let link = &model.links[i];
+    for (i, (link, inertia)) in model.links.iter().zip(&model.params.inertias).enumerate() {
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &done[link.parent as usize].v);
-        let inertia = &model.params.inertias[i];
         link.kind.dispatch(Velocity { link, inertia, q: input.q, v: input.v, parent, out: &mut rest[0] });
         if let Some(external) = input.external {
             rest[0].pa -= external[i];
@@ -164,12 +162,10 @@ pub(crate) fn joint_motion<S: Stage, R: Real>(link: &Link<R>, x: &[R]) -> Motion
 
 #[inline(always)]
 fn inertias_tip_to_base<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
-    for i in (0..model.links.len()).rev() {
-        let link = &model.links[i];
+    for (i, (link, inertia)) in model.links.iter().zip(&model.params.inertias).enumerate().rev() {
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize]);
         let dofs = &mut scratch.dofs[link.v_idx as usize..];
-        let inertia = &model.params.inertias[i];
         link.kind.dispatch(Inertia { link, inertia, input, this: &mut rest[0], parent, dofs });
     }
 }
@@ -273,8 +269,7 @@ fn accelerations_base_to_tip<R: Real>(
     // gravity as an upward acceleration of the base
     let gravity = if input.gravity { -model.params.gravity } else { crate::spatial::Vec3::zero() };
     let base = Motion { ang: crate::spatial::Vec3::zero(), lin: gravity };
-    for i in 0..model.links.len() {
-        let link = &model.links[i];
+    for (i, link) in model.links.iter().enumerate() {
         let (done, rest) = scratch.links.split_at_mut(i);
         let is_root = link.parent == WORLD;
         let a_parent = if is_root { &base } else { &done[link.parent as usize].a };
