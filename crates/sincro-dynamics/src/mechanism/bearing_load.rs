@@ -47,29 +47,27 @@ impl<R: Real> Bearings<R> {
 }
 
 impl<R: Real> Mechanism<R> {
-    /// Accelerations, and the loads of the bearings that go with them; NaN where there are none. Arguments as in
-    /// [`Mechanism::accelerations`].
+    /// Finds the loads of the bearings at a stage, before its slope: NaN where there are none. Arguments as in
+    /// [`Mechanism::plain_slope`]; the slope is overwritten.
     #[inline(never)]
-    pub(super) fn accelerations_and_loads(
-        &mut self,
-        t: f64,
-        v: &[R],
-        rotors: &[R],
-        implicit: Option<(f64, Implicit)>,
-        v_dot: &mut [R],
-    ) {
+    pub(super) fn find_loads(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
+        // laws hold for loads that fit alone
+        let is_watched = core::mem::replace(&mut self.drive_monitor.is_active, false);
         self.loads.fill(R::zero());
+        self.hand_loads_to_kinks();
         let at_velocity_level = matches!(implicit, Some((_, Implicit::Dampers)));
-        for _ in 0..if at_velocity_level { STEP_ITERATIONS } else { MAX_ITERATIONS } {
+        let iterations = if at_velocity_level { STEP_ITERATIONS } else { MAX_ITERATIONS };
+        let velocities = self.layout.velocities();
+        let fits = (0..iterations).any(|_| {
+            self.plain_slope(t, implicit, y, slope);
+            let fits = self.take_loads(&y[velocities.clone()], &slope[velocities.clone()]);
             self.hand_loads_to_kinks();
-            self.accelerations_under_loads(t, v, rotors, implicit, v_dot);
-            if self.take_loads(v, v_dot) {
-                return;
-            }
+            fits
+        });
+        if !fits && !at_velocity_level {
+            self.loads.fill(R::splat(f64::NAN));
         }
-        if !at_velocity_level {
-            v_dot.fill(R::splat(f64::NAN));
-        }
+        self.drive_monitor.is_active = is_watched;
     }
 
     fn hand_loads_to_kinks(&mut self) {

@@ -271,26 +271,9 @@ impl<R: Real> Mechanism<R> {
         self.locked_mask[dof].lane(0) > 0.5
     }
 
-    /// Accelerations at (t, q in `self.q`, v); `implicit` as in [`Instant`].
+    /// Accelerations at (t, q in `self.q`, v) for the loads of bearings that are known; `implicit` as in [`Instant`].
     #[inline(always)]
     fn accelerations(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
-        if self.bearings.is_none() {
-            self.accelerations_under_loads(t, v, rotors, implicit, v_dot);
-        } else {
-            self.accelerations_and_loads(t, v, rotors, implicit, v_dot);
-        }
-    }
-
-    /// Accelerations for the loads of bearings that are known.
-    #[inline(always)]
-    fn accelerations_under_loads(
-        &mut self,
-        t: f64,
-        v: &[R],
-        rotors: &[R],
-        implicit: Option<(f64, Implicit)>,
-        v_dot: &mut [R],
-    ) {
         let at = TorqueInput {
             t,
             q: &self.q,
@@ -602,6 +585,9 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        if self.bearings.is_some() {
+            self.find_loads(t, None, y, slope);
+        }
         self.explicit_slope(t, y, slope);
         if R::LANES == 1 {
             self.finish_stage(t, None, y, slope);
@@ -628,6 +614,9 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+        if self.bearings.is_some() {
+            self.find_loads(t, Some((h, implicit)), y, slope);
+        }
         self.linearly_implicit_slope(t, h, implicit, y, slope);
         if R::LANES == 1 {
             self.finish_stage(t, Some((h, implicit)), y, slope);
