@@ -133,6 +133,15 @@ proptest! {
     }
 }
 
+#[test]
+fn the_last_velocity_stays_behind_the_end() {
+    let limits =
+        Limits { max_velocity: 1.0, min_velocity: -1.0, max_acceleration: 2.0, min_acceleration: -2.0, max_jerk: 10.0 };
+    let profile = alone(Point::default(), limits, Goal::Position(3.0, 0.5));
+    let beyond = profile.at(profile.duration() + 2.0);
+    assert!((beyond.p - 4.0).abs() < 1e-12 && beyond.v == 0.5 && beyond.a == 0.0, "{beyond:?}");
+}
+
 fn cube_root(x: f64) -> f64 {
     sincro_math::elementary::pow(x, 1.0 / 3.0).0
 }

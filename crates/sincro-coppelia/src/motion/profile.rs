@@ -184,3 +184,20 @@ impl Profile {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_are_the_ends_of_pieces_and_the_tops_of_velocity_within() {
+        // from 1 m/s² to −1 m/s² in 2 s, the fastest at half of it; then no jerk
+        let start = Point { p: 0.0, v: 0.5, a: 1.0 };
+        let mut pieces = Pieces::default();
+        pieces.push(2.0, -1.0);
+        pieces.push(1.0, 0.0);
+        let end = pieces.end(start);
+        let corners: Vec<(f64, f64)> = Profile::new(start, pieces, end).corners().map(|x| (x.v, x.a)).collect();
+        assert_eq!(corners, [(1.0, 0.0), (0.5, -1.0), (-0.5, -1.0)]);
+    }
+}
