@@ -1,6 +1,6 @@
 //! Nonsmooth nonlinear conjugate gradient method on block Gauss–Seidel sweeps, island by island.
 //!
-//! A sweep solves each contact's own problem exactly, one after the other ([`local`]). Its change of all forces
+//! A sweep solves each contact's own problem exactly, one after the other (`local`). Its change of all forces
 //! is taken for a descent direction: with ∇ the change and β = ‖∇_k‖²/‖∇_{k−1}‖² the forces are moved further along the
 //! last direction, p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖:
 //! they weigh forces and torques by their effect. Source: key `silcowitz2010`.
