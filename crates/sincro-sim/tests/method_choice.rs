@@ -31,14 +31,14 @@ step = 0.005
 record = ["/rail.position", "/rail.velocity"]
 "#;
 
-fn loaded(integrator: &str) -> Loaded {
+fn loaded_with(integrator: &str) -> Loaded {
     let setting = format!("integrator=\"{integrator}\"");
     SceneFolder::of(SCENE, EXPERIMENT).load(&[&setting]).unwrap_or_else(|e| panic!("{e}"))
 }
 
 #[test]
 fn auto_takes_the_stiff_method_while_the_pad_is_touched() {
-    let runs = ["auto", "dormand-prince", "stiff"].map(|integrator| sincro_testing::run(&loaded(integrator)));
+    let runs = ["auto", "dormand-prince", "stiff"].map(|integrator| sincro_testing::run(&loaded_with(integrator)));
     let said = |run: &Simulated| run.warnings.iter().find(|w| w.contains("`auto` changed")).cloned();
     let words = said(&runs[0]).expect("auto changes its method");
     assert!(words.contains("2 times with the stiffness, first to `stiff` at t = 0."), "{words}");
@@ -54,7 +54,7 @@ fn auto_takes_the_stiff_method_while_the_pad_is_touched() {
 
 #[test]
 fn a_run_restored_with_the_other_method_goes_on_with_the_same_bits() {
-    let loaded = loaded("auto");
+    let loaded = loaded_with("auto");
     let method = method_for(&loaded).0;
     let advance = |run: &mut LockStep, ticks: u64| (0..ticks).for_each(|_| run.advance().unwrap());
     let mut run = LockStep::new(&loaded, method, false);
@@ -69,5 +69,13 @@ fn a_run_restored_with_the_other_method_goes_on_with_the_same_bits() {
         advance(run, 300);
     }
     assert_eq!(run.state(), other.state());
+    // a run that names its method keeps it
+    for named in ["dormand-prince", "rk4", "semi-implicit-euler"] {
+        let named = loaded_with(named);
+        let method = method_for(&named).0;
+        let mut run = LockStep::new(&named, method, false);
+        run.restore(&snapshot);
+        assert_eq!((run.world().method(), run.state()), (method, &snapshot.state));
+    }
     assert_eq!(run.world().method(), method);
 }

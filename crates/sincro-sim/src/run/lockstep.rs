@@ -592,7 +592,10 @@ impl LockStep {
         self.world.set_params(snapshot.params.as_deref().unwrap_or(self.scene_model.params()));
         self.world.state = snapshot.state.clone();
         if let Some(control) = snapshot.control {
-            self.world.set_method(snapshot.method);
+            if self.method.is_some() {
+                // a run whose method has a name, or a fixed step, keeps it
+                self.world.set_method(snapshot.method);
+            }
             self.world.set_control(control);
         }
         self.tick = snapshot.state.tick;
