@@ -9,14 +9,6 @@ use sincro_sim::audit::LawAudit;
 use sincro_sim::load;
 use sincro_sim::run::LockStep;
 
-const METHODS: [MethodKind; 5] = [
-    MethodKind::SemiImplicitEuler,
-    MethodKind::Rk4,
-    MethodKind::Implicit,
-    MethodKind::DormandPrince,
-    MethodKind::Stiff,
-];
-
 /// With a step at which the explicit methods are stable, too.
 const PID: &[(&str, &str)] = &[
     ("diagram", "pid.toml"),
@@ -81,7 +73,7 @@ fn a_step_and_a_row_allocate_nothing() {
     ] {
         let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
         let loaded = load(&sincro_testing::repository_scene(name), &set, Extensions::default()).unwrap();
-        for method in METHODS {
+        for method in MethodKind::ALL {
             let mut lockstep = LockStep::new(&loaded, method, false);
             let signals = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
             let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &signals).unwrap();

@@ -26,20 +26,8 @@ pub mod sweeps;
 #[cfg(test)]
 mod tests;
 
-use sincro_math::Real;
-
 pub use active_set::ContactProblem;
 pub use cone::{ContactMode, FrictionGroup, NO_SLOT, SlowSliding, UnilateralConstraint};
 pub use dense::PROJECTION_RANK;
 pub use held::{HeldLaw, Solution, is_observable};
 pub use solver::{HELD_RATE, Solver, SolverReport};
-
-/// Scalar product.
-#[inline(always)]
-fn dot<R: Real>(a: &[R], b: &[R]) -> R {
-    let mut sum = R::zero();
-    for (a, b) in a.iter().zip(b) {
-        sum += *a * *b;
-    }
-    sum
-}

@@ -8,12 +8,11 @@
 //! units of lengths and masses, and it does not jump where a contact begins to slip. Where contacts slide, the share
 //! decides about the motion.
 
-use sincro_math::Real;
+use sincro_math::{Real, dot};
 
 use super::active_set::{ActiveSet, ContactProblem};
 use super::cone::{ContactMode, UnilateralConstraint};
 use super::dense::{Dense, RANK};
-use super::dot;
 use super::solver::{norm, pair};
 
 /// Maximum number of updates of the friction that creeps.

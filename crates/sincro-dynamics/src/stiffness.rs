@@ -91,7 +91,10 @@ impl StiffnessProbe {
     #[must_use]
     pub fn stiffest(&mut self, model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
         let of_lines = self.stiffest_line(model, state);
-        if of_lines.is_none() {
+        if self.forces.is_none() {
+            if !has_sprung_joints(model) {
+                return None;
+            }
             self.at_rest.factor(model, &state.q, &mut self.scratch);
         }
         let joints = (0..model.n_v()).filter_map(|k| stiffness_of_joint(model, state, k, self.scratch.dofs[k].d));
@@ -121,6 +124,13 @@ impl StiffnessProbe {
         });
         each.filter(|s| s.rate > 0.0).max_by(|a, b| a.rate.total_cmp(&b.rate))
     }
+}
+
+/// Returns true if a joint may have a spring or damper, spring motors included.
+fn has_sprung_joints(model: &Model<f64>) -> bool {
+    model.dofs.iter().any(|dof| dof.stiffness != 0.0 || dof.damping != 0.0)
+        || !model.nonlinear_springs.is_empty()
+        || model.motors().iter().any(|motor| motor.mode == MotorMode::Spring)
 }
 
 /// Spring and damper of degree of freedom `k` on `inertia`, spring motors included; `None` without, and where an ideal

@@ -14,4 +14,4 @@ pub mod series;
 
 pub use dual::Dual;
 pub use lanes::{LaneVisitor, Lanes};
-pub use real::{Real, Task};
+pub use real::{Real, Task, dot};

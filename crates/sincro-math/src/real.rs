@@ -129,3 +129,18 @@ pub trait Task {
     /// Runs the computation and returns its result.
     fn run(self) -> Self::Output;
 }
+
+/// Scalar product of two lists, summed in their order; entries of the longer one that have no partner do not count. Its
+/// unit is the product of theirs.
+///
+/// ```
+/// assert_eq!(sincro_math::dot(&[1.0, 2.0], &[3.0, 4.0]), 11.0);
+/// ```
+#[inline(always)]
+pub fn dot<R: Real>(a: &[R], b: &[R]) -> R {
+    let mut sum = R::zero();
+    for (a, b) in a.iter().zip(b) {
+        sum += *a * *b;
+    }
+    sum
+}

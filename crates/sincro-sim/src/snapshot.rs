@@ -133,7 +133,7 @@ impl Snapshot {
         }
         let tick = reader.integer()?;
         let trace = Trace(reader.integer()?);
-        let method = METHODS.into_iter().nth(reader.integer()? as usize).ok_or(SnapshotError::Damaged)?;
+        let method = MethodKind::ALL.into_iter().nth(reader.integer()? as usize).ok_or(SnapshotError::Damaged)?;
         let [accuracy, h, last_error] = [reader.number()?, reader.number()?, reader.number()?];
         let control = (!accuracy.is_nan()).then_some(Control { accuracy, h, last_error });
         let state = State {
@@ -164,17 +164,9 @@ impl Snapshot {
     }
 }
 
-/// Methods in the order of their codes.
-const METHODS: [MethodKind; 5] = [
-    MethodKind::SemiImplicitEuler,
-    MethodKind::Rk4,
-    MethodKind::Implicit,
-    MethodKind::DormandPrince,
-    MethodKind::Stiff,
-];
-
+/// Place of a method among all.
 fn code(method: MethodKind) -> u64 {
-    METHODS.into_iter().position(|known| known == method).expect("every method has a code") as u64
+    MethodKind::ALL.into_iter().position(|known| known == method).expect("every method has a code") as u64
 }
 
 fn checksum(bytes: &[u8]) -> u64 {

@@ -6,14 +6,6 @@ use sincro_sim::Loaded;
 use sincro_sim::run::LockStep;
 use sincro_testing::{SceneFolder, scenes};
 
-const METHODS: [MethodKind; 5] = [
-    MethodKind::SemiImplicitEuler,
-    MethodKind::Rk4,
-    MethodKind::Implicit,
-    MethodKind::DormandPrince,
-    MethodKind::Stiff,
-];
-
 /// The folder of the sprung arm with a torque motor and a diagram.
 fn load(joint: &str, wires: &str, blocks: &str) -> (SceneFolder, Loaded) {
     let folder = scenes::sprung_arm();
@@ -61,7 +53,7 @@ fn a_restored_run_goes_on_bit_for_bit_from_a_jump() {
     let wires = r#""push -> /shoulder""#;
     let blocks = "[[block]]\nname = \"push\"\ntype = \"step\"\ntime = 0.5\nto = 20.0\n";
     let (_folder, loaded) = load("friction = 8.0", wires, blocks);
-    for method in METHODS {
+    for method in MethodKind::ALL {
         let mut first = started(&loaded, method);
         for _ in 0..50 {
             first.advance().unwrap();

@@ -94,7 +94,7 @@ fn friction_of_a_joint_is_a_number_a_table_or_a_list() {
         (table, "`friction` of `/j` has 1 entries, the joint has 3 degrees of freedom"),
         ("[{ sliding = 0.3, static = 0.2 }, 0.0, 0.0]", "friction of `/j` is 0.2 at rest, less than 0.3 in motion"),
         ("[-1.0, 0.0, 0.0]", "friction -1 of `/j` is negative or not finite"),
-        ("[{ load_coefficient = 0.3 }, 0.0, 0.0]", "friction of `/j` cannot grow with the load: the joint has no axis"),
+        ("[{ load_coefficient = 0.3 }, 0.0, 0.0]", "friction of `/j` cannot grow with the load of the joint"),
         ("[{ load_coefficient = -0.3 }, 0.0, 0.0]", "`load_coefficient` is -0.3"),
         ("[{ sliding = 0.3, static = 0.4, stribeck = 1.0 }, 0.0, 0.0]", "stribeck_velocity"),
     ] {

@@ -272,8 +272,8 @@ fn check_friction(found: &mut Findings, id: NodeId, name: &str, friction: &Frict
         found.error(id, "friction", message, "give zero or more");
     }
     if load_coefficient > 0.0 && !matches!(kind, JointKind::Revolute { .. } | JointKind::Prismatic { .. }) {
-        let message = format!("the friction of `{name}` cannot grow with the load: the joint has no axis");
-        found.error(id, "friction", message, "revolute and prismatic joints have a `load_coefficient`");
+        let message = format!("the friction of `{name}` cannot grow with the load of the joint");
+        found.error(id, "friction", message, "only revolute and prismatic joints have a `load_coefficient`");
     }
     let is_positive = |x: f64| x.is_finite() && x >= 0.0;
     if !is_positive(sliding) || !is_positive(at_rest) {

@@ -2,10 +2,10 @@
 //! matrix; the vector b at velocity level.
 
 use sincro_complementarity::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
-use sincro_math::Real;
+use sincro_math::{Real, dot};
 
 use super::row::{Row, force_at, force_rate};
-use super::{CLOSED_DISTANCE, Constraints, ModeRule, dot, pair_of};
+use super::{CLOSED_DISTANCE, Constraints, ModeRule, pair_of};
 use crate::contact::Pair;
 use crate::contact::candidate::{ContactCandidate, tangents};
 use crate::contact::candidate_list::SlotCandidate;

@@ -1,9 +1,10 @@
 //! Impacts and contact points: constraint rows outside of the evaluation of rates.
 
 use sincro_complementarity::{ContactMode, ContactProblem, UnilateralConstraint};
+use sincro_math::dot;
 
 use super::assembly::restitution;
-use super::{Constraints, ContactPoint, dot, pair_of};
+use super::{Constraints, ContactPoint, pair_of};
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Vec3;

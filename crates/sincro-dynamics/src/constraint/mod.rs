@@ -47,7 +47,7 @@ pub(crate) mod warm_start;
 
 pub(crate) use sincro_complementarity::HeldLaw;
 use sincro_complementarity::{ContactProblem, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable};
-use sincro_math::Real;
+use sincro_math::{Real, dot};
 
 pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
 pub use active_rows::{ActiveRow, ActiveSource};
@@ -474,13 +474,4 @@ impl<R: Real> Constraints<R> {
 /// The pair that a contact slot belongs to.
 pub(crate) fn pair_of(set: &ConstraintSet, slot: usize) -> usize {
     set.pairs.partition_point(|p| p.first + p.slots <= slot)
-}
-
-#[inline(always)]
-fn dot<R: Real>(a: &[R], b: &[R]) -> R {
-    let mut sum = R::zero();
-    for (a, b) in a.iter().zip(b) {
-        sum += *a * *b;
-    }
-    sum
 }

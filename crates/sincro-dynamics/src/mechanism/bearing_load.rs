@@ -115,10 +115,7 @@ impl<R: Real> Mechanism<R> {
     /// Wrench on `root` and all that hangs on it which its joint transmits, about the world's origin, world axes.
     fn transmitted(&self, root: usize, scratch: &Scratch<R>) -> Force<R> {
         let hangs = |link: usize| self.hangs_on(link, root);
-        let mut sum = Force::zero();
-        for i in (root..self.model.links.len()).filter(|i| hangs(*i)) {
-            sum += self.net_wrench(i, scratch);
-        }
+        let mut sum = self.net_wrench_beyond(root, scratch);
         let Some(constraints) = self.constraints.as_deref() else { return sum };
         for (row, lambda) in constraints.rows.iter().zip(&constraints.lambda) {
             if row.a != WORLD && hangs(row.a as usize) {

@@ -19,10 +19,7 @@ impl Mechanism<f64> {
     /// for a joint whose child is the parent.
     pub(crate) fn joint_wrench(&self, joint: &JointInfo) -> Force<f64> {
         let Some(child) = joint.moving.link.filter(|_| joint.n_v > 0) else { return Force::zero() };
-        let mut sum = Force::zero();
-        for i in (child..self.model.links.len()).filter(|i| self.hangs_on(*i, child)) {
-            sum += self.net_wrench(i, &self.scratch);
-        }
+        let mut sum = self.net_wrench_beyond(child, &self.scratch);
         sum -= self.constraint_wrench(|link| self.hangs_on(link, child));
         let turn = frame_pose(&self.scratch, &joint.base).rot;
         let origin = frame_pose(&self.scratch, &joint.moving).pos;
@@ -67,9 +64,18 @@ impl<R: Real> Mechanism<R> {
         at == Some(root)
     }
 
-    /// Inertial wrench of a link less gravity and the wrenches of elements, about the world's origin, world axes, for
-    /// motions in `scratch`.
-    pub(super) fn net_wrench(&self, i: usize, scratch: &Scratch<R>) -> Force<R> {
+    /// Sum over `root` and the links that hang on it of the inertial wrench less gravity and the wrenches of elements,
+    /// about the world's origin, world axes, for motions in `scratch`.
+    pub(super) fn net_wrench_beyond(&self, root: usize, scratch: &Scratch<R>) -> Force<R> {
+        let links = (root..self.model.links.len()).filter(|i| self.hangs_on(*i, root));
+        links.fold(Force::zero(), |mut sum, i| {
+            sum += self.net_wrench(i, scratch);
+            sum
+        })
+    }
+
+    /// The same of one link.
+    fn net_wrench(&self, i: usize, scratch: &Scratch<R>) -> Force<R> {
         let (inertia, at, pose) = (&self.model.params.inertias[i], &scratch.links[i], &scratch.poses[i]);
         let upward = Motion { ang: Vec3::zero(), lin: -pose.rot.tr_mul_vec(self.model.params.gravity) };
         let mut wrench = inertia.mul(&(at.a + upward)) + at.v.cross_force(&inertia.mul(&at.v));

@@ -103,6 +103,11 @@ pub enum MethodKind {
     Stiff,
 }
 
+impl MethodKind {
+    /// All methods.
+    pub const ALL: [Self; 5] = [Self::SemiImplicitEuler, Self::Rk4, Self::Implicit, Self::DormandPrince, Self::Stiff];
+}
+
 /// Reason for which a world stopped; in a [`StepError`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {

@@ -43,9 +43,9 @@ impl MethodChoice {
     /// else than springs and dampers asks for the stiff one.
     pub fn new(loaded: &Loaded, method: MethodKind) -> Option<Self> {
         let is_auto = loaded.experiment.integrator == Integrator::Auto;
+        let has_control = matches!(method, MethodKind::DormandPrince | MethodKind::Stiff);
         // rotors with a lag and blocks stay as fast as they are
-        let is_free = matches!(method, MethodKind::DormandPrince | MethodKind::Stiff) && !is_stiff_otherwise(loaded);
-        (is_auto && is_free).then(|| Self {
+        (is_auto && has_control && !is_stiff_otherwise(loaded)).then(|| Self {
             probe: StiffnessProbe::new(&loaded.scene.model),
             step: loaded.experiment.step,
             changes: MethodChanges::default(),
