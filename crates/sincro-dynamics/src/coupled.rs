@@ -46,6 +46,38 @@ pub trait CoupledSystem<R: Real> {
     fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]);
 }
 
+impl<R: Real> CoupledSystem<R> for &mut (dyn CoupledSystem<R> + '_) {
+    fn states(&mut self) -> &mut [R] {
+        (**self).states()
+    }
+
+    fn set_time_event(&mut self, event: f64) {
+        (**self).set_time_event(event);
+    }
+
+    fn next_time_event(&self, t: f64) -> f64 {
+        (**self).next_time_event(t)
+    }
+
+    fn find_commands(&mut self, state_view: &mut StateView<'_, R>, z: &[R], commands: &mut [R]) {
+        (**self).find_commands(state_view, z, commands);
+    }
+
+    fn slope(
+        &mut self,
+        state_view: &mut StateView<'_, R>,
+        response: MechanismResponse<'_, R>,
+        z: &[R],
+        slope: &mut [R],
+    ) {
+        (**self).slope(state_view, response, z, slope);
+    }
+
+    fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]) {
+        (**self).negated_jacobian_diagonal(negated_jacobian_diagonal);
+    }
+}
+
 /// Mechanism at one instant, as a coupled system, sensor or controller sees it.
 #[derive(Debug)]
 pub struct StateView<'a, R> {

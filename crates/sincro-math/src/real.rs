@@ -41,6 +41,10 @@ pub trait Real:
     /// Number of lanes: 1 for `f64` and dual numbers.
     const LANES: usize;
 
+    /// True for numbers of one lane. What differs from lane to lane (constraints, limits) runs for these only; behind
+    /// `if R::IS_SCALAR` it is not even compiled for the others.
+    const IS_SCALAR: bool = Self::LANES == 1;
+
     /// Constant `x`, the same in every lane and without derivatives; the unit stays.
     fn splat(x: f64) -> Self;
 

@@ -23,7 +23,8 @@ pub(super) struct Lines<R> {
 impl<R: Real> Lines<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.spring_dampers.len();
-        let implicit = ImplicitForces::new(model);
+        // solves linear systems: lanes leave implicit methods to one world at a time
+        let implicit = if R::IS_SCALAR { ImplicitForces::new(model) } else { None };
         Self { lines: Vec::with_capacity(n), kappa: vec![R::zero(); n], power: R::zero(), implicit }
     }
 
@@ -65,7 +66,9 @@ impl<R: Real> Lines<R> {
             self.power += force * line.rate;
             self.lines.push(line);
         }
-        if let (Some(_), Some(forces)) = (implicit, &mut self.implicit) {
+        if R::IS_SCALAR
+            && let (Some(_), Some(forces)) = (implicit, &mut self.implicit)
+        {
             forces.place(model, &self.lines, scratch, v);
         }
     }
@@ -73,6 +76,9 @@ impl<R: Real> Lines<R> {
     /// Forces at the end of a linearly implicit step, factored, after forward dynamics gave `v_dot` without them.
     #[inline(always)]
     pub fn factor(&mut self, model: &Model<R>, scratch: &Scratch<R>, v_dot: &[R]) -> Option<&mut ImplicitForces<R>> {
+        if !R::IS_SCALAR {
+            return None;
+        }
         let forces = self.implicit.as_deref_mut()?;
         forces.factor(model, scratch, self.kappa.iter().copied(), v_dot);
         Some(forces)
@@ -82,7 +88,9 @@ impl<R: Real> Lines<R> {
     /// rates `v` at the same poses, if they are given, of a linearly implicit step. The elastic part of a force stores
     /// its power.
     pub fn power(&mut self, model: &Model<R>, commands: &[R], v: Option<&[R]>) -> (R, R) {
-        if let (Some(v), Some(forces)) = (v, &mut self.implicit) {
+        if R::IS_SCALAR
+            && let (Some(v), Some(forces)) = (v, &mut self.implicit)
+        {
             let lines = &mut self.lines;
             forces.rates_at(model, v, |k, rate| lines[k].rate = rate);
         }

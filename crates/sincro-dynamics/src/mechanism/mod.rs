@@ -130,7 +130,7 @@ impl<R: Real> Mechanism<R> {
             singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
             // constraints branch, which lanes cannot
-            constraints: if R::LANES == 1 { Constraints::new(&model) } else { None },
+            constraints: if R::IS_SCALAR { Constraints::new(&model) } else { None },
             model,
         }
     }
@@ -310,7 +310,7 @@ impl<R: Real> Mechanism<R> {
             Some(_) => self.lines.factor(&self.model, &self.scratch, v_dot),
             None => None,
         };
-        if R::LANES == 1
+        if R::IS_SCALAR
             && let Some(constraints) = &mut self.constraints
         {
             // a step of semi-implicit Euler is a step at velocity level
@@ -320,7 +320,9 @@ impl<R: Real> Mechanism<R> {
             };
             let at = (&*self.q, v);
             constraints.apply(&self.model, at, level, &mut self.scratch, v_dot, has_drives, implicit_forces);
-        } else if let Some(forces) = implicit_forces {
+        } else if R::IS_SCALAR
+            && let Some(forces) = implicit_forces
+        {
             forces.respond(&self.model, &mut self.scratch, v_dot, has_drives);
         }
     }
@@ -484,7 +486,7 @@ impl<R: Real> Mechanism<R> {
             work += self.motor_torque[i] * v[motor.dof];
             rates[2 + i] = self.motor_torque[i];
         }
-        if R::LANES == 1
+        if R::IS_SCALAR
             && let Some(constraints) = &self.constraints
         {
             dissipation += constraints.dissipation(v);
@@ -585,11 +587,11 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
-        if self.bearings.is_some() {
+        if R::IS_SCALAR && self.bearings.is_some() {
             self.find_loads(t, None, y, slope);
         }
         self.explicit_slope(t, y, slope);
-        if R::LANES == 1 {
+        if R::IS_SCALAR {
             self.finish_stage(t, None, y, slope);
         }
     }
@@ -607,18 +609,18 @@ impl<R: Real> System<R> for Mechanism<R> {
     }
 
     fn project_error(&mut self, y: &[R], error: &mut [R]) {
-        if R::LANES == 1 && self.singular.is_near {
+        if R::IS_SCALAR && self.singular.is_near {
             self.project_error_along_loops(y, error);
         }
     }
 
     #[inline(always)]
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
-        if self.bearings.is_some() {
+        if R::IS_SCALAR && self.bearings.is_some() {
             self.find_loads(t, Some((h, implicit)), y, slope);
         }
         self.linearly_implicit_slope(t, h, implicit, y, slope);
-        if R::LANES == 1 {
+        if R::IS_SCALAR {
             self.finish_stage(t, Some((h, implicit)), y, slope);
         }
     }

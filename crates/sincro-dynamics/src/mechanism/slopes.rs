@@ -26,7 +26,7 @@ impl<R: Real> Mechanism<R> {
         displace(&self.model, &self.base, delta, &mut self.q);
         let (rate, rest) = slope.split_at_mut(n);
         let rotors = &y[self.layout.rotor_states()];
-        let projected = (R::LANES == 1 && self.singular.is_near).then(|| self.project_stage(v));
+        let projected = (R::IS_SCALAR && self.singular.is_near).then(|| self.project_stage(v));
         let v = projected.as_deref().unwrap_or(v);
         self.chart_rate(delta, v, rate);
         self.accelerations(t, v, rotors, None, &mut rest[..n]);
@@ -50,7 +50,7 @@ impl<R: Real> Mechanism<R> {
         let (rate, rest) = slope.split_at_mut(n);
         let rotors = &y[self.layout.rotor_states()];
         // a step of semi-implicit Euler is one at velocity level
-        let projects = R::LANES == 1 && self.singular.is_near && implicit != Implicit::Dampers;
+        let projects = R::IS_SCALAR && self.singular.is_near && implicit != Implicit::Dampers;
         let projected = projects.then(|| self.project_stage(v));
         let v = projected.as_deref().unwrap_or(v);
         self.accelerations(t, v, rotors, Some((h, implicit)), &mut rest[..n]);
@@ -81,7 +81,7 @@ impl<R: Real> Mechanism<R> {
     /// forces of loops are rounding.
     #[inline(always)]
     fn note_evaluation(&mut self, t: f64, v: &[R], v_dot: &[R]) {
-        if R::LANES == 1 {
+        if R::IS_SCALAR {
             self.note_conditioning();
             if self.drive_monitor.is_active && !self.singular.needs_limit() {
                 self.monitor_drives(t, v, v_dot);

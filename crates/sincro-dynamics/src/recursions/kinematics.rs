@@ -1,6 +1,6 @@
 //! Poses, velocities, accelerations and Jacobians of links and of frames fixed in them.
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use crate::joint::{Link, Stage, StageVisitor, WORLD};
 pub use crate::model::Attached;
@@ -32,6 +32,7 @@ impl<R: Real> StageVisitor for Place<'_, R> {
 
 /// Poses of all link frames in the world into [`Scratch::link_poses`], joints taken as last configured by any
 /// recursion.
+#[inline(always)]
 pub(crate) fn chain_poses<R: Real>(model: &Model<R>, scratch: &mut Scratch<R>) {
     for i in 0..model.links.len() {
         let link = &model.links[i];
@@ -60,22 +61,57 @@ impl<R: Real> StageVisitor for PoseInParent<'_, R> {
 
 /// Computes the poses of all link frames in the world `[m]` at coordinates `q` (n_q), into [`Scratch::link_poses`]; for
 /// [`frame_pose`] without velocities.
+#[inline(never)]
 pub fn poses<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>) {
-    place(model, q, scratch);
-    chain_poses(model, scratch);
+    let pass = Poses { model, q, scratch };
+    if R::IS_SCALAR { pass.run() } else { R::run_hot(pass) }
+}
+
+struct Poses<'a, R> {
+    model: &'a Model<R>,
+    q: &'a [R],
+    scratch: &'a mut Scratch<R>,
+}
+
+impl<R: Real> Task for Poses<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        place(self.model, self.q, self.scratch);
+        chain_poses(self.model, self.scratch);
+    }
 }
 
 /// Computes poses, twists and accelerations of all links at coordinates `q` (n_q), velocities `v` and accelerations
 /// `v_dot` (n_v), into `scratch`; gravity is not part of the accelerations.
+#[inline(never)]
 pub fn motions<R: Real>(model: &Model<R>, q: &[R], v: &[R], v_dot: &[R], scratch: &mut Scratch<R>) {
-    for i in 0..model.links.len() {
-        let link = &model.links[i];
-        let (done, rest) = scratch.links.split_at_mut(i);
-        let parent = (link.parent != WORLD).then(|| (done[link.parent as usize].v, done[link.parent as usize].a));
-        let parent = parent.unwrap_or((Motion::zero(), Motion::zero()));
-        link.kind.dispatch(Outward { link, q, v, v_dot, parent, out: &mut rest[0] });
+    let pass = Motions { model, q, v, v_dot, scratch };
+    if R::IS_SCALAR { pass.run() } else { R::run_hot(pass) }
+}
+
+struct Motions<'a, R> {
+    model: &'a Model<R>,
+    q: &'a [R],
+    v: &'a [R],
+    v_dot: &'a [R],
+    scratch: &'a mut Scratch<R>,
+}
+
+impl<R: Real> Task for Motions<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Self { model, q, v, v_dot, scratch } = self;
+        for i in 0..model.links.len() {
+            let link = &model.links[i];
+            let (done, rest) = scratch.links.split_at_mut(i);
+            let parent = (link.parent != WORLD).then(|| (done[link.parent as usize].v, done[link.parent as usize].a));
+            let parent = parent.unwrap_or((Motion::zero(), Motion::zero()));
+            link.kind.dispatch(Outward { link, q, v, v_dot, parent, out: &mut rest[0] });
+        }
+        chain_poses(model, scratch);
     }
-    chain_poses(model, scratch);
 }
 
 struct Outward<'a, R> {
@@ -89,6 +125,7 @@ struct Outward<'a, R> {
 
 impl<R: Real> StageVisitor for Outward<'_, R> {
     type Output = ();
+    #[inline(always)]
     fn visit<S: Stage>(self) {
         let Self { link, q, v, v_dot, parent, out } = self;
         let v_idx = link.v_idx as usize;

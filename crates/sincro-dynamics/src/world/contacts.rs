@@ -96,16 +96,16 @@ impl World {
     }
 
     /// Makes the rest of a tick, `span` from `t`, in steps at velocity level.
-    pub(super) fn finish_at_velocity_level<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn finish_at_velocity_level(
         &mut self,
         t: f64,
         span: f64,
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) -> Result<(), (f64, Stop)> {
         self.statistics.fallback_ticks += 1;
         let h = span / f64::from(FINE_STEPS);
         for k in 0..FINE_STEPS {
-            self.velocity_level_step(t + f64::from(k) * h, h, system)?;
+            self.velocity_level_step(t + f64::from(k) * h, h, &mut &mut *system)?;
         }
         Ok(())
     }
@@ -113,7 +113,7 @@ impl World {
     /// Makes one step at velocity level: semi-implicit Euler, over the whole of which a limited drive either ends at
     /// its target velocity or is saturated, a contact stays closed or opens. Source: key `acary2008`, chapter 10
     /// (Moreau–Jean time-stepping).
-    pub(super) fn velocity_level_step<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn velocity_level_step<A: CoupledSystem<f64>>(
         &mut self,
         t: f64,
         h: f64,
@@ -147,7 +147,7 @@ impl World {
 
     /// Makes a step at velocity level with the contacts last detected, by sweeps if they are many (`is_large`), without
     /// what follows it: no projection, and nothing is looked at.
-    fn try_step<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, is_large: bool, system: &mut A) {
+    fn try_step<A: CoupledSystem<f64>>(&mut self, t: f64, h: f64, is_large: bool, system: &mut A) {
         // a motor that a client has made a drive may be the first of its world
         let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
         self.mechanism.set_sweeps(is_large);
@@ -177,9 +177,9 @@ impl World {
 
     /// Finds the forces of the next step from the present state with the contacts last detected, by sweeps, and stays
     /// there; the velocities at its end are left in `step_end_velocities`.
-    pub(super) fn find_step_forces<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    pub(super) fn find_step_forces(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         let layout = self.layout();
-        self.try_step(t, self.next_step, true, system);
+        self.try_step(t, self.next_step, true, &mut { system });
         self.step_end_velocities.copy_from_slice(&self.y[layout.velocities()]);
         self.restore();
         if !self.step_end_velocities.iter().all(|v| v.is_finite()) {

@@ -20,7 +20,7 @@ impl World {
     }
 
     /// Applies the velocity jumps at the start of a tick and resolves the modes of the drives after them.
-    pub(super) fn start_tick<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+    pub(super) fn start_tick(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         if self.mechanism.drives.is_empty() {
             return;
         }

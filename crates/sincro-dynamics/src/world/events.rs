@@ -41,7 +41,7 @@ impl World {
     /// Finds the zero crossings that have happened in the present state, of each kind the one that is furthest beyond
     /// zero: a saturated drive has passed its target velocity, a locked one exceeds its limit, a contact has changed.
     /// Returns one of them.
-    fn find_crossings<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> Option<Crossing> {
+    fn find_crossings(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> Option<Crossing> {
         self.crossings.clear();
         let passed = (0..self.target_velocities.len()).filter(|i| self.has_passed_target(*i));
         let furthest = passed.max_by(|i, j| self.target_passage(*i).total_cmp(&self.target_passage(*j)));
@@ -67,13 +67,13 @@ impl World {
     }
 
     /// f(t, y) with held modes into `self.slope`.
-    pub(super) fn evaluate_held<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    pub(super) fn evaluate_held(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.mechanism.mark_modes();
         self.evaluate_checked(t, system);
     }
 
     /// f(t, y) into `self.slope` with the modes held that are marked.
-    pub(super) fn evaluate_checked<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    pub(super) fn evaluate_checked(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.mechanism.set_mode_rule(ModeRule::HeldAndChecked);
         self.evaluate_slope(t, system);
         self.mechanism.set_mode_rule(ModeRule::Decided);
@@ -107,13 +107,13 @@ impl World {
 
     /// Time after `t` at which a zero crossing has happened `[s]`, with it; none if there is none: at the end of the
     /// sub-step of length `h`, or at the earliest stage of it at which a law was violated (`violated` after `t`).
-    pub(super) fn find_event<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn find_event(
         &mut self,
         t: f64,
         h: f64,
         (reached, violated): (f64, f64),
         control: Option<Control>,
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) -> Result<Option<(f64, Crossing)>, (f64, Stop)> {
         if let Some(crossing) = self.find_crossings(reached, system) {
             return Ok(Some((h, crossing)));
@@ -136,7 +136,7 @@ impl World {
     }
 
     /// Earliest time within the sub-step at which a saturated drive seems to be beyond its target velocity `[s]`.
-    fn find_passage<A: CoupledSystem<f64> + ?Sized>(&mut self, reached: f64, h: f64, system: &mut A) -> f64 {
+    fn find_passage(&mut self, reached: f64, h: f64, system: &mut dyn CoupledSystem<f64>) -> f64 {
         if self.mechanism.drives.iter().all(|saturation| *saturation == 0.0) {
             return f64::INFINITY;
         }
@@ -151,13 +151,13 @@ impl World {
 
     /// Locates the first instant in (t, t + bad] at which a drive or contact changes mode, goes there and changes it;
     /// `h` is the length of the sub-step.
-    pub(super) fn locate_event<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn locate_event(
         &mut self,
         t: f64,
         (bad, h): (f64, f64),
         crossing: Crossing,
         control: Option<Control>,
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) -> Result<f64, (f64, Stop)> {
         // of the step's own time: t itself may be too coarse
         let resolution = h * EVENT_RESOLUTION;
@@ -190,13 +190,13 @@ impl World {
     }
 
     /// Time after `t` of the first zero crossing, known to have happened at `bad`, to a `resolution` `[s]`.
-    fn narrow<A: CoupledSystem<f64> + ?Sized>(
+    fn narrow(
         &mut self,
         t: f64,
         (bad, resolution): (f64, f64),
         mut crossing: Crossing,
         control: Option<Control>,
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) -> Result<f64, (f64, Stop)> {
         let after = self.crossing_value(crossing);
         self.restore();

@@ -382,7 +382,7 @@ impl World {
 
     /// Resolves drives and contacts at the start of a run, at time `t` `[s]`, with the commands of a coupled system;
     /// see [`World::initialize`].
-    pub fn initialize_with<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    pub fn initialize_with(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.load(system);
         self.latch_target_velocities();
         if self.is_next_step_large() {
@@ -420,7 +420,7 @@ impl World {
     /// Time of the last instant reached `[s]` and the reason, if the method cannot go on; the state is then that of
     /// this instant, and the tick is not counted.
     pub fn advance(&mut self, t: f64, h: f64) -> Result<(), (f64, Stop)> {
-        self.advance_with(t, h, &mut NoCoupling)
+        self.advance_coupled(t, h, &mut NoCoupling)
     }
 
     /// Advances the state as [`World::advance`] does, together with a coupled system with as many states as the world
@@ -433,12 +433,11 @@ impl World {
     /// # Panics
     ///
     /// If the number of its states differs.
-    pub fn advance_with<A: CoupledSystem<f64> + ?Sized>(
-        &mut self,
-        t: f64,
-        h: f64,
-        system: &mut A,
-    ) -> Result<(), (f64, Stop)> {
+    pub fn advance_with(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) -> Result<(), (f64, Stop)> {
+        self.advance_coupled(t, h, &mut { system })
+    }
+
+    fn advance_coupled<A: CoupledSystem<f64>>(&mut self, t: f64, h: f64, system: &mut A) -> Result<(), (f64, Stop)> {
         self.next_step = h / f64::from(self.substeps);
         // the time event at the end of the last tick has passed
         system.set_time_event(f64::INFINITY);
@@ -593,14 +592,14 @@ impl World {
     }
 
     /// Lays the chart at the state and writes y, the states of the coupled system included.
-    fn load<A: CoupledSystem<f64> + ?Sized>(&mut self, system: &mut A) {
+    fn load(&mut self, system: &mut dyn CoupledSystem<f64>) {
         self.mechanism.load(&self.state, &mut self.y);
         let own = self.mechanism.dim();
         self.y[own..].copy_from_slice(system.states());
     }
 
     /// f(t, y) into `self.slope`.
-    fn evaluate_slope<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    fn evaluate_slope(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         let mut system = Coupled {
             mechanism: &mut self.mechanism,
             system,

@@ -14,11 +14,11 @@ const OTHER_MOTION: f64 = 1e-9;
 impl World {
     /// Decides the modes of limited drives, contacts and limits at the start of a sub-step of about `h`, `after_event`
     /// those a little later, and records them. Returns false if no forces keep the laws.
-    pub(super) fn resolve_modes<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn resolve_modes(
         &mut self,
         t: f64,
         (h, after_event): (f64, bool),
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) -> bool {
         let is_coupled = self.mechanism.couples_drives() && self.has_limited_drives();
         let unchanged = if is_coupled {
@@ -42,7 +42,7 @@ impl World {
     /// Goes back from the modes just decided to those of the last sub-step if they keep all laws and give other
     /// accelerations: of several solutions, the one that the motion came with continues until an event. Returns true if
     /// it went back.
-    fn prefer_former_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
+    fn prefer_former_modes(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
         let (velocities, report) = (self.layout().velocities(), self.solver_report());
         self.decided_slope.copy_from_slice(&self.slope);
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
@@ -61,11 +61,11 @@ impl World {
     /// Decides contacts together with the drives at their kink, at the start of a sub-step of about `h`, and records
     /// the modes: those a little later after an event, and where a drive has changed. A force reaches its bound
     /// continuously, so that at the event itself rounding decides between the modes on both sides of it.
-    fn decide_with_contacts<A: CoupledSystem<f64> + ?Sized>(
+    fn decide_with_contacts(
         &mut self,
         t: f64,
         (h, after_event, unchanged): (f64, bool, bool),
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) {
         self.present_kinks.clone_from(&self.kinks);
         self.decide_kinks(t, system);
@@ -88,7 +88,7 @@ impl World {
     }
 
     /// Decides the kinks together with the contacts.
-    fn decide_kinks<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) {
+    fn decide_kinks(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.pose_kinks();
         self.evaluate_slope(t, system);
         self.mechanism.read_kinks(&mut self.kinks);
@@ -128,7 +128,7 @@ impl World {
 
     /// Takes the modes a little later than `t` for those at `t`, where they hold as well but for the change of a mode
     /// that is due; state and time stay.
-    fn look_ahead_at_contacts<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+    fn look_ahead_at_contacts(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let report = self.solver_report();
         self.present_kinks.clone_from(&self.kinks);
         let ahead = self.move_ahead(t, h);

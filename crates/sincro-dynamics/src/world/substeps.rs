@@ -41,7 +41,7 @@ const MAX_UNSOLVED: u64 = 100_000;
 
 impl World {
     /// Makes sub-steps over `span` from `start`, ending at time events and at events of drives and contacts.
-    pub(super) fn sub_steps<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn sub_steps<A: CoupledSystem<f64>>(
         &mut self,
         start: f64,
         span: f64,
@@ -134,7 +134,7 @@ impl World {
     /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`; with `limited` drives or
     /// contacts its events are located, from the error control at its start. Returns the time reached, and true if it
     /// ends at an event.
-    pub(super) fn sub_step<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn sub_step<A: CoupledSystem<f64>>(
         &mut self,
         t: f64,
         (h_max, corner): (f64, f64),
@@ -160,17 +160,17 @@ impl World {
     }
 
     /// Makes a step at velocity level from `t` over a `share` of the tick, which doubles each time.
-    pub(super) fn fallback_step<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn fallback_step(
         &mut self,
         t: f64,
         span: f64,
         (share, end): (&mut f64, f64),
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) -> Result<f64, (f64, Stop)> {
         let h = (*share * span).min(end - t);
         *share *= 2.0;
         self.statistics.fallback_steps += 1;
-        self.velocity_level_step(t, h, system)?;
+        self.velocity_level_step(t, h, &mut &mut *system)?;
         let reached = if h < end - t { t + h } else { end };
         if !self.is_constrained() {
             // with constraints that is the start of the next sub-step; the accelerations of this one end here
@@ -187,7 +187,7 @@ impl World {
 
     /// One step of the method from `t`, at most `h_max`, with contact modes by `rule`; y is charted anew. Returns the
     /// length made.
-    pub(super) fn method_step<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn method_step<A: CoupledSystem<f64>>(
         &mut self,
         t: f64,
         h_max: f64,
@@ -244,12 +244,12 @@ impl World {
     }
 
     /// Repeats the integration from the saved start of the sub-step, exactly `h` further.
-    pub(super) fn repeat_step<A: CoupledSystem<f64> + ?Sized>(
+    pub(super) fn repeat_step(
         &mut self,
         t: f64,
         h: f64,
         control: Option<Control>,
-        system: &mut A,
+        system: &mut dyn CoupledSystem<f64>,
     ) -> Result<(), (f64, Stop)> {
         self.restore();
         self.mechanism.return_to_start();
@@ -260,7 +260,7 @@ impl World {
         while done < h {
             let at = t + done;
             let step = self
-                .method_step(at, h - done, ModeRule::Held, system)
+                .method_step(at, h - done, ModeRule::Held, &mut &mut *system)
                 .map_err(|failure| (at, Stop::Integration(failure)))?;
             steps += 1;
             if steps > MAX_REPEATED_STEPS {

@@ -52,7 +52,7 @@ enum Law {
 impl World {
     /// Resolves the modes of the limited drives in the present state: those off their kink saturate towards it, those
     /// on it are decided together. Modes that stand are kept.
-    pub(super) fn resolve_actuator_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+    pub(super) fn resolve_actuator_modes(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         if !self.has_limited_drives() {
             self.mechanism.mark_locked();
             return;
@@ -63,7 +63,7 @@ impl World {
         report.into_iter().for_each(|before| self.discard_failures(&before));
     }
 
-    fn decide_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+    fn decide_modes(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let unchanged = self.collect_kinks();
         self.mechanism.mark_locked();
         if self.kinks.is_empty() {
@@ -134,7 +134,7 @@ impl World {
 
     /// Solves the complementarity problem of the kinks by principal pivoting, from their present modes. Returns false
     /// if no modes were found that fit.
-    fn solve_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
+    fn solve_modes(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
         let (mut fewest, mut left) = (usize::MAX, BLOCK_CHANGES);
         for _ in 0..16 + 16 * self.kinks.len() {
             self.write_modes();
@@ -152,7 +152,7 @@ impl World {
 
     /// Tries all modes of the kinks if they are few, and leaves those with the fewest infeasible drives: where contacts
     /// change with the drives, pivoting need not end. Returns true if none is infeasible.
-    fn enumerate_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, system: &mut A) -> bool {
+    fn enumerate_modes(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
         if self.kinks.len() > MAX_ENUMERATED {
             return false;
         }
@@ -171,7 +171,7 @@ impl World {
     }
 
     /// Number of infeasible drives under the modes with a ternary `code`.
-    fn try_modes<A: CoupledSystem<f64> + ?Sized>(&mut self, mut code: usize, t: f64, system: &mut A) -> usize {
+    fn try_modes(&mut self, mut code: usize, t: f64, system: &mut dyn CoupledSystem<f64>) -> usize {
         for kink in &mut self.kinks {
             kink.saturation = [0.0, 1.0, -1.0][code % 3];
             code /= 3;
@@ -232,7 +232,7 @@ impl World {
     }
 
     /// Decides the modes of the kinks a little later than `t`; state and time stay.
-    fn look_ahead<A: CoupledSystem<f64> + ?Sized>(&mut self, t: f64, h: f64, system: &mut A) {
+    fn look_ahead(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let ahead = self.move_ahead(t, h);
         let layout = self.layout();
         for kink in &self.kinks {

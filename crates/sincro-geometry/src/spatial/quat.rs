@@ -135,7 +135,7 @@ impl<R: Real> Quat<R> {
     /// Unit quaternion of the rotation matrix `m` (dimensionless), with w ≥ 0; exact to rounding for any rotation
     /// (Shepperd's choice of pivot). Only for numbers of one lane, since lanes can differ in their pivot.
     pub fn from_matrix(m: &Mat3<R>) -> Self {
-        debug_assert!(R::LANES == 1, "lanes can differ in their pivot");
+        debug_assert!(R::IS_SCALAR, "lanes can differ in their pivot");
         let m = &m.0;
         let trace = m[0][0] + m[1][1] + m[2][2];
         let pivots = [trace, m[0][0], m[1][1], m[2][2]];

@@ -93,7 +93,7 @@ impl Group {
         let commands: Vec<f64> = plan.loaded.scene.commands.iter().map(|signal| signal.value(0.0)).collect();
         let n_commands = commands.len();
         let worlds = match plan.lanes_refused() {
-            None => Worlds::Lanes(LaneBundle::new()),
+            None => Worlds::Lanes(LaneBundle::default()),
             Some(_) => Worlds::Single((0..n_worlds).map(|_| SingleWorld::new()).collect()),
         };
         Self {
@@ -222,9 +222,8 @@ impl Group {
     }
 
     fn advance(&mut self, plan: &Plan) {
-        let n_worlds = self.n_worlds();
         match &mut self.worlds {
-            Worlds::Lanes(bundle) => bundle.advance(plan, &self.commands, n_worlds),
+            Worlds::Lanes(bundle) => bundle.advance(plan, &self.commands),
             Worlds::Single(worlds) => {
                 let n = self.single_commands.len();
                 for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| !self.was_over[*k]) {
@@ -260,9 +259,9 @@ impl Group {
 
     /// Reads the signals of all worlds.
     fn look(&mut self, plan: &Plan) {
-        let (n_worlds, n) = (self.n_worlds(), self.n_signals);
+        let n = self.n_signals;
         match &mut self.worlds {
-            Worlds::Lanes(bundle) => bundle.observe(plan, n_worlds, &mut self.signals, &mut self.is_finite),
+            Worlds::Lanes(bundle) => bundle.observe(plan, &mut self.signals, &mut self.is_finite),
             Worlds::Single(worlds) => {
                 for (k, world) in worlds.iter_mut().enumerate() {
                     self.is_finite[k] = world.observe(&mut self.signals[k * n..(k + 1) * n]);

@@ -168,7 +168,10 @@ impl Plan {
                 "a signal that the state alone does not decide, such as a sensor, a contact or an acceleration",
             );
         }
-        obstacle_to_lanes(model)
+        if sincro_math::lanes::width() == 1 {
+            return Some("a processor without AVX2");
+        }
+        obstacle_to_lanes(model, self.method)
     }
 
     /// Returns the reason in English why SIMD lanes cannot advance the worlds, such as a diagram, so that each is

@@ -1,0 +1,227 @@
+//! Worlds of one structure in the lanes of one number type, and their step.
+
+use sincro_math::{Real, Task};
+
+use super::{BatchSettings, BatchWorld};
+use crate::integrate::{Control, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
+use crate::mechanism::Mechanism;
+use crate::model::{Model, PackError};
+use crate::state::State;
+use crate::world::{MethodKind, Stop};
+
+/// Worlds in lanes, with unlimited drives only.
+#[derive(Clone, Debug)]
+pub(super) struct LaneWorlds<R> {
+    pub mechanism: Mechanism<R>,
+    pub y: Vec<R>,
+    pub reach_target_velocities: Vec<R>,
+    method: FixedMethod<R>,
+}
+
+/// A fixed-step method with its working memory.
+#[derive(Clone, Debug)]
+enum FixedMethod<R> {
+    Euler(SemiImplicitEuler<R>),
+    Rk4(Rk4<R>),
+    Implicit(Extrapolated<R>),
+}
+
+/// One step from time `t` `[s]` of length `h` `[s]`.
+struct Step<'a, R> {
+    worlds: &'a mut LaneWorlds<R>,
+    t: f64,
+    h: f64,
+}
+
+impl<R: Real> Task for Step<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { worlds, t, h } = self;
+        let is_driven = !worlds.mechanism.drives.is_empty();
+        if is_driven {
+            worlds.drive(h);
+        }
+        let LaneWorlds { mechanism, y, method, .. } = worlds;
+        match method {
+            FixedMethod::Euler(method) => method.step(mechanism, t, h, y),
+            FixedMethod::Rk4(method) => method.step(mechanism, t, h, y),
+            FixedMethod::Implicit(method) => method.step(mechanism, t, h, y),
+        }
+        if is_driven && worlds.is_euler() {
+            worlds.set_driven_velocities();
+        }
+    }
+}
+
+impl<R: Real> LaneWorlds<R> {
+    /// Puts `models[k]` into lane k; the last model fills the remaining lanes. All coordinates and velocities are zero.
+    ///
+    /// # Errors
+    ///
+    /// [`PackError`] if the models differ in more than their numbers.
+    ///
+    /// # Panics
+    ///
+    /// If the method has error control, or if there is no model.
+    pub fn new(models: &[&Model<f64>], method: MethodKind) -> Result<Self, PackError> {
+        let mechanism = Mechanism::new(Model::<R>::pack(models)?, false);
+        let dim = mechanism.dim();
+        let method = match method {
+            MethodKind::SemiImplicitEuler => FixedMethod::Euler(SemiImplicitEuler::new(dim)),
+            MethodKind::Rk4 => FixedMethod::Rk4(Rk4::new(dim)),
+            MethodKind::Implicit => FixedMethod::Implicit(Extrapolated::new(dim, 2, Control::new(1.0, 1.0))),
+            MethodKind::DormandPrince | MethodKind::Stiff => panic!("lanes have a fixed step"),
+        };
+        let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
+        Ok(Self { y: vec![R::zero(); dim], reach_target_velocities, mechanism, method })
+    }
+
+    fn load(&mut self, worlds: &[BatchWorld]) {
+        let of = |k: usize| &worlds[k.min(worlds.len() - 1)].state;
+        let gather = |n: usize, f: &dyn Fn(&State<f64>) -> &[f64]| -> Vec<R> {
+            (0..n).map(|i| R::from_lanes(|k| f(of(k))[i])).collect()
+        };
+        let (n_q, n_v) = (self.mechanism.model().n_q(), self.mechanism.model().n_v());
+        let layout = self.mechanism.layout();
+        let q = gather(n_q, &|s| &s.q);
+        self.mechanism.set_base(&q);
+        self.y[layout.velocities()].copy_from_slice(&gather(n_v, &|s| &s.v));
+        let rotors = layout.rotor_states();
+        let n = rotors.len();
+        self.y[rotors].copy_from_slice(&gather(n, &|s| &s.rotors));
+        let commands = gather(self.mechanism.commands.len(), &|s| &s.commands);
+        self.mechanism.commands.copy_from_slice(&commands);
+    }
+
+    fn store(&self, worlds: &mut [BatchWorld]) {
+        let layout = self.mechanism.layout();
+        for (k, world) in worlds.iter_mut().enumerate() {
+            if world.stop.is_some() {
+                continue;
+            }
+            for (q, lanes) in world.state.q.iter_mut().zip(self.mechanism.base()) {
+                *q = lanes.lane(k);
+            }
+            for (v, lanes) in world.state.v.iter_mut().zip(&self.y[layout.velocities()]) {
+                *v = lanes.lane(k);
+            }
+            for (x, lanes) in world.state.rotors.iter_mut().zip(&self.y[layout.rotor_states()]) {
+                *x = lanes.lane(k);
+            }
+            for (c, lanes) in world.state.commands.iter_mut().zip(&self.mechanism.commands) {
+                *c = lanes.lane(k);
+            }
+        }
+    }
+
+    /// Advances `worlds` from their states, which it leaves where they end.
+    pub fn run(&mut self, worlds: &mut [BatchWorld], settings: &BatchSettings) {
+        self.load(worlds);
+        let first = worlds[0].state.tick;
+        self.record(worlds, settings.record_every > 0);
+        for k in 0..settings.n_steps {
+            self.command(worlds, k as usize);
+            let t = (first + u64::from(k)) as f64 * settings.h;
+            self.step(t, settings.h);
+            self.note_stops(worlds, t);
+            self.record(worlds, settings.record_every > 0 && (k + 1) % settings.record_every == 0);
+            for world in worlds.iter_mut().filter(|w| w.stop.is_none()) {
+                world.state.tick += 1;
+            }
+        }
+        self.store(worlds);
+    }
+
+    /// Makes one step of length `h` `[s]` in all lanes, compiled once for each instruction set.
+    pub fn step(&mut self, t: f64, h: f64) {
+        // one world alone is a `World`: no copy of the step for it
+        if !R::IS_SCALAR {
+            R::run_hot(Step { worlds: self, t, h });
+        }
+    }
+
+    fn command(&mut self, worlds: &[BatchWorld], k: usize) {
+        let n = self.mechanism.commands.len();
+        for i in 0..n {
+            let old = self.mechanism.commands[i];
+            self.mechanism.commands[i] = R::from_lanes(|lane| {
+                let commands = &worlds[lane.min(worlds.len() - 1)].commands;
+                if commands.is_empty() { old.lane(lane) } else { commands[k * n + i] }
+            });
+        }
+    }
+
+    #[inline(always)]
+    fn is_euler(&self) -> bool {
+        matches!(self.method, FixedMethod::Euler(_))
+    }
+
+    /// Prescribes the locked degrees of freedom for this tick: Euler reaches the target velocity within the step, the
+    /// others jump first.
+    #[inline(always)]
+    fn drive(&mut self, h: f64) {
+        let is_euler = self.is_euler();
+        let layout = self.mechanism.layout();
+        self.mechanism.mark_locked();
+        for i in 0..self.mechanism.drives.len() {
+            let dof = self.mechanism.model.params.drives[i].dof;
+            let missing = self.target_velocities(i) - self.y[layout.velocity(dof)];
+            let scale = if is_euler { R::splat(h) } else { R::one() };
+            self.mechanism.prescribed_acceleration[dof] = missing / scale;
+        }
+        if is_euler {
+            return;
+        }
+        self.mechanism.impulse(&mut self.reach_target_velocities);
+        for (v, change) in self.y[layout.velocities()].iter_mut().zip(&self.reach_target_velocities) {
+            *v += *change;
+        }
+        self.set_driven_velocities();
+        self.mechanism.mark_locked();
+    }
+
+    #[inline(always)]
+    fn target_velocities(&self, i: usize) -> R {
+        let drive = &self.mechanism.model.params.drives[i];
+        self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands)
+    }
+
+    #[inline(always)]
+    fn set_driven_velocities(&mut self) {
+        let layout = self.mechanism.layout();
+        for i in 0..self.mechanism.drives.len() {
+            self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities(i);
+        }
+    }
+
+    /// A lane that stopped being finite keeps the state it had before and says so; the others are not concerned.
+    #[inline(always)]
+    fn note_stops(&self, worlds: &mut [BatchWorld], t: f64) {
+        // 0·x is 0, or NaN where x is not finite: one look at the lanes instead of one an entry
+        let mut probe = R::zero();
+        for y in &self.y {
+            probe += R::zero() * *y;
+        }
+        if probe.is_finite() {
+            return;
+        }
+        for (k, world) in worlds.iter_mut().enumerate() {
+            if world.stop.is_none() && !self.y.iter().all(|y| y.lane(k).is_finite()) {
+                world.stop = Some(Stop::Integration(Failure::NotFinite { t }));
+            }
+        }
+    }
+
+    fn record(&self, worlds: &mut [BatchWorld], due: bool) {
+        if !due {
+            return;
+        }
+        let layout = self.mechanism.layout();
+        for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
+            world.record.extend(self.mechanism.base().iter().map(|q| q.lane(k)));
+            world.record.extend(self.y[layout.velocities()].iter().map(|v| v.lane(k)));
+        }
+    }
+}

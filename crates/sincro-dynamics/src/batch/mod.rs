@@ -1,0 +1,187 @@
+//! Many worlds of one structure, several at a time in the lanes of vector registers.
+//!
+//! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has
+//! the bits that [`World`] gives it alone: lanes do the same operations in the same order. What lanes cannot do
+//! together (drives with a limit, inputs with corners: each world would want its own sub-steps) is done one world at a
+//! time; the result does not tell.
+//!
+//! Steps are fixed: semi-implicit Euler, RK4 or implicit. No threads here; `sincro-sim` deals bundles to threads.
+
+mod lane_worlds;
+mod stepped;
+
+use sincro_math::Real;
+use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
+
+use crate::aero::rotor::SpeedSource;
+use crate::aero::wind::Wind;
+use crate::integrate::Control;
+use crate::model::{Model, PackError};
+use crate::signal::Signal;
+use crate::state::State;
+use crate::world::{MethodKind, Stop, World};
+use lane_worlds::LaneWorlds;
+pub use stepped::{LaneObserver, SteppedLanes};
+
+/// World of a batch: model, state, commands, and what a run of [`advance`] leaves in it.
+#[derive(Clone, Debug)]
+pub struct BatchWorld {
+    /// Model; those of a batch differ in their numbers only.
+    pub model: Model<f64>,
+    /// State: the initial one before the run, the last one reached after it.
+    pub state: State<f64>,
+    /// Commands for every step, each in the unit of its actuator: `n_steps` rows of [`Model::n_commands`] numbers, one
+    /// row after the other; empty to hold those in `state`.
+    pub commands: Vec<f64>,
+    /// Reason for which it stopped before the end; `None` if it did not.
+    pub stop: Option<Stop>,
+    /// Recorded coordinates and velocities in SI units: rows of n_q + n_v numbers, one row after the other, the first
+    /// at the start, then one every `record_every` steps. A run appends to it.
+    pub record: Vec<f64>,
+}
+
+impl BatchWorld {
+    /// World that starts in `state` and holds the commands in it.
+    #[must_use]
+    pub fn new(model: Model<f64>, state: State<f64>) -> Self {
+        Self { model, state, commands: Vec::new(), stop: None, record: Vec::new() }
+    }
+}
+
+/// Method, step and length of a batch, the same for all its worlds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BatchSettings {
+    /// Integration method, one with a fixed step.
+    pub method: MethodKind,
+    /// Step size `[s]`, positive.
+    pub h: f64,
+    /// Number of steps.
+    pub n_steps: u32,
+    /// Steps from one record to the next; 0: no record.
+    pub record_every: u32,
+}
+
+/// Advances worlds by `n_steps` steps, as many at a time as the processor has lanes ([`sincro_math::lanes::width`]),
+/// with the same results as one by one. Worlds that lanes cannot take run alone.
+///
+/// # Errors
+///
+/// [`PackError`] if the models differ in more than numbers; it names the part. A world that stops being finite is no
+/// error of the batch: its own [`BatchWorld::stop`] says so.
+///
+/// # Panics
+///
+/// If the method is one with error control, whose worlds have no common step.
+///
+/// ```
+/// use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance};
+/// use sincro_dynamics::prelude::*;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -1.0], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // eight pendulums, from 0.1 to 0.8 rad: one second with steps of 1 ms
+/// let start = |k: u32| State { q: vec![0.1 * f64::from(k + 1)], ..State::new(&model) };
+/// let mut worlds: Vec<_> = (0..8).map(|k| BatchWorld::new(model.clone(), start(k))).collect();
+/// advance(&mut worlds, &BatchSettings { method: MethodKind::Rk4, h: 0.001, n_steps: 1000, record_every: 0 })?;
+/// assert!(worlds.iter().all(|world| world.stop.is_none() && world.state.q[0] < 0.0)); // on the other side
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<(), PackError> {
+    let fixed = matches!(settings.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
+    assert!(fixed, "a batch has a fixed step");
+    let width = sincro_math::lanes::width();
+    for bundle in worlds.chunks_mut(width) {
+        if bundle.iter().all(|w| suits_lanes(w, settings)) {
+            dispatch_lanes(Bundle { worlds: bundle, settings })?;
+        } else {
+            bundle.iter_mut().for_each(|w| advance_alone(w, settings));
+        }
+    }
+    Ok(())
+}
+
+fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
+    let end = settings.h * f64::from(settings.n_steps);
+    obstacle_to_lanes(&world.model, settings.method).is_none() && world.model.next_time_event(-1.0) >= end
+}
+
+/// Part of a model that lanes cannot advance together with `method`, in words for a message; `None` if there is none.
+#[must_use]
+pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'static str> {
+    if model.params.drives.iter().any(|d| model.drive_limit(d).is_some()) {
+        return Some("a drive with a limit or friction");
+    }
+    // particles are counted for each world
+    if model.rotors.iter().any(|r| matches!(r.speed, SpeedSource::Particles { .. })) {
+        return Some("a rotor of particles");
+    }
+    if method != MethodKind::Rk4 && !model.spring_dampers.is_empty() {
+        return Some("a spring or damper between two points, with an implicit method");
+    }
+    (!model.constraints().is_empty()).then_some("contacts, loop joints or limits of joints")
+}
+
+/// Returns true if the forces on a model do not depend on time explicitly: its signals are constant, the wind is
+/// steady.
+#[must_use]
+pub fn is_time_invariant(model: &Model<f64>) -> bool {
+    let applied = model.applied().iter().flat_map(|a| &a.signal);
+    let wrenches = model.wrenches().iter().flat_map(|w| w.force.iter().chain(&w.torque).flatten());
+    let is_constant = |signal: &Signal| matches!(signal, Signal::Constant(_));
+    applied.chain(wrenches).all(is_constant) && model.wind().is_none_or(Wind::is_steady)
+}
+
+/// Advances one world by itself, without lanes, by `n_steps` steps of `settings`; any method. The results are those of
+/// [`advance`]; if it stops early, [`BatchWorld::stop`] has the reason and `state` the last state reached.
+pub fn advance_alone(world: &mut BatchWorld, settings: &BatchSettings) {
+    let (n_q, n_commands) = (world.model.n_q(), world.model.n_commands());
+    let control = Control::new(1.0, settings.h);
+    let mut alone = World::with_totals(world.model.clone(), world.state.clone(), settings.method, control, false);
+    let first = alone.state.tick;
+    record(&mut world.record, &alone.state.q[..n_q], &alone.state.v, settings.record_every > 0);
+    for k in 0..settings.n_steps {
+        if !world.commands.is_empty() {
+            alone.state.commands.copy_from_slice(&world.commands[k as usize * n_commands..][..n_commands]);
+        }
+        if let Err((_, stop)) = alone.advance((first + u64::from(k)) as f64 * settings.h, settings.h) {
+            world.stop = Some(stop);
+            break;
+        }
+        let due = settings.record_every > 0 && (k + 1) % settings.record_every == 0;
+        record(&mut world.record, &alone.state.q, &alone.state.v, due);
+    }
+    world.state = alone.state;
+}
+
+fn record(into: &mut Vec<f64>, q: &[f64], v: &[f64], due: bool) {
+    if due {
+        into.extend_from_slice(q);
+        into.extend_from_slice(v);
+    }
+}
+
+/// Worlds that go through the lanes together; a last, short bundle repeats its last world.
+struct Bundle<'a> {
+    worlds: &'a mut [BatchWorld],
+    settings: &'a BatchSettings,
+}
+
+impl LaneVisitor for Bundle<'_> {
+    type Output = Result<(), PackError>;
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> Self::Output {
+        let Self { worlds, settings } = self;
+        if R::IS_SCALAR {
+            worlds.iter_mut().for_each(|w| advance_alone(w, settings));
+            return Ok(());
+        }
+        let models: Vec<&Model<f64>> = worlds.iter().map(|w| &w.model).collect();
+        LaneWorlds::<R>::new(&models, settings.method)?.run(worlds, settings);
+        Ok(())
+    }
+}

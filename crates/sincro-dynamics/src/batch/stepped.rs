@@ -1,0 +1,206 @@
+//! Worlds in lanes that are advanced step by step.
+
+use core::any::Any;
+use core::fmt;
+
+use sincro_math::Real;
+use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
+
+use super::lane_worlds::LaneWorlds;
+use super::obstacle_to_lanes;
+use crate::coupled::StateView;
+use crate::kinematics;
+use crate::model::{Model, PackError};
+use crate::state::State;
+use crate::world::MethodKind;
+
+/// Worlds of one structure in the lanes of this processor ([`sincro_math::lanes::width`]), advanced step by step, for
+/// training: states and commands of each lane can be set between steps. Forces must not depend on time
+/// ([`is_time_invariant`](super::is_time_invariant)), since each lane has a clock of its own.
+pub struct SteppedLanes {
+    /// A `LaneWorlds<R>`: only the dispatch can name the type of this processor's lanes.
+    worlds: Box<dyn Any + Send>,
+}
+
+impl fmt::Debug for SteppedLanes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("SteppedLanes")
+    }
+}
+
+/// Observer of the state of all lanes, argument of [`SteppedLanes::observe`].
+pub trait LaneObserver {
+    /// Result type.
+    type Output;
+
+    /// Looks at the state, bundles of [`Real::LANES`] numbers, as sensors and controllers see it; its time is always 0.
+    /// Must be `#[inline(always)]`, and so must what it calls, to be compiled for the instruction set that runs it.
+    fn observe<R: Real>(self, view: &StateView<'_, R>) -> Self::Output;
+}
+
+impl SteppedLanes {
+    /// Puts `models[k]` into lane k; the last model fills the remaining lanes. The initial state is all zeros: set each
+    /// lane before the first step.
+    ///
+    /// # Errors
+    ///
+    /// [`PackError`] if the models differ in more than their numbers; it names the part.
+    ///
+    /// # Panics
+    ///
+    /// If the method `kind` has error control, if there is no model, if lanes cannot take one ([`obstacle_to_lanes`]),
+    /// or if this processor has one lane only: one world alone is a [`World`](crate::world::World).
+    pub fn new(models: &[&Model<f64>], kind: MethodKind) -> Result<Self, PackError> {
+        assert!(sincro_math::lanes::width() > 1, "one world alone is a `World`");
+        assert!(models.iter().all(|model| obstacle_to_lanes(model, kind).is_none()), "lanes advance these models");
+        Ok(Self { worlds: dispatch_lanes(New { models, kind })? })
+    }
+
+    /// Sets the state of lane `lane`, 0 to the number of lanes − 1 (others: no effect): coordinates (n_q), velocities
+    /// (n_v) and rotor states of `state`, in SI units. Commands and the rest of it are ignored.
+    pub fn set_lane(&mut self, lane: usize, state: &State<f64>) {
+        dispatch_lanes(SetLane { lanes: self, lane, state });
+    }
+
+    /// Sets the commands of all lanes, held until they are set again: for each lane [`Model::n_commands`] numbers in
+    /// the model's order, each in the unit of its actuator, one lane after the other; lanes beyond those given take the
+    /// last one's.
+    ///
+    /// # Panics
+    ///
+    /// If `commands` has none for a lane though the model has commands.
+    pub fn set_commands(&mut self, commands: &[f64]) {
+        dispatch_lanes(SetCommands { lanes: self, commands });
+    }
+
+    /// Makes `n_steps` steps of length `h` `[s]` in all lanes.
+    pub fn advance(&mut self, h: f64, n_steps: u64) {
+        dispatch_lanes(Advance { lanes: self, h, n_steps });
+    }
+
+    /// Returns what `observer` makes of the state of all lanes; with `with_kinematics` the poses `[m]` and twists
+    /// `[rad/s]`, `[m/s]` of links in its scratch are those of the state, else they are outdated.
+    pub fn observe<O: LaneObserver>(&mut self, with_kinematics: bool, observer: O) -> O::Output {
+        if with_kinematics {
+            dispatch_lanes(UpdateKinematics { lanes: self });
+        }
+        dispatch_lanes(Observe { lanes: self, observer })
+    }
+
+    fn worlds<R: Real>(&mut self) -> &mut LaneWorlds<R> {
+        self.worlds.downcast_mut().expect("the dispatch takes the same lanes each time")
+    }
+}
+
+struct New<'a> {
+    models: &'a [&'a Model<f64>],
+    kind: MethodKind,
+}
+
+impl LaneVisitor for New<'_> {
+    type Output = Result<Box<dyn Any + Send>, PackError>;
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> Self::Output {
+        Ok(Box::new(LaneWorlds::<R>::new(self.models, self.kind)?))
+    }
+}
+
+struct SetLane<'a> {
+    lanes: &'a mut SteppedLanes,
+    lane: usize,
+    state: &'a State<f64>,
+}
+
+impl LaneVisitor for SetLane<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        let Self { lanes, lane, state } = self;
+        let LaneWorlds { mechanism, y, .. } = lanes.worlds::<R>();
+        let with = |old: R, new: f64| R::from_lanes(|k| if k == lane { new } else { old.lane(k) });
+        let base: Vec<R> = mechanism.base().iter().zip(&state.q).map(|(old, new)| with(*old, *new)).collect();
+        mechanism.set_base(&base);
+        let layout = mechanism.layout();
+        for (k, new) in state.v.iter().enumerate() {
+            let at = layout.velocity(k);
+            y[at] = with(y[at], *new);
+            y[k] = with(y[k], 0.0);
+        }
+        for (k, new) in layout.rotor_states().zip(&state.rotors) {
+            y[k] = with(y[k], *new);
+        }
+    }
+}
+
+struct SetCommands<'a> {
+    lanes: &'a mut SteppedLanes,
+    commands: &'a [f64],
+}
+
+impl LaneVisitor for SetCommands<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        let to = &mut self.lanes.worlds::<R>().mechanism.commands;
+        let n = to.len();
+        for (i, command) in to.iter_mut().enumerate() {
+            let last = self.commands.len() / n - 1;
+            *command = R::from_lanes(|lane| self.commands[lane.min(last) * n + i]);
+        }
+    }
+}
+
+struct Advance<'a> {
+    lanes: &'a mut SteppedLanes,
+    h: f64,
+    n_steps: u64,
+}
+
+impl LaneVisitor for Advance<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        let worlds = self.lanes.worlds::<R>();
+        for _ in 0..self.n_steps {
+            worlds.step(0.0, self.h);
+        }
+    }
+}
+
+struct UpdateKinematics<'a> {
+    lanes: &'a mut SteppedLanes,
+}
+
+impl LaneVisitor for UpdateKinematics<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        let LaneWorlds { mechanism, y, reach_target_velocities: zeros, .. } = self.lanes.worlds::<R>();
+        let v = &y[mechanism.layout().velocities()];
+        zeros.fill(R::zero());
+        kinematics::motions(&mechanism.model, &mechanism.base, v, zeros, &mut mechanism.scratch);
+    }
+}
+
+struct Observe<'a, O> {
+    lanes: &'a mut SteppedLanes,
+    observer: O,
+}
+
+impl<O: LaneObserver> LaneVisitor for Observe<'_, O> {
+    type Output = O::Output;
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> O::Output {
+        let LaneWorlds { mechanism, y, .. } = self.lanes.worlds::<R>();
+        let layout = mechanism.layout();
+        let (v, rotors) = (&y[layout.velocities()], &y[layout.rotor_states()]);
+        let (model, q, commands) = (&mechanism.model, &*mechanism.base, &*mechanism.commands);
+        self.observer.observe(&StateView { t: 0.0, model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
+    }
+}
