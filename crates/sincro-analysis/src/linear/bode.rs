@@ -1,4 +1,5 @@
-//! Frequency response: magnitude, phase that does not jump, margins. Cost: one complex decomposition a frequency.
+//! Frequency response: magnitude, phase that does not jump, margins. Cost: one complex decomposition a frequency, for
+//! all channels together ([`StateSpace::frequency_responses`]) or for one.
 //!
 //! `G(jω) = C (jω I − A)⁻¹ B + D`. The phase is known from `G` up to whole turns; the turns come from the poles and
 //! zeros, each of which adds its own angle of at most a quarter turn (key `ogata2010`, 7-2): an undamped pair turns the
@@ -112,6 +113,55 @@ impl StateSpace {
         omegas.iter().map(|&omega| channel.at(omega)).collect()
     }
 
+    /// Returns `G(jω)` of all channels at each of `omegas` `[rad/s]`, in their order: a matrix each, one row an output
+    /// and one column an input, in units of outputs per unit of inputs; the numbers of
+    /// [`StateSpace::frequency_response`] for one decomposition a frequency.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// let one = DMatrix::from_element(1, 1, 1.0);
+    /// let lag = StateSpace::from_matrices(-&one, one.clone(), one, DMatrix::zeros(1, 1))?; // 1/(s + 1)
+    /// let responses = lag.frequency_responses(&[1.0, 10.0]);
+    /// assert_eq!(responses[1][(0, 0)], lag.frequency_response(0, 0, &[10.0])[0]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn frequency_responses(&self, omegas: &[f64]) -> Vec<DMatrix<Complex<f64>>> {
+        let complex = |x: f64| Complex::new(x, 0.0);
+        let (b, c, d) = (self.b.map(complex), self.c.map(complex), self.d.map(complex));
+        let at = |&omega: &f64| match self.pencil(omega) {
+            None => d.clone(),
+            Some(pencil) => match pencil.lu().solve(&b) {
+                Some(x) => DMatrix::from_fn(c.nrows(), b.ncols(), |output, input| {
+                    c.row(output).transpose().dot(&x.column(input)) + d[(output, input)]
+                }),
+                None => d.map(|_| Complex::new(f64::NAN, f64::NAN)),
+            },
+        };
+        omegas.iter().map(at).collect()
+    }
+
+    /// `s I − A` at `s = jω`, of a sampled system at `exp(jω T)`; `None` without states.
+    fn pencil(&self, omega: f64) -> Option<DMatrix<Complex<f64>>> {
+        let s = match self.sample_time {
+            None => Complex::new(0.0, omega),
+            Some(tick) => {
+                let (sine, cosine) = sin_cos(omega * tick);
+                Complex::new(cosine, sine)
+            }
+        };
+        let a = &self.a;
+        (!a.is_empty()).then(|| {
+            DMatrix::from_fn(a.nrows(), a.nrows(), |row, column| {
+                let own = if row == column { s } else { Complex::new(0.0, 0.0) };
+                own - a[(row, column)]
+            })
+        })
+    }
+
     /// Returns the frequency response from input `input` to output `output` (indices from 0), from a decade below its
     /// poles and zeros to a decade above; of a sampled system up to the Nyquist frequency.
     ///
@@ -140,7 +190,9 @@ impl StateSpace {
     /// ```
     pub fn bode(&self, input: usize, output: usize) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
-        Ok(corners.bode(&Channel::new(self, input, output), corners.grid()))
+        let omega = corners.grid();
+        let values = self.frequency_response(input, output, &omega);
+        Ok(corners.bode(&Channel::new(self, input, output), omega, values))
     }
 
     /// Returns the frequency response from input `input` to output `output` (indices from 0) at the frequencies
@@ -154,8 +206,42 @@ impl StateSpace {
     ///
     /// If `input` or `output` is no index of an input or output.
     pub fn bode_at(&self, input: usize, output: usize, omega: &[f64]) -> Result<Bode, LinearError> {
+        let values = self.frequency_response(input, output, omega);
+        self.bode_of(input, output, omega, values)
+    }
+
+    /// Returns what [`StateSpace::bode_at`] does, for the frequency response `values` at `omega`, of the same length;
+    /// of several channels at the same frequencies it comes from [`StateSpace::frequency_responses`].
+    ///
+    /// # Errors
+    ///
+    /// [`LinearError::NoPath`]: the output does not depend on the input.
+    ///
+    /// # Panics
+    ///
+    /// If `input` or `output` is no index of an input or output.
+    ///
+    /// ```
+    /// use sincro_analysis::prelude::*;
+    ///
+    /// # fn main() -> Result<(), LinearError> {
+    /// let one = DMatrix::from_element(1, 1, 1.0);
+    /// let lag = StateSpace::from_matrices(-&one, one.clone(), one, DMatrix::zeros(1, 1))?; // 1/(s + 1)
+    /// let omega = [0.1, 1.0, 10.0];
+    /// let values = lag.frequency_responses(&omega).iter().map(|g| g[(0, 0)]).collect();
+    /// assert_eq!(lag.bode_of(0, 0, &omega, values)?, lag.bode_at(0, 0, &omega)?);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn bode_of(
+        &self,
+        input: usize,
+        output: usize,
+        omega: &[f64],
+        values: Vec<Complex<f64>>,
+    ) -> Result<Bode, LinearError> {
         let corners = Corners::new(self, &eigenvalues(&self.a), &self.zeros(input, output)?);
-        Ok(corners.bode(&Channel::new(self, input, output), omega.to_vec()))
+        Ok(corners.bode(&Channel::new(self, input, output), omega.to_vec(), values))
     }
 
     /// Returns a grid of angular frequencies that shows every pole and the zeros of every channel, ascending `[rad/s]`:
@@ -189,21 +275,7 @@ impl<'a> Channel<'a> {
     }
 
     fn at(&self, omega: f64) -> Complex<f64> {
-        let s = match self.system.sample_time {
-            None => Complex::new(0.0, omega),
-            Some(tick) => {
-                let (sine, cosine) = sin_cos(omega * tick);
-                Complex::new(cosine, sine)
-            }
-        };
-        let a = &self.system.a;
-        if a.is_empty() {
-            return Complex::new(self.d, 0.0);
-        }
-        let pencil = DMatrix::from_fn(a.nrows(), a.nrows(), |row, column| {
-            let own = if row == column { s } else { Complex::new(0.0, 0.0) };
-            own - a[(row, column)]
-        });
+        let Some(pencil) = self.system.pencil(omega) else { return Complex::new(self.d, 0.0) };
         match pencil.lu().solve(&self.b) {
             Some(x) => self.c.dot(&x) + self.d,
             None => Complex::new(f64::NAN, f64::NAN),
@@ -249,8 +321,7 @@ impl Corners {
         (power_of_ten(first), self.nyquist.unwrap_or_else(|| power_of_ten(last)))
     }
 
-    fn bode(&self, channel: &Channel, omega: Vec<f64>) -> Bode {
-        let values: Vec<Complex<f64>> = omega.iter().map(|&w| channel.at(w)).collect();
+    fn bode(&self, channel: &Channel, omega: Vec<f64>, values: Vec<Complex<f64>>) -> Bode {
         let phase = if self.nyquist.is_some() { unwrapped(&values) } else { self.phases(&omega, &values) };
         Bode {
             magnitude_db: values.iter().map(|g| decibel(modulus(*g))).collect(),

@@ -7,7 +7,7 @@ mod figures;
 mod page;
 mod text;
 
-use sincro_analysis::linear::{Bode, Complex, LinearError, Mode, StateSpace, StepResponse, SubspaceRank};
+use sincro_analysis::linear::{Bode, Complex, DMatrix, LinearError, Mode, StateSpace, StepResponse, SubspaceRank};
 
 pub use figures::all as figures;
 pub use page::html;
@@ -61,10 +61,11 @@ impl<'a> Analysis<'a> {
     #[must_use]
     pub fn of(title: impl Into<String>, system: &'a StateSpace) -> Self {
         let omega = system.frequencies();
+        let responses = system.frequency_responses(&omega);
         let pairs = (0..system.n_inputs()).flat_map(|i| (0..system.n_outputs()).map(move |o| (i, o)));
         let (mut channels, mut silent) = (Vec::new(), Vec::new());
         for (input, output) in pairs {
-            match Channel::of(system, input, output, &omega) {
+            match Channel::of(system, input, output, (&omega, &responses)) {
                 Ok(channel) => channels.push(channel),
                 Err(problem) => silent.push(problem.to_string()),
             }
@@ -130,13 +131,19 @@ fn quotient(top: &str, bottom: &str) -> String {
 }
 
 impl Channel {
-    fn of(system: &StateSpace, input: usize, output: usize, omega: &[f64]) -> Result<Self, LinearError> {
+    fn of(
+        system: &StateSpace,
+        input: usize,
+        output: usize,
+        (omega, responses): (&[f64], &[DMatrix<Complex<f64>>]),
+    ) -> Result<Self, LinearError> {
+        let values = responses.iter().map(|g| g[(output, input)]).collect();
         Ok(Self {
             input,
             output,
             zeros: system.zeros(input, output)?,
             gain: system.gain(input, output),
-            bode: system.bode_at(input, output, omega)?,
+            bode: system.bode_of(input, output, omega, values)?,
             step: system.step_response(input, output, None),
         })
     }
