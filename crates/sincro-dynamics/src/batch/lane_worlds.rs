@@ -117,6 +117,7 @@ impl<R: Real> LaneWorlds<R> {
     }
 
     /// Advances `worlds` from their states, which it leaves where they end.
+    #[inline(always)]
     pub fn run(&mut self, worlds: &mut [BatchWorld], settings: &BatchSettings) {
         self.load(worlds);
         let first = worlds[0].state.tick;
@@ -135,6 +136,7 @@ impl<R: Real> LaneWorlds<R> {
     }
 
     /// Makes one step of length `h` `[s]` in all lanes, compiled once for each instruction set.
+    #[inline(always)]
     pub fn step(&mut self, t: f64, h: f64) {
         // one world alone is a `World`: no copy of the step for it
         if !R::IS_SCALAR {
