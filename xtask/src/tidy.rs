@@ -13,10 +13,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-math", &[]),
     ("sincro-complementarity", &["sincro-math"]),
     ("sincro-geometry", &["sincro-math"]),
+    ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
     ("sincro-dynamics", &["sincro-math", "sincro-complementarity", "sincro-geometry", "sincro-aero"]),
     ("sincro-blocks", &["sincro-math"]),
-    ("sincro-scene", &["sincro-math", "sincro-dynamics", "sincro-blocks"]),
+    ("sincro-scene", &["sincro-math", "sincro-camera", "sincro-dynamics", "sincro-blocks"]),
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
     ("sincro-analysis", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
     ("sincro-coppelia", &["sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
@@ -90,8 +91,15 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 6] =
-    ["sincro-math", "sincro-complementarity", "sincro-geometry", "sincro-aero", "sincro-dynamics", "sincro-blocks"];
+const THINKING: [&str; 7] = [
+    "sincro-math",
+    "sincro-complementarity",
+    "sincro-geometry",
+    "sincro-camera",
+    "sincro-aero",
+    "sincro-dynamics",
+    "sincro-blocks",
+];
 
 /// Names that must not stand in them: no files, clock, threads, unordered maps.
 const IMPURE: [&str; 6] = ["std::fs", "std::time", "std::thread", "std::net", "HashMap", "HashSet"];

@@ -41,12 +41,11 @@
 //! | [`diagnostic`], [`document`], [`folder`], [`tree`], [`suggest`] | findings with their place, parsed TOML with its spans, files of a folder, paths of objects, near names |
 //! | [`schema`] | JSON Schemas from the types, and the checker that walks a file against them |
 //! | [`overrides`], [`apply_overrides`] | settings (`--set`, variants), and where they are written |
-//! | [`script`], [`fmu`], [`sensor`], [`scenery`], [`camera`] | parts of a scene: scripts, FMUs, sensors, visible pieces, rendered pictures |
+//! | [`script`], [`fmu`], [`sensor`], [`scenery`], [`camera`] | parts of a scene: scripts, FMUs, sensors, visible pieces; rendered pictures: the crate `sincro-camera` |
 //! | [`scene`], [`record`], [`experiment`], [`diagram`] | the three files, and the catalogue of signals between them |
 //! | [`open`], [`numbers`] | a folder with all of them; every number in it that a setting reaches |
 
 pub mod apply_overrides;
-pub mod camera;
 pub mod diagnostic;
 pub mod diagram;
 pub mod document;
@@ -70,3 +69,5 @@ pub(crate) mod series;
 pub mod suggest;
 pub mod tree;
 mod vocabulary;
+
+pub use sincro_camera as camera;

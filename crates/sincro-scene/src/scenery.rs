@@ -8,6 +8,8 @@ use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::Pose;
 
+use crate::camera::VisiblePiece;
+
 /// Piece of the visible geometry of a scene: one solid or surface with its frame and colour, for images, distances and
 /// the viewer.
 #[derive(Clone, Debug)]
@@ -29,11 +31,15 @@ pub struct Scenery {
     pub pieces: Vec<Piece>,
 }
 
-/// Returns each piece with its pose in the world `[m]`, in the order of `pieces`. `scratch` must hold the poses of the
-/// links ([`kinematics::poses`]).
-pub fn placed<'a>(
+/// Returns the pieces as a [`Renderer`](crate::camera::Renderer) takes them, in the order of `pieces`. `scratch` must
+/// hold the poses of the links ([`kinematics::poses`]).
+pub fn visible<'a>(
     pieces: impl Iterator<Item = &'a Piece>,
     scratch: &Scratch<f64>,
-) -> impl Iterator<Item = (&'a Piece, Pose<f64>)> {
-    pieces.map(|piece| (piece, kinematics::frame_pose(scratch, &piece.at)))
+) -> impl Iterator<Item = VisiblePiece<'a>> {
+    pieces.map(|piece| VisiblePiece {
+        geometry: &piece.geometry,
+        color: piece.color,
+        pose: kinematics::frame_pose(scratch, &piece.at),
+    })
 }

@@ -13,7 +13,7 @@ use super::senses::handle_of;
 use super::{ApiError, SimApi};
 use sincro_scene::camera::{Image, Layer, Optics, Part, Renderer};
 use sincro_scene::scene::VisionSensor;
-use sincro_scene::scenery::placed;
+use sincro_scene::scenery::visible;
 
 /// Pixels that all vision sensors may have together: 16 Mi, which take 250 MB once they are read.
 const MAX_PIXELS: usize = 1 << 24;
@@ -407,7 +407,7 @@ impl SimApi<'_> {
         let SensorSlot { sensor, image, .. } = &mut slots[k];
         let image = image.get_or_insert_with(|| Image::new(&sensor.optics));
         let pieces = registry.senses.pieces().filter(|piece| object.is_none_or(|object| handle_of(piece) == object));
-        let pieces = placed(pieces, scratch);
+        let pieces = visible(pieces, scratch);
         buffers.renderer.get_or_insert_default().draw(pieces, (&x_wc, &sensor.optics), sensor.background, image);
     }
 }

@@ -9,7 +9,7 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::{ObjectKind, Scene, VisionSensor, frame_of, looking};
 use crate::camera::{BACKGROUND, FAR, Image, Lens, NEAR, Optics, Renderer};
-use crate::scenery::{Scenery, placed};
+use crate::scenery::{Scenery, visible};
 
 /// Camera that renders images of a scene at given coordinates, outside of any run; it keeps its buffers from image to
 /// image.
@@ -73,7 +73,7 @@ impl Camera {
     pub fn render(&mut self, q: &[f64]) -> &Image {
         kinematics::poses(&self.model, q, &mut self.scratch);
         let x_wc = kinematics::frame_pose(&self.scratch, &self.frame);
-        let pieces = placed(self.scenery.pieces.iter(), &self.scratch);
+        let pieces = visible(self.scenery.pieces.iter(), &self.scratch);
         self.renderer.draw(pieces, (&x_wc, &self.sensor.optics), self.sensor.background, &mut self.image);
         &self.image
     }

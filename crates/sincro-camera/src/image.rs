@@ -1,22 +1,22 @@
 //! A picture: what each pixel shows, and parts of it as bytes.
 
-use super::render::NO_PIECE;
-use super::{BACKGROUND, Optics};
+use crate::render::NO_PIECE;
+use crate::{BACKGROUND, Optics};
 
 /// Image of a camera: colour, depth and visible piece of each pixel. Pixels are stored row by row from the bottom of
 /// the picture, each row from left to right; pixel (column, row) has the index `row · columns + column`. Filled by
-/// [`Renderer::draw`](super::Renderer::draw).
+/// [`Renderer::draw`](crate::Renderer::draw).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     resolution: [usize; 2],
     near: f64,
     far: f64,
     /// Red, green, blue.
-    pub(super) rgb: Vec<u8>,
+    pub(crate) rgb: Vec<u8>,
     /// Along the camera's z `[m]`; `far` where nothing is.
-    pub(super) depth: Vec<f64>,
+    pub(crate) depth: Vec<f64>,
     /// Index of the piece; [`NO_PIECE`] where there is none.
-    pub(super) piece: Vec<u32>,
+    pub(crate) piece: Vec<u32>,
 }
 
 /// Rectangular part of an image, in pixels.
@@ -215,6 +215,6 @@ impl Image {
 }
 
 /// The mean of red, green and blue, rounded down.
-pub(super) fn grey(pixel: &[u8]) -> u8 {
+pub(crate) fn grey(pixel: &[u8]) -> u8 {
     ((u16::from(pixel[0]) + u16::from(pixel[1]) + u16::from(pixel[2])) / 3) as u8
 }

@@ -3,7 +3,7 @@
 //! Light is added up in linear measure: a colour c (sRGB) in the light E gives the linear colour c E/π (Lambert),
 //! written as sRGB again.
 
-use sincro_dynamics::spatial::Vec3;
+use sincro_geometry::spatial::Vec3;
 use sincro_math::elementary;
 
 /// From where the sun shines, not normalised; and how strong, as the page has it.
@@ -17,7 +17,7 @@ const STEPS: usize = 4096;
 
 /// The light, with tables between bytes and linear measure.
 #[derive(Clone, Debug)]
-pub(super) struct Light {
+pub(crate) struct Light {
     sun: Vec3<f64>,
     linear: Vec<f64>,
     bytes: Vec<u8>,
@@ -56,7 +56,8 @@ impl Light {
             let (strength, grey) = (SKY.0, SKY.1[c]);
             let light = sun + strength * (grey + (1.0 - grey) * share);
             let step = color[c] * light * (STEPS as f64 * std::f64::consts::FRAC_1_PI) + 0.5;
-            self.bytes[(step as usize).min(STEPS)]
+            // a signed number, which processors convert to at once
+            self.bytes[(step as i32 as usize).min(STEPS)]
         })
     }
 }

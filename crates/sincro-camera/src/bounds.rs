@@ -1,14 +1,14 @@
 //! In which pixels a piece can be: the rectangle of the box about it.
 
-use sincro_dynamics::contact::Surface;
-use sincro_dynamics::model::Shape;
-use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+use sincro_geometry::Shape;
+use sincro_geometry::Surface;
+use sincro_geometry::spatial::{Mat3, Pose, Vec3};
 
-use super::{Lens, Optics};
+use crate::{Lens, Optics};
 
 /// A box about a surface, in the surface's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Extent {
+pub(crate) enum Extent {
     /// A ball about the origin.
     Ball(f64),
     /// Least and greatest coordinates.
@@ -19,7 +19,7 @@ pub(super) enum Extent {
 
 /// Columns and rows, ends not among them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rectangle {
+pub(crate) struct Rectangle {
     pub columns: (usize, usize),
     pub rows: (usize, usize),
 }

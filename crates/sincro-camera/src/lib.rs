@@ -1,8 +1,11 @@
-//! Pictures of a scene: what a camera sees, by rays that meet every surface where it really is. No part of a step.
+#![doc = include_str!("../README.md")]
+//! # Pictures of surfaces
 //!
-//! | file | has |
+//! No part of a step.
+//!
+//! | file | content |
 //! |---|---|
-//! | `mod.rs` | [`Optics`]: how many pixels, which lens, from where to where |
+//! | `lib.rs` | [`Optics`]: how many pixels, which lens, from where to where |
 //! | `image.rs` | [`Image`]: colours, depths, and what is seen, pixel by pixel; parts of it as bytes |
 //! | `render.rs` | [`Renderer`]: one piece after the other, nearest first, each in the rectangle that holds it |
 //! | `bounds.rs` | the rectangle of a piece |
@@ -22,7 +25,7 @@ mod render;
 mod tests;
 
 pub use image::{Image, Layer, Part};
-pub use render::{NO_PIECE, Renderer};
+pub use render::{NO_PIECE, Renderer, VisiblePiece};
 
 use sincro_math::elementary;
 

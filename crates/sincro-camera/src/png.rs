@@ -35,7 +35,7 @@ impl Channels {
 }
 
 /// Encodes an image as a PNG file and returns its bytes. `pixels` holds `columns · rows` pixels of [`Channels::width`]
-/// bytes, row by row from the bottom of the picture as in [`Image`](super::Image), each from left to right.
+/// bytes, row by row from the bottom of the picture as in [`Image`](crate::Image), each from left to right.
 ///
 /// # Panics
 ///

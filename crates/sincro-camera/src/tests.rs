@@ -2,21 +2,31 @@
 
 use std::sync::Arc;
 
-use sincro_dynamics::contact::Surface;
-use sincro_dynamics::geometry::{Geometry, Ray};
-use sincro_dynamics::kinematics::Attached;
-use sincro_dynamics::model::Shape;
-use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+use sincro_geometry::Shape;
+use sincro_geometry::Surface;
+use sincro_geometry::spatial::{Mat3, Pose, Vec3};
+use sincro_geometry::{Geometry, Ray};
 
-use super::*;
-use crate::scenery::Piece;
+use crate::*;
 
 const SQUARE: Optics = Optics { resolution: [240, 180], near: 0.1, far: 50.0, lens: Lens::Perspective(0.9) };
 
-/// A piece that hangs in the world.
+/// A piece that is kept.
+#[derive(Clone)]
+struct Piece {
+    geometry: Arc<Geometry>,
+    color: [u8; 3],
+    pose: Pose<f64>,
+}
+
+impl Piece {
+    fn visible(&self) -> VisiblePiece<'_> {
+        VisiblePiece { geometry: &self.geometry, color: self.color, pose: self.pose }
+    }
+}
+
 fn piece(surface: Surface, pose: Pose<f64>, color: [u8; 3]) -> Piece {
-    let geometry = Arc::new(Geometry::new(surface).unwrap());
-    Piece { object: 0, at: Attached { link: None, pose }, geometry, color }
+    Piece { geometry: Arc::new(Geometry::new(surface).unwrap()), color, pose }
 }
 
 fn at(x: f64, y: f64, z: f64) -> Pose<f64> {
@@ -53,8 +63,7 @@ fn facing(ahead: [f64; 3]) -> Mat3<f64> {
 /// The picture from a camera's pose.
 fn picture(pieces: Vec<Piece>, x_wc: &Pose<f64>, optics: &Optics) -> Image {
     let mut image = Image::new(optics);
-    let placed = pieces.iter().map(|piece| (piece, piece.at.pose));
-    Renderer::new().draw(placed, (x_wc, optics), BACKGROUND, &mut image);
+    Renderer::new().draw(pieces.iter().map(Piece::visible), (x_wc, optics), BACKGROUND, &mut image);
     image
 }
 
@@ -315,8 +324,7 @@ fn a_picture_of_the_same_size_takes_no_new_memory() {
     let pieces = [piece(ball(0.5), at(0.0, 0.0, 3.0), [9; 3]), piece(Surface::HalfSpace, at(0.0, 0.0, -1.0), [9; 3])];
     let (mut renderer, mut image) = (Renderer::new(), Image::new(&SQUARE));
     let mut draw = || {
-        let placed = pieces.iter().map(|piece| (piece, piece.at.pose));
-        renderer.draw(placed, (&Pose::identity(), &SQUARE), BACKGROUND, &mut image);
+        renderer.draw(pieces.iter().map(Piece::visible), (&Pose::identity(), &SQUARE), BACKGROUND, &mut image);
     };
     draw();
     assert_eq!(allocation_counter::measure(draw).count_total, 0);

@@ -7,16 +7,26 @@
 
 use std::sync::Arc;
 
-use sincro_dynamics::geometry::{Geometry, Hit, Ray};
-use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_geometry::spatial::{Pose, Vec3};
+use sincro_geometry::{Geometry, Hit, Ray};
 
-use super::bounds::{Extent, Rectangle};
-use super::light::Light;
-use super::{Image, Lens, Optics};
-use crate::scenery::Piece;
+use crate::bounds::{Extent, Rectangle};
+use crate::light::Light;
+use crate::{Image, Lens, Optics};
 
 /// Piece index of a pixel that shows the background; see [`Image::pieces`].
 pub const NO_PIECE: u32 = u32::MAX;
+
+/// Solid or surface that a picture may show, with its colour and place.
+#[derive(Clone, Copy, Debug)]
+pub struct VisiblePiece<'a> {
+    /// Geometry in the piece's own frame `[m]`.
+    pub geometry: &'a Arc<Geometry>,
+    /// Colour: red, green, blue, 0 to 255.
+    pub color: [u8; 3],
+    /// Pose of the piece's frame in the world `[m]`.
+    pub pose: Pose<f64>,
+}
 
 /// Software renderer: draws pieces of a scene as a camera sees them. It keeps its buffers, and so should be used again
 /// for the next image.
@@ -56,12 +66,12 @@ impl Renderer {
         Self { light: Light::new(), extents: Vec::new(), order: Vec::new() }
     }
 
-    /// Draws pieces into `image`, whose former content is lost: each piece comes with its pose in the world, `x_wc` is
-    /// the camera's pose in the world `[m]` (it looks along its z, y up). Pixels without a piece get the colour
-    /// `background` (red, green, blue, 0 to 255). Piece indices in the image count the iterator's items from 0.
+    /// Draws pieces into `image`, whose former content is lost: `x_wc` is the camera's pose in the world `[m]` (it
+    /// looks along its z, y up). Pixels without a piece get the colour `background` (red, green, blue, 0 to 255). Piece
+    /// indices in the image count the iterator's items from 0.
     pub fn draw<'p>(
         &mut self,
-        pieces: impl Iterator<Item = (&'p Piece, Pose<f64>)>,
+        pieces: impl Iterator<Item = VisiblePiece<'p>>,
         (x_wc, optics): (&Pose<f64>, &Optics),
         background: [u8; 3],
         image: &mut Image,
@@ -78,20 +88,20 @@ impl Renderer {
     }
 
     /// The pieces that can be seen, the nearest first: what is behind them is often not painted then.
-    fn sort<'p>(&mut self, pieces: impl Iterator<Item = (&'p Piece, Pose<f64>)>, x_wc: &Pose<f64>, optics: &Optics) {
+    fn sort<'p>(&mut self, pieces: impl Iterator<Item = VisiblePiece<'p>>, x_wc: &Pose<f64>, optics: &Optics) {
         let x_cw = x_wc.inverse();
         self.order.clear();
-        for (place, (piece, x_wp)) in pieces.enumerate() {
-            let extent = self.extent(place, &piece.geometry);
+        for (place, VisiblePiece { geometry, color, pose: x_wp }) in pieces.enumerate() {
+            let extent = self.extent(place, geometry);
             let x_cp = x_cw.compose(&x_wp);
-            let reach = piece.geometry.reach();
+            let reach = geometry.reach();
             let begins = if reach.is_finite() { x_cp.pos[2] - reach } else { f64::MAX };
             // behind, or beyond the end
             if reach.is_finite() && (x_cp.pos[2] + reach < optics.near || begins > optics.far) {
                 continue;
             }
             if let Some(rectangle) = extent.rectangle(&x_cp, optics) {
-                let (geometry, color) = (piece.geometry.clone(), piece.color);
+                let geometry = geometry.clone();
                 self.order.push(Seen { begins, place, rectangle, geometry, color, x_wp });
             }
         }
@@ -128,7 +138,7 @@ struct Canvas<'a> {
 
 impl Canvas<'_> {
     /// A pixel shows the piece; the normal and the way of looking are in its axes.
-    #[inline]
+    #[inline(always)]
     fn put(&mut self, place: usize, depth: f64, normal: Vec3<f64>, direction: Vec3<f64>) {
         // an open surface is lit on both sides
         let towards = if normal.dot(direction) > 0.0 { -normal } else { normal };
