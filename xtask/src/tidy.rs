@@ -13,9 +13,13 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-math", &[]),
     ("sincro-complementarity", &["sincro-math"]),
     ("sincro-geometry", &["sincro-math"]),
+    ("sincro-integrate", &["sincro-math"]),
     ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
-    ("sincro-dynamics", &["sincro-math", "sincro-complementarity", "sincro-geometry", "sincro-aero"]),
+    (
+        "sincro-dynamics",
+        &["sincro-math", "sincro-complementarity", "sincro-geometry", "sincro-integrate", "sincro-aero"],
+    ),
     ("sincro-blocks", &["sincro-math"]),
     ("sincro-scene", &["sincro-math", "sincro-camera", "sincro-dynamics", "sincro-blocks"]),
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
@@ -91,10 +95,11 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 7] = [
+const THINKING: [&str; 8] = [
     "sincro-math",
     "sincro-complementarity",
     "sincro-geometry",
+    "sincro-integrate",
     "sincro-camera",
     "sincro-aero",
     "sincro-dynamics",

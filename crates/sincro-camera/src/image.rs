@@ -1,7 +1,9 @@
 //! A picture: what each pixel shows, and parts of it as bytes.
 
-use crate::render::NO_PIECE;
 use crate::{BACKGROUND, Optics};
+
+/// Piece index of a pixel that shows the background; see [`Image::pieces`].
+pub const NO_PIECE: u32 = u32::MAX;
 
 /// Image of a camera: colour, depth and visible piece of each pixel. Pixels are stored row by row from the bottom of
 /// the picture, each row from left to right; pixel (column, row) has the index `row · columns + column`. Filled by

@@ -24,8 +24,8 @@ mod render;
 #[cfg(test)]
 mod tests;
 
-pub use image::{Image, Layer, Part};
-pub use render::{NO_PIECE, Renderer, VisiblePiece};
+pub use image::{Image, Layer, NO_PIECE, Part};
+pub use render::{Renderer, VisiblePiece};
 
 use sincro_math::elementary;
 

@@ -14,9 +14,6 @@ use crate::bounds::{Extent, Rectangle};
 use crate::light::Light;
 use crate::{Image, Lens, Optics};
 
-/// Piece index of a pixel that shows the background; see [`Image::pieces`].
-pub const NO_PIECE: u32 = u32::MAX;
-
 /// Solid or surface that a picture may show, with its colour and place.
 #[derive(Clone, Copy, Debug)]
 pub struct VisiblePiece<'a> {

@@ -17,7 +17,7 @@
 //! | [`energy`] | energies and momentum |
 //! | [`constraint`] | loop joints, joint limits, contacts with friction: one complementarity problem |
 //! | [`stiffness`] | rates of springs and dampers |
-//! | [`integrate`] | fixed-step and error-controlled methods |
+//! | [`integrate`] | fixed-step and error-controlled methods: the crate `sincro-integrate` |
 //! | [`mechanism`], [`coupled`] | the system to integrate; systems integrated along with it |
 //! | [`initial`] | consistency of an initial state |
 //! | [`world`], [`batch`] | a world that advances; many worlds in lanes |
@@ -35,20 +35,19 @@ pub mod coupled;
 pub mod energy;
 pub mod ids;
 pub mod initial;
-pub mod integrate;
 pub mod joint;
 pub mod mechanism;
 pub mod model;
 pub mod prelude;
 pub mod recursions;
 pub mod scratch;
-pub mod signal;
 pub mod state;
 pub mod stiffness;
 pub mod world;
 
 pub use sincro_aero as aero;
 pub use sincro_geometry::{self as geometry, spatial};
-pub use sincro_math::error;
+pub use sincro_integrate as integrate;
+pub use sincro_math::{error, signal};
 
 pub use recursions::{aba, crba, kinematics, rnea};

@@ -11,6 +11,7 @@ pub mod random;
 mod real;
 mod scalar;
 pub mod series;
+pub mod signal;
 
 pub use dual::Dual;
 pub use lanes::{LaneVisitor, Lanes};

@@ -11,6 +11,7 @@
 
 use std::sync::Arc;
 
+use sincro_integrate::quadrature;
 use sincro_math::Real;
 use sincro_math::dual::Dual;
 use sincro_math::error::InvalidParameters;
@@ -22,9 +23,6 @@ pub const FORMULA_NAMES: [&str; 2] = ["x", "v"];
 
 /// Largest number of intermediate values of a formula: its stack stands in the function that evaluates it.
 const MAX_STACK: usize = 16;
-
-/// Largest number of bisections of an interval of quadrature.
-const MAX_BISECTIONS: u32 = 12;
 
 /// Force law of a spring and damper, F = preload − k x − c ẋ + N(x, ẋ) over deflection x and rate ẋ; a positive force
 /// acts towards larger x. Units below are those of a line; of a joint with an angle they are N·m, rad, rad/s.
@@ -93,7 +91,7 @@ impl NonlinearLaw {
     pub fn potential<R: Real>(&self, x: R) -> R {
         let of = |x: f64| match self {
             Self::Table(table) => table.integral(0.0) - table.integral(x),
-            Self::Formula(_) => -integrate(&|s| self.force(s, 0.0), 0.0, x),
+            Self::Formula(_) => -quadrature(&|s| self.force(s, 0.0), 0.0, x),
         };
         x.map(|x| (of(x), -self.force(x, 0.0)))
     }
@@ -210,45 +208,6 @@ impl<R: Real> ForceLaw<R> {
         }
         (k.max(R::zero()), c.max(R::zero()))
     }
-}
-
-/// Nodes and weights of the Gauss–Legendre rule of seven points on [−1, 1], by symmetry.
-const GAUSS: [(f64, f64); 4] = [
-    (0.0, 0.417_959_183_673_469_4),
-    (0.405_845_151_377_397_2, 0.381_830_050_505_118_9),
-    (0.741_531_185_599_394_4, 0.279_705_391_489_276_7),
-    (0.949_107_912_342_758_5, 0.129_484_966_168_869_7),
-];
-
-/// ∫ f from `a` to `b` by the Gauss–Legendre rule of seven points, and ∫ |f|.
-fn gauss(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
-    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-    let (mut sum, mut size) = (0.0, 0.0);
-    for (k, (node, weight)) in GAUSS.into_iter().enumerate() {
-        for side in [1.0, -1.0].into_iter().take(if k == 0 { 1 } else { 2 }) {
-            let y = f(middle + side * half * node);
-            sum += weight * y;
-            size += weight * y.abs();
-        }
-    }
-    (sum * half, size * half.abs())
-}
-
-/// ∫ f from `a` to `b`, bisected where the rule of seven points is not exact to rounding.
-pub(crate) fn integrate(f: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
-    let (whole, size) = gauss(f, a, b);
-    refine(f, (a, b), whole, 1e-14 * size, MAX_BISECTIONS)
-}
-
-fn refine(f: &impl Fn(f64) -> f64, (a, b): (f64, f64), whole: f64, tolerance: f64, left: u32) -> f64 {
-    let middle = 0.5 * (a + b);
-    let (one, two) = (gauss(f, a, middle).0, gauss(f, middle, b).0);
-    // not a number: no use in going on
-    let error = (one + two - whole).abs();
-    if left == 0 || error <= tolerance || error.is_nan() {
-        return one + two;
-    }
-    refine(f, (a, middle), one, tolerance, left - 1) + refine(f, (middle, b), two, tolerance, left - 1)
 }
 
 #[cfg(test)]

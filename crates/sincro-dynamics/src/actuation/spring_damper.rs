@@ -13,9 +13,10 @@
 //! | `n` | unit vector from the first to the second | world |
 //! | ℓ, ℓ̇ | distance of the points, its rate n·(v₂ − v₁) | |
 
+use sincro_integrate::quadrature;
 use sincro_math::Real;
 
-use super::force_law::{ForceLaw, integrate};
+use super::force_law::ForceLaw;
 use crate::spatial::{Force, Motion, Pose, Vec3};
 
 /// Point fixed in a link, or in the world: one end of a [`SpringDamper`].
@@ -134,7 +135,7 @@ impl<R: Real> SpringDamper<R> {
         // the law may push somewhere, which the rope does not; whatever the lane, the law is the same but for numbers
         let of = |l: usize, x: f64| {
             let force = |s: f64| self.law.force(R::splat(s), zero).lane(l).min(0.0);
-            (-integrate(&force, 0.0, x), -force(x))
+            (-quadrature(&force, 0.0, x), -force(x))
         };
         let value = R::from_lanes(|l| of(l, x.lane(l).max(0.0)).0);
         let slope = R::from_lanes(|l| if x.lane(l) > 0.0 { of(l, x.lane(l)).1 } else { 0.0 });

@@ -4,11 +4,10 @@
 //! Modes are held over a sub-step ([`crate::constraint`]), so that a zero crossing is a smooth function of time up to
 //! its event and beyond.
 
-use super::bracket::Bracket;
 use super::{Stop, World};
 use crate::constraint::ModeRule;
 use crate::coupled::CoupledSystem;
-use crate::integrate::Control;
+use crate::integrate::{Bracket, Control};
 use crate::mechanism::constraints::ContactEvent;
 
 /// Width to which the instant of an event is located, relative to the step.

@@ -11,7 +11,6 @@
 //! and method.
 
 pub mod audit;
-mod bracket;
 mod builder;
 mod contacts;
 mod drives;

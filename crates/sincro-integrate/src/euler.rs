@@ -6,7 +6,7 @@
 
 use sincro_math::Real;
 
-use super::{FixedStep, Implicit, System};
+use crate::{FixedStep, Implicit, System};
 
 /// Semi-implicit Euler method of order 1 with a fixed step, and its working memory; joint dampers are taken implicitly.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use sincro_math::Real;
 
-use super::{FixedStep, System, combine};
+use crate::{FixedStep, System, combine};
 
 /// Classical Runge–Kutta method of order 4 with a fixed step, and its working memory: for smooth systems.
 #[derive(Clone, Debug)]

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use sincro_math::elementary::sin_cos;
+use crate::elementary::sin_cos;
 
 /// Function of time alone, for forces and torques of a model: a value in the unit of its use (such as N or N·m) over
 /// time `[s]`.
 ///
 /// ```
-/// use sincro_dynamics::signal::Signal;
+/// use sincro_math::signal::Signal;
 ///
 /// let pulse = Signal::Pulse { period: 2.0, width: 0.5, low: 0.0, high: 3.0, start: 1.0 };
 /// assert_eq!([0.9, 1.2, 1.6, 3.1].map(|t| pulse.value(t)), [0.0, 3.0, 0.0, 3.0]);
@@ -120,7 +120,7 @@ impl Signal {
                 angular_frequency.abs() / core::f64::consts::TAU
             }
             Self::Table { times, values, .. } if is_sampled => {
-                sincro_math::series::highest_frequency(times, |k| values[k], until)
+                crate::series::highest_frequency(times, |k| values[k], until)
             }
             _ => 0.0,
         }

@@ -13,8 +13,21 @@ struct Point {
 }
 
 /// Bracket of the first instant at which an event has happened.
+///
+/// ```
+/// use sincro_integrate::Bracket;
+///
+/// // the zero of t² − 2, between 1 s and 2 s, to 1e-12 s
+/// let crossing = |t: f64| t * t - 2.0;
+/// let mut bracket = Bracket::new((1.0, 2.0), (crossing(1.0), crossing(2.0)));
+/// while bracket.width() > 1e-12 {
+///     let t = bracket.next(1e-12);
+///     bracket.take(t, crossing(t) >= 0.0, crossing(t));
+/// }
+/// assert!((bracket.after() - 2.0_f64.sqrt()).abs() < 1e-12); // [s]
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bracket {
+pub struct Bracket {
     before: Point,
     after: Point,
     /// The end that the last instant replaced, and true if the last instant became `after`.
@@ -23,24 +36,28 @@ pub(super) struct Bracket {
 }
 
 impl Bracket {
-    /// Bracket between an instant before the event and one after it; `values` of the zero crossing there: below zero
-    /// before, above zero after.
+    /// Creates the bracket between an instant before the event and one after it `[s]`; `values` of the zero crossing
+    /// there: below zero before, above zero after, NaN where unknown.
+    #[must_use]
     pub fn new((before, after): (f64, f64), values: (f64, f64)) -> Self {
         let [before, after] = [(before, values.0), (after, values.1)].map(|(t, value)| Point { t, value });
         Self { before, after, replaced: Point { t: f64::NAN, value: f64::NAN }, last_is_after: true }
     }
 
-    /// Last instant known to be after the event.
+    /// Last instant known to be after the event `[s]`.
+    #[must_use]
     pub fn after(&self) -> f64 {
         self.after.t
     }
 
-    /// Length of the bracket.
+    /// Length of the bracket `[s]`.
+    #[must_use]
     pub fn width(&self) -> f64 {
         self.after.t - self.before.t
     }
 
-    /// Instant to be looked at next, at least half of `resolution` away from both ends.
+    /// Instant to be looked at next `[s]`, at least half of `resolution` `[s]` away from both ends.
+    #[must_use]
     pub fn next(&self, resolution: f64) -> f64 {
         let margin = (0.5 * resolution / self.width()).min(0.5);
         let share = self.interpolated().unwrap_or(0.5).clamp(margin, 1.0 - margin);
@@ -49,14 +66,15 @@ impl Bracket {
         if t > self.before.t && t < self.after.t { t } else { 0.5 * (self.before.t + self.after.t) }
     }
 
-    /// Takes an instant that is `after` the event or not, with the value of the zero crossing.
+    /// Takes the instant `t` `[s]`, which is after the event or not, with the value of the zero crossing there, NaN if
+    /// it is not known.
     pub fn take(&mut self, t: f64, is_after: bool, value: f64) {
         let end = if is_after { &mut self.after } else { &mut self.before };
         self.replaced = core::mem::replace(end, Point { t, value });
         self.last_is_after = is_after;
     }
 
-    /// Forgets the values: the zero crossing is another one.
+    /// Forgets the values: the zero crossing is another one, with the value `value_after` at the end of the bracket.
     pub fn forget(&mut self, value_after: f64) {
         self.before.value = f64::NAN;
         self.replaced.value = f64::NAN;

@@ -13,7 +13,7 @@
 
 use sincro_math::Real;
 
-use super::{Control, Failure, FixedStep, Implicit, System, power, too_small};
+use crate::{Control, Failure, FixedStep, Implicit, System, power, too_small};
 
 /// Maximum number of rows of the tableau.
 const MAX_ROWS: usize = 8;

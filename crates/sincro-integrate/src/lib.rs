@@ -1,4 +1,5 @@
-//! Integrators: from one instant to another.
+#![doc = include_str!("../README.md")]
+//! # Integrators
 //!
 //! An integrator knows nothing of joints. It advances a vector y in the chart that a [`System`] lays at the start of
 //! each step, so that a quaternion is three numbers like any others and stays a unit quaternion exactly; and it works
@@ -11,21 +12,28 @@
 //! | [`Extrapolated`], two rows | 2 | fixed step, stable for any stiffness and damping of joints |
 //! | [`DormandPrince`] | 5(4) | smooth mechanisms, error control |
 //! | [`Extrapolated`], with [`Extrapolated::control`] | 2…8 | stiff mechanisms, error control |
+//!
+//! [`Bracket`] locates events between two instants; [`quadrature`] integrates functions of one variable.
 
+mod bracket;
 mod dormand_prince;
 mod euler;
 mod extrapolated;
+mod quadrature;
 mod rk4;
 
+pub use bracket::Bracket;
 pub use dormand_prince::DormandPrince;
 pub use euler::SemiImplicitEuler;
 pub use extrapolated::Extrapolated;
+pub use quadrature::quadrature;
 pub use rk4::Rk4;
 
 use sincro_math::Real;
 
 /// System of ordinary differential equations dy/dt = f(t, y) for an integrator, in local coordinates (a chart that is
-/// laid anew after every step); implemented by [`Mechanism`](crate::mechanism::Mechanism).
+/// laid anew after every step); implemented by the
+/// `Mechanism` of `sincro-dynamics`.
 pub trait System<R: Real> {
     /// Number of unknowns: length of y.
     fn dim(&self) -> usize;

@@ -4,7 +4,7 @@
 //! and key `hairer1996`, section IV.2 (β = 0.04). The last stage could be the next step's first; here it is evaluated
 //! again, because motors may have new commands and a snapshot should hold no slopes.
 
-use super::{Control, Failure, SingularStages, System, power, too_small};
+use crate::{Control, Failure, SingularStages, System, power, too_small};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [&[f64]; 7] = [
