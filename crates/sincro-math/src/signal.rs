@@ -165,6 +165,28 @@ mod tests {
     use super::*;
 
     #[test]
+    fn steps_ramps_and_sines_have_their_values() {
+        let step = Signal::Step { time: 1.0, from: 2.0, to: 5.0 };
+        // what is closer than a nanosecond is the same instant
+        let times = [0.5, 1.0 - 2e-9, 1.0 - SAME_INSTANT, 1.0 - 0.5e-9, 1.0, 7.0];
+        assert_eq!(times.map(|t| step.value(t)), [2.0, 2.0, 5.0, 5.0, 5.0, 5.0]);
+        let ramp = Signal::Ramp { start: 1.0, slope: 3.0, from: 2.0, until: 4.0 };
+        assert_eq!([0.0, 1.0, 2.0, 4.0, 9.0].map(|t| ramp.value(t)), [2.0, 2.0, 5.0, 11.0, 11.0]);
+        let sine = Signal::Sine { amplitude: 2.0, angular_frequency: 3.0, phase: 0.5, offset: 5.0 };
+        assert_eq!(sine.value(0.75), 5.0 + 2.0 * sin_cos(2.75).0);
+        assert_eq!([Signal::Constant(3.5).constant(), step.constant()], [Some(3.5), None]);
+    }
+
+    #[test]
+    fn a_pulse_train_begins_and_ends_its_pulses_within_a_nanosecond() {
+        let pulse = |start, width| Signal::Pulse { period: 0.1, width, low: -1.0, high: 2.0, start };
+        let late = pulse(0.02, 0.03);
+        assert_eq!([0.005, 0.02 - 2e-9, 0.02 - 0.5e-9, 0.021].map(|t| late.value(t)), [-1.0, -1.0, 2.0, 2.0]);
+        // at exactly its width a pulse is over
+        assert_eq!(pulse(0.0, 0.0625 + SAME_INSTANT).value(0.0625), -1.0);
+    }
+
+    #[test]
     fn a_pulse_train_has_its_duty_cycle() {
         let pulse = Signal::Pulse { period: 0.1, width: 0.03, low: -1.0, high: 2.0, start: 0.05 };
         let mut high = 0;
@@ -189,6 +211,21 @@ mod tests {
     }
 
     #[test]
+    fn time_events_are_those_after_an_instant() {
+        let pulse = Signal::Pulse { period: 0.25, width: 0.125, low: 0.0, high: 1.0, start: 0.5 };
+        assert_eq!([0.0, 0.5, 3.0625, 3.125].map(|t| pulse.next_time_event(t)), [0.5, 0.625, 3.125, 3.25]);
+        // an instant that is the same is not after it
+        let step = |time| Signal::Step { time, from: 0.0, to: 1.0 };
+        let next = [1.0 + 2e-9, 1.0 + SAME_INSTANT, 1.0].map(|time| step(time).next_time_event(1.0));
+        assert_eq!(next, [1.0 + 2e-9, f64::INFINITY, f64::INFINITY]);
+        let ramp = Signal::Ramp { start: 1.0, slope: 1.0, from: 0.0, until: 4.0 };
+        assert_eq!([0.0, 1.0, 4.0].map(|t| ramp.next_time_event(t)), [1.0, 4.0, f64::INFINITY]);
+        let table = Signal::Table { times: [0.0, 1.0, 3.0].into(), values: [1.0; 3].into(), linear: true };
+        let times = [-1.0, 0.0, 0.5, 1.0 - 0.5e-9, 1.0, 2.0, 3.0];
+        assert_eq!(times.map(|t| table.next_time_event(t)), [0.0, 1.0, 1.0, 3.0, 3.0, 3.0, f64::INFINITY]);
+    }
+
+    #[test]
     fn a_table_is_constant_outside_and_linear_inside() {
         let (times, values): (Arc<[f64]>, Arc<[f64]>) = ([0.0, 1.0, 3.0].into(), [1.0, 2.0, -2.0].into());
         let linear = Signal::Table { times: times.clone(), values: values.clone(), linear: true };
@@ -196,6 +233,8 @@ mod tests {
         for (t, l, h) in [(-1.0, 1.0, 1.0), (0.5, 1.5, 1.0), (2.0, 0.0, 2.0), (9.0, -2.0, -2.0)] {
             assert_eq!((linear.value(t), held.value(t)), (l, h));
         }
+        // a held value begins within a nanosecond of its instant
+        assert_eq!([1.0 - 2e-9, 1.0 - 0.5e-9].map(|t| held.value(t)), [1.0, 2.0]);
     }
 
     #[test]
@@ -207,7 +246,7 @@ mod tests {
         let table = Signal::Table { times, values, linear: true };
         assert_eq!(table.highest_frequency(4.0, true), 4.0);
         assert_eq!(table.highest_frequency(0.6, true), 0.0);
-        assert_eq!(table.highest_frequency(1.0, false), 0.0);
+        assert_eq!(table.highest_frequency(4.0, false), 0.0);
         assert_eq!(Signal::Constant(1.0).highest_frequency(1.0, true), 0.0);
     }
 }

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::scratch::Scratch;
-use sincro_dynamics::spatial::Pose;
 
 use crate::camera::VisiblePiece;
 

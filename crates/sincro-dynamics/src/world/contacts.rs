@@ -140,6 +140,9 @@ impl World {
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is
     /// solved by sweeps.
     fn detect_step_contacts(&mut self, h: f64) -> bool {
+        if !self.is_constrained() {
+            return false;
+        }
         let layout = self.layout();
         self.mechanism.detect_contacts(&self.y[layout.velocities()], ActivationRule::Within(h));
         self.mechanism.is_large_contact_problem()
@@ -152,8 +155,7 @@ impl World {
         let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
         self.mechanism.set_sweeps(is_large);
         self.save_step_start();
-        self.solve_step_modes(h, |world| {
-            world.restore();
+        let mut step = |world: &mut Self| {
             if let Some(constraints) = &mut world.mechanism.constraints {
                 constraints.sub_step = h;
             }
@@ -163,7 +165,16 @@ impl World {
                 negated_jacobian_diagonal: &mut world.negated_jacobian_diagonal,
             };
             method.step(system, t, h, &mut world.y);
-        });
+        };
+        if self.target_velocities.is_empty() && !self.is_constrained() {
+            // no modes to decide
+            step(self);
+        } else {
+            self.solve_step_modes(h, |world| {
+                world.restore();
+                step(world);
+            });
+        }
         self.mechanism.set_sweeps(false);
         self.time_stepping = Some(method);
     }
