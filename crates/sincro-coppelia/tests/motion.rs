@@ -321,6 +321,33 @@ fn who_has_time_for_a_velocity_accelerates_less_then_jerks_less() {
 }
 
 #[test]
+fn who_can_stay_at_no_velocity_in_between_jerks_or_accelerates_less() {
+    // start, goal, limits (velocity, acceleration up and down, jerk) of an axis that no constant velocity brings there
+    // in the time `t` of another one; drawn at random until there were seven
+    let cases = [
+        ([2.61, -1.84, 1.445], (1.83, 0.609), [2.75, -2.05, 2.19, -4.92, 7.74], 1.4526),
+        ([2.63, 0.033, -3.11], (1.97, 0.1), [1.65, -1.22, 4.67, -4.59, 5.73], 1.525),
+        ([-1.46, 0.571, 0.647], (-0.396, 0.0), [1.76, -2.14, 1.21, -0.719, 1.28], 2.3675),
+        ([-0.32, -1.664, -2.606], (-2.693, 0.0), [1.402, -2.571, 1.049, -2.846, 12.03], 2.227),
+        ([1.576, -2.315, 1.641], (0.19, 0.268), [0.983, -2.64, 2.135, -2.255, 4.44], 1.755),
+        ([0.837, 2.159, 1.06], (2.946, -1.422), [2.4, -1.52, 1.385, -1.558, 2.56], 3.86),
+        ([-0.346, 2.279, 0.379], (0.959, 0.0), [2.643, -0.54, 2.345, -4.5, 14.42], 1.145),
+    ];
+    for ([p, v, a], (p_end, v_end), limits, t) in cases {
+        let [max_velocity, min_velocity, max_acceleration, min_acceleration, max_jerk] = limits;
+        let limits = Limits { max_velocity, min_velocity, max_acceleration, min_acceleration, max_jerk };
+        let axis = Axis { start: Point { p, v, a }, limits, goal: Goal::Position(p_end, v_end) };
+        // v/a + a/j = 0.2 s more than at its velocity of 1
+        let goal = Goal::Position(t - 0.2, 0.0);
+        let other = Axis { start: Point::default(), limits: Limits::symmetric(1.0, 10.0, 100.0), goal };
+        let [profile, slowest] = plan(&[axis, other], Synchronization::Time).unwrap()[..] else { panic!() };
+        assert!((slowest.duration() - t).abs() < 1e-12, "{t}: {}", slowest.duration());
+        assert!((profile.duration() - t).abs() < 1e-10, "{t}: {}", profile.duration());
+        is_a_motion(&profile, &axis).unwrap();
+    }
+}
+
+#[test]
 fn what_makes_no_sense_is_refused_in_words() {
     let good =
         Axis { start: Point::default(), limits: Limits::symmetric(1.0, 1.0, 1.0), goal: Goal::Position(1.0, 0.0) };

@@ -51,6 +51,13 @@ const CASES: &[(&str, &str)] = &[
         r#"scene.toml:36:24: error: `/shoulder/rod` is a body, not a joint with one degree of freedom
   help: did you mean `/shoulder`? objects: `/shoulder`, `/shoulder/rod/tip/wrist`"#,
     ),
+    (
+        "\n[[coupling]]\nname = \"gear\"\njoints = [\"/shoulder\", \"/shoulder/rod/tip/wrist\"]\nratio = 2.0\noffset = -0.2\n\n[[spring_damper]]\nname = \"gear\"\nbetween = [\"/\", \"/shoulder/rod\"]\nstiffness = 1.0\n\n[[closure]]\nname = \"shoulder\"\nkind = \"point\"\nbetween = [\"/shoulder/rod\", \"/\"]",
+        r#"scene.toml:41:8: error: there are two objects `/gear`
+  help: the other one is in line 35; give one of them another name
+scene.toml:46:8: error: there are two objects `/shoulder`
+  help: give one of them another name"#,
+    ),
 ];
 
 #[test]

@@ -10,6 +10,7 @@ mod contact;
 mod file;
 mod height_field;
 mod initial;
+mod joined_names;
 mod joint;
 mod mesh;
 mod object;
@@ -362,6 +363,7 @@ impl Assembly {
     /// Closures, couplings and pairs of surfaces, which name objects by their paths.
     fn join(&mut self, file: &SceneFile, document: &Document, diagnostics: &mut Diagnostics) {
         self.builder.set_rest_speed(file.rest_speed);
+        joined_names::check(file, self.objects.iter().map(|o| o.path.as_str()), document, diagnostics);
         let mut joiner = contact::Joiner { objects: &self.objects, nodes: &self.nodes, document, diagnostics };
         for (k, closure) in file.closure.iter().enumerate() {
             if let Some(spec) = joiner.closure(closure, &format!("/closure/{k}")) {
@@ -388,7 +390,6 @@ impl Assembly {
         folder: &Folder,
         diagnostics: &mut Diagnostics,
     ) {
-        spring_damper::check_names(file, self.objects.iter().map(|o| o.path.as_str()), document, diagnostics);
         for (k, own) in file.spring_damper.iter().enumerate() {
             let pointer = format!("/spring_damper/{k}");
             let (objects, nodes) = (&self.objects, &self.nodes);

@@ -149,30 +149,6 @@ pub(super) fn nonlinear(
     }
 }
 
-/// Names that are no names, or that two things share.
-pub(super) fn check_names<'a>(
-    file: &SceneFile,
-    taken: impl Iterator<Item = &'a str> + Clone,
-    document: &Document,
-    diagnostics: &mut Diagnostics,
-) {
-    for (k, own) in file.spring_damper.iter().enumerate() {
-        let at = document.at(&format!("/spring_damper/{k}/name"));
-        let good = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if own.name.is_empty() || !own.name.chars().all(good) {
-            let diagnostic = Diagnostic::error(&at, format!("`{}` is not a name", own.name));
-            diagnostics.push(diagnostic.with_help("names have letters a–z and A–Z, digits, `_` and `-`"));
-        }
-        let path = format!("/{}", own.name);
-        let others = file.spring_damper[..k].iter().map(|other| other.name.as_str());
-        let loops = file.closure.iter().map(|c| c.name.as_str()).chain(file.coupling.iter().map(|c| c.name.as_str()));
-        if others.chain(loops).any(|name| name == own.name) || taken.clone().any(|object| object == path) {
-            let diagnostic = Diagnostic::error(&at, format!("there are two objects `{path}`"));
-            diagnostics.push(diagnostic.with_help("give one of them another name"));
-        }
-    }
-}
-
 /// Sets the free lengths that are left out to the lengths at the start; notes lines that have no direction there.
 pub(super) fn set_free_lengths(
     model: &mut Model<f64>,
