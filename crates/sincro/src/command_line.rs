@@ -5,9 +5,7 @@
 
 use std::ffi::OsString;
 
-#[cfg(feature = "cli")]
-use clap::CommandFactory;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 #[cfg(feature = "cli")]
 use crate::diagnostics;
@@ -118,7 +116,8 @@ impl From<Exit> for u8 {
 /// status: 0 done and all checks hold, 1 a check fails, 2 bad input, 3 a run stopped. Unlike the rest of this library
 /// it prints, and ends the process at a second Ctrl-C.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let command = match Cli::try_parse_from(arguments) {
+    let parsed = with_negative_numbers(Cli::command()).try_get_matches_from(arguments);
+    let command = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli.command,
         Err(refused) => {
             let _ = refused.print();
@@ -161,4 +160,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         },
     };
     exit.into()
+}
+
+/// Takes negative numbers for values of every option, not for unknown flags: a wrong one is then refused by what it
+/// means.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let options = command.mut_args(|argument| {
+        let is_option = argument.get_action().takes_values() && !argument.is_positional();
+        if is_option { argument.allow_negative_numbers(true) } else { argument }
+    });
+    options.mut_subcommands(with_negative_numbers)
 }

@@ -183,6 +183,26 @@ fn bad_input_is_status_two_and_writes_nothing() {
 }
 
 #[test]
+fn negative_numbers_are_values_and_refused_by_what_they_mean() {
+    let folder = SceneFolder::new();
+    let scene = pendulum(&folder, "", "");
+    let cases: [(&str, &[&str], &str); 6] = [
+        ("linearize", &["--at", "-1"], "there is no operating point at -1 s"),
+        ("trim", &["--from", "-1"], "there is no operating point at -1 s"),
+        ("run", &["--seed", "-1"], "expected a whole number from 0 on"),
+        ("run", &["--accuracy", "-1"], "`accuracy` is -1"),
+        ("tune", &["--budget", "-1"], "expected a whole number from 0 on"),
+        ("check", &["--mutate", "-1"], "-1"),
+    ];
+    for (command, more, said) in cases {
+        let run = Command::new(env!("CARGO_BIN_EXE_sincro")).arg(command).arg(&scene).args(more).output().unwrap();
+        let stderr = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{command} {more:?}: {stderr}");
+        assert!(stderr.contains(said) && !stderr.contains("unexpected argument"), "{command} {more:?}: {stderr}");
+    }
+}
+
+#[test]
 fn results_that_cannot_be_written_are_refused_before_the_run() {
     let folder = SceneFolder::new();
     let scene = pendulum(&folder, "", "");

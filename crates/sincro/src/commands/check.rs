@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     signals: bool,
     /// Change each number by this share in turn, such as 1e-3, run all checks, and say which changes none notices
-    #[arg(long, value_name = "SHARE", conflicts_with = "signals", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", conflicts_with = "signals")]
     mutate: Option<f64>,
 }
 

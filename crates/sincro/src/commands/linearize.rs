@@ -43,10 +43,10 @@ pub(crate) struct Arguments {
     #[arg(long, conflicts_with_all = ["inputs", "outputs", "closed_loop", "lqr_q"])]
     sampled: bool,
     /// Weights of the states: design a linear-quadratic regulator with them and --lqr-r
-    #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', requires = "lqr_r", allow_negative_numbers = true)]
+    #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', requires = "lqr_r")]
     lqr_q: Vec<f64>,
     /// Weights of the inputs
-    #[arg(long, value_name = "R1,…", value_delimiter = ',', requires = "lqr_q", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R1,…", value_delimiter = ',', requires = "lqr_q")]
     lqr_r: Vec<f64>,
     /// Folder for linearization.json, bode.csv, step.csv, figures and report.html; nothing is written unless given
     #[arg(long, value_name = "DIR")]

@@ -36,3 +36,8 @@ pub(crate) mod trim;
 pub(crate) mod tune;
 #[cfg(feature = "adapters")]
 pub(crate) mod view;
+
+/// Value of an option that counts something.
+fn whole_number<N: std::str::FromStr>(text: &str) -> Result<N, String> {
+    text.parse().map_err(|_| "expected a whole number from 0 on".to_owned())
+}

@@ -18,6 +18,7 @@ use sincro_sim::result_folder::ResultFolder;
 
 use super::console::{self, Bar};
 use super::robot_file::SceneSource;
+use super::whole_number;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `run`.
@@ -34,23 +35,23 @@ pub(crate) struct Arguments {
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Simulate until this time `[s]`
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     until: Option<f64>,
     /// Base step `[s]`
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     step: Option<f64>,
     /// auto, semi-implicit-euler, rk4, implicit, dormand-prince or stiff
     #[arg(long, value_name = "NAME")]
     integrator: Option<String>,
     /// Local tolerance of the variable-step integrators
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X")]
     accuracy: Option<f64>,
     /// Folder of the results: absent, empty, or an earlier result, which is replaced; of several scenes a folder of
     /// each below it [default: the next of results/SCENE/0001, 0002 …]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of all random generators
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u64>)]
     seed: Option<u64>,
     /// Write run.mcap too, for Foxglove, Lichtblick or Rerun
     #[cfg(feature = "adapters")]

@@ -11,6 +11,7 @@ use sincro_sim::result_folder::{find_result, folders_in, foreign_entry, is_resul
 use sincro_sim::results::{RunReport, Status};
 
 use super::console::{short, verdict_line};
+use super::whole_number;
 use crate::{Exit, diagnostics};
 
 /// Folder of the results where none is named.
@@ -49,7 +50,7 @@ enum Command {
         #[arg(value_name = "FOLDER", default_value = RESULTS)]
         folders: Vec<PathBuf>,
         /// Runs of each scene that stay
-        #[arg(long, value_name = "N", default_value_t = 10)]
+        #[arg(long, value_name = "N", default_value_t = 10, value_parser = whole_number::<usize>)]
         keep: usize,
         /// Say what would be removed, and remove nothing
         #[arg(long)]

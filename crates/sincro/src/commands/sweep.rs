@@ -15,6 +15,7 @@ use sincro_sim::run::RunError;
 
 use super::console::{self, Bar};
 use super::run::interrupt;
+use super::whole_number;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `sweep`.
@@ -33,13 +34,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "I/N", value_parser = Shard::parse)]
     shard: Option<Shard>,
     /// Make run K again, with all its files, into DIR/runs/K
-    #[arg(long, value_name = "K", conflicts_with = "shard")]
+    #[arg(long, value_name = "K", conflicts_with = "shard", value_parser = whole_number::<u64>)]
     only: Option<u64>,
     /// Number of threads [default: one for each processor]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_number::<usize>)]
     threads: Option<usize>,
     /// Number of the worst runs that are made again for their replay in the report
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole_number::<usize>)]
     replays: usize,
     /// Print nothing but errors
     #[arg(long, short)]
@@ -55,7 +56,7 @@ enum Action {
         #[arg(value_name = "DIR")]
         folder: PathBuf,
         /// Number of the worst runs that are made again for their replay in the report
-        #[arg(long, value_name = "N", default_value_t = 3)]
+        #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole_number::<usize>)]
         replays: usize,
     },
     /// Write the job of all shards for an engine, and give it to the engine

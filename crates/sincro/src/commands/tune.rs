@@ -12,6 +12,7 @@ use sincro_sim::run::RunError;
 
 use super::console::Bar;
 use super::run::interrupt;
+use super::whole_number;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `tune`.
@@ -39,10 +40,10 @@ pub(crate) struct Arguments {
     #[arg(long)]
     local: bool,
     /// Most candidates
-    #[arg(long, value_name = "N", default_value_t = 600)]
+    #[arg(long, value_name = "N", default_value_t = 600, value_parser = whole_number::<usize>)]
     budget: usize,
     /// Seed of the search
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole_number::<u64>)]
     seed: u64,
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
