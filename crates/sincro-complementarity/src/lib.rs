@@ -11,6 +11,7 @@
 //! | `held` | solution with held contact modes; laws that it may violate |
 //! | `admm` | ADMM for the same problem, without an active set |
 //! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
+//! | `uniqueness` | search for a second solution |
 //! | `sweeps` | problem of a whole step at velocity level with many contacts |
 
 mod active_set;
@@ -25,6 +26,7 @@ mod solver;
 pub mod sweeps;
 #[cfg(test)]
 mod tests;
+mod uniqueness;
 
 pub use active_set::ContactProblem;
 pub use cone::{ContactMode, FrictionGroup, NO_SLOT, SlowSliding, UnilateralConstraint};

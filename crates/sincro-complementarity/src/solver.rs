@@ -91,6 +91,8 @@ pub struct Solver<R> {
     /// Solution found first, and the one in which all friction sticks (`engage`).
     pub(crate) found: Solution<R>,
     pub(crate) sticking: Solution<R>,
+    /// First solution while a second one is sought (`uniqueness`).
+    pub(crate) other: Solution<R>,
     /// Statistics since it was made.
     pub report: SolverReport,
     /// Report at the start of the trial step that is being made, none outside of one.
@@ -113,6 +115,7 @@ impl<R: Real> Solver<R> {
         self.all_active.reserve(more(self.all_active.len()));
         self.found.reserve(m);
         self.sticking.reserve(m);
+        self.other.reserve(m);
     }
 
     /// Begins a trial step: one that was begun before and not accepted does not count.

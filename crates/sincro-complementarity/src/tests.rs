@@ -236,3 +236,44 @@ fn redundant_contacts_share_the_load_the_same_in_every_frame() {
     }
     assert!(compared >= 50, "{compared} of 60 compared");
 }
+
+#[test]
+fn sliding_that_presses_itself_down_has_two_solutions() {
+    // wₙ = (1 − 0.9 μ) λₙ + bₙ of a contact that slides (Painlevé): with μ = 2 and bₙ = 0.4 both λₙ = 0 and λₙ = 0.5
+    let a = [1.0, 0.9, 0.0, 0.9, 1.0, 0.0, 0.0, 0.0, 1.0];
+    for (friction, b, several) in [(2.0, 0.4, true), (0.5, 0.4, false), (0.5, -0.4, false)] {
+        let b = [b, 0.0, 0.0];
+        let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
+        let mut blocks = contacts(1, 0, friction);
+        let group = blocks[0].groups[0].as_mut().unwrap();
+        group.is_sliding = true;
+        group.slip([-1.0, 0.0], None);
+        let (mut solver, mut lambda) = (Solver::default(), vec![0.0; 3]);
+        solver.solve(&problem, &mut blocks, &mut lambda);
+        let found = lambda.clone();
+        assert_eq!(solver.has_other_solution(&problem, &mut blocks, &mut lambda), several, "{friction} {b:?}");
+        assert_eq!(lambda, found);
+    }
+}
+
+#[test]
+fn redundant_contacts_without_slip_have_one_motion() {
+    // a plate at rest on 4 to 8 legs: loads are not determined, accelerations are
+    let mut numbers = Numbers(31);
+    for k in 0..50 {
+        let (count, n) = (4 + k % 5, 6);
+        let a = products(&mut numbers, 3 * count, n);
+        let push: Vec<f64> = (0..3 * count).map(|i| if i % 3 == 0 { -1.0 } else { 0.0 }).collect();
+        let b: Vec<f64> =
+            (0..3 * count).map(|i| (0..3 * count).map(|j| a[i * 3 * count + j] * push[j]).sum()).collect();
+        let mut blocks = contacts(count, 0, 1.5);
+        let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
+        let (mut solver, mut lambda) = (Solver::default(), vec![0.0; 3 * count]);
+        solver.solve(&problem, &mut blocks, &mut lambda);
+        if solver.report.not_converged == 0
+            && blocks.iter().all(|block| !block.open && block.groups[0].unwrap().mode == ContactMode::Stick)
+        {
+            assert!(!solver.has_other_solution(&problem, &mut blocks, &mut lambda), "problem {k}");
+        }
+    }
+}

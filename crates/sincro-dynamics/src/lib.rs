@@ -38,6 +38,7 @@ pub mod initial;
 pub mod joint;
 pub mod mechanism;
 pub mod model;
+pub mod occurrences;
 pub mod prelude;
 pub mod recursions;
 pub mod scratch;

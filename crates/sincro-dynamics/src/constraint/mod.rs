@@ -398,6 +398,12 @@ impl<R: Real> Constraints<R> {
         self.violation = Some(law);
     }
 
+    /// Returns true if the problem last solved has another solution, with other accelerations.
+    pub fn has_other_solution(&mut self) -> bool {
+        let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
+        !self.is_swept && self.solver.has_other_solution(&problem, &mut self.blocks, &mut self.lambda)
+    }
+
     /// Excess of a law over its tolerance in the last evaluation, above zero if it is violated.
     pub fn excess(&self, law: HeldLaw) -> f64 {
         debug_assert!(!self.is_swept, "sweeps hold no modes");

@@ -376,6 +376,11 @@ impl Mechanism<f64> {
         self.constraints.as_deref().is_none_or(|c| !c.lost_modes && c.violation.is_none())
     }
 
+    /// Returns true if the contact problem last solved has another solution, with other accelerations.
+    pub(crate) fn has_other_solution(&mut self) -> bool {
+        self.constraints.as_deref_mut().is_some_and(Constraints::has_other_solution)
+    }
+
     /// Goes back to the contact modes and multipliers at [`Mechanism::mark_start`].
     pub(crate) fn return_to_start(&mut self) {
         if let Some(c) = &mut self.constraints {

@@ -41,7 +41,6 @@ use crate::state::{State, displace};
 use bearing_load::Bearings;
 use drive_monitor::DriveMonitor;
 use layout::Layout;
-pub use singular::PassedSingularities;
 use singular::SingularPassage;
 use torques::{TorqueInput, joint_torques};
 

@@ -18,6 +18,7 @@ use sincro_math::Real;
 use super::Mechanism;
 use crate::constraint::SINGULAR;
 use crate::integrate::{Implicit, SingularStages};
+use crate::occurrences::Occurrences;
 use crate::state::displace;
 
 /// Conditioning of the loops' rows below which a position counts as near a singular one: about the square of the
@@ -53,16 +54,6 @@ const MAX_ITERATIONS: usize = 4;
 /// Residual at which they are there `[m]` or `[rad]`, of a mechanism of 1 m or more.
 const ON_MANIFOLD: f64 = 1e-14;
 
-/// Passages of singular positions of the loops in a run, from
-/// [`World::passed_singularities`](crate::world::World::passed_singularities).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PassedSingularities {
-    /// Number of passages.
-    pub count: usize,
-    /// Time of the first passage `[s]`; 0 if there was none.
-    pub first: f64,
-}
-
 /// Passage of a singular position: conditioning of the loops in the last evaluations.
 #[derive(Clone, Debug)]
 pub(super) struct SingularPassage<R> {
@@ -79,7 +70,7 @@ pub(super) struct SingularPassage<R> {
     /// Conditioning at the starts of the last three steps, with their times.
     starts: [(f64, f64); 3],
     /// Positions that were passed in the run.
-    passed: PassedSingularities,
+    passed: Occurrences,
     /// Working memory of limits: displaced state, its slope, direction of motion, limit.
     displaced: Vec<R>,
     slope: Vec<R>,
@@ -97,7 +88,7 @@ impl<R> Default for SingularPassage<R> {
             change: Vec::new(),
             base: Vec::new(),
             starts: [(f64::NAN, f64::NAN); 3],
-            passed: PassedSingularities::default(),
+            passed: Occurrences::default(),
             displaced: Vec::new(),
             slope: Vec::new(),
             direction: Vec::new(),
@@ -138,10 +129,7 @@ impl<R> SingularPassage<R> {
         let slope = fall + curvature * (t1 - t0);
         let least = c1 - 0.25 * slope * slope / curvature;
         if least < PASSED * c0.max(c2) {
-            if self.passed.count == 0 {
-                self.passed.first = t1 - 0.5 * slope / curvature;
-            }
-            self.passed.count += 1;
+            self.passed.note(t1 - 0.5 * slope / curvature);
         }
     }
 
@@ -175,7 +163,7 @@ impl<R: Real> Mechanism<R> {
     }
 
     /// Singular positions of loops passed so far.
-    pub(crate) fn passed_singularities(&self) -> PassedSingularities {
+    pub(crate) fn passed_singularities(&self) -> Occurrences {
         self.singular.passed
     }
 

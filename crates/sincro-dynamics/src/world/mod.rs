@@ -33,10 +33,11 @@ use crate::constraint::{ContactPoint, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, Rk4, SemiImplicitEuler, System};
+use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::ActivationRule;
 use crate::mechanism::layout::Layout;
-use crate::mechanism::{Mechanism, PassedSingularities};
 use crate::model::Model;
+use crate::occurrences::Occurrences;
 use crate::state::State;
 use events::{Crossing, MAX_CROSSINGS};
 use observation::contacts_of;
@@ -189,6 +190,8 @@ pub struct World {
     /// Steps at velocity level: of semi-implicit Euler, and the fallback of the others.
     time_stepping: Option<SemiImplicitEuler<f64>>,
     statistics: StepStatistics,
+    /// Events after which several sets of modes keep all laws.
+    ambiguous_events: Occurrences,
     /// Tick at whose end the laws hold; none after a change from outside.
     settled_at: Option<u64>,
 }
@@ -274,6 +277,7 @@ impl World {
             present: vec![0.0; dim],
             accelerations,
             statistics: StepStatistics::default(),
+            ambiguous_events: Occurrences::default(),
             settled_at: None,
         }
     }
@@ -299,8 +303,16 @@ impl World {
     /// Passages of singular positions of the loops since the world was made. Not part of the state; semi-implicit Euler
     /// does not look for them.
     #[must_use]
-    pub fn passed_singularities(&self) -> PassedSingularities {
+    pub fn passed_singularities(&self) -> Occurrences {
         self.mechanism.passed_singularities()
+    }
+
+    /// Events since the world was made after which several sets of contact and drive modes keep all laws and give
+    /// different accelerations: the motion goes on with one of them, and rounding may decide which. Not part of the
+    /// state; not every such event is found, and semi-implicit Euler does not look for them.
+    #[must_use]
+    pub fn ambiguous_events(&self) -> Occurrences {
+        self.ambiguous_events
     }
 
     /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`]; empty before.

@@ -137,6 +137,9 @@ impl World {
             self.y[layout.velocity(kink.dof)] = kink.target;
         }
         self.decide_kinks(ahead, system);
+        if self.mechanism.has_other_solution() {
+            self.ambiguous_events.note(t);
+        }
         self.y.copy_from_slice(&self.present);
         let contacts_differ = self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes());
         if contacts_differ || self.has_other_kinks() {

@@ -232,6 +232,17 @@ fn about_constraints(world: &World) -> Vec<String> {
             passed.first
         ));
     }
+    let ambiguous = world.ambiguous_events();
+    if ambiguous.count > 0 {
+        let words = match ambiguous.count {
+            1 => "an event".to_owned(),
+            n => format!("{n} events, the first"),
+        };
+        warnings.push(format!(
+            "after {words} at t = {:.6} s several sets of contact forces keep all laws and move the bodies differently (rigid contacts with friction that share a load); the run follows one of them, and error bars do not cover the others: give surfaces a `stiffness` if the difference matters",
+            ambiguous.first
+        ));
+    }
     warnings
 }
 
