@@ -5,7 +5,9 @@ use sincro_analysis::linear::{Complex, DMatrix, DVector, lqr};
 use sincro_analysis::linearize::{Linearization, Request, TrimRequest, Trimmed, linearize, operating_point, trim};
 use sincro_dynamics::initial;
 use sincro_math::elementary::sin_cos;
+use sincro_math::random::SplitMix64;
 use sincro_sim::Loaded;
+use sincro_sim::run::LockStep;
 use sincro_testing::SceneFolder;
 
 /// Derivative of a function of one variable.
@@ -135,7 +137,9 @@ fn four_bar(start: f64, turn: Turn, is_reversed: bool, motor: &'static str) -> S
 }
 
 /// Crank of 0.1 m, rod of 0.3 m, slider along x; gravity along −z; a crank angle of −π/2 hangs.
-fn slider_crank(crank: f64, turn: Turn) -> SceneFolder {
+///
+/// `order` is that of the crank (0), the rod (1) and the slider (2) in the file.
+fn slider_crank_in(order: [usize; 3], crank: f64, turn: Turn) -> SceneFolder {
     let (s, c) = sin_cos(crank);
     let sin_rod = -0.1 * s / 0.3;
     let rod = sincro_math::elementary::atan2(sin_rod, (1.0 - sin_rod * sin_rod).sqrt()).0;
@@ -158,10 +162,17 @@ fn slider_crank(crank: f64, turn: Turn) -> SceneFolder {
         link("pin", "/crank", "revolute", [0.1, 0.0, 0.0], up, rod - crank, 0.6, [0.15, 0.0, 0.0], 4.6e-3),
         link("slide", "", "prismatic", [0.0; 3], [1.0, 0.0, 0.0], x, 0.5, [0.0; 3], 1e-4),
     ];
+    let [a, b, c] = links;
+    let mut links = [Some(a), Some(b), Some(c)];
+    let links = order.map(|k| links[k].take().expect("each once"));
     let rest = frame("end", "/crank/pin", [0.3, 0.0, 0.0])
         + &frame("eye", "/slide", [0.0; 3])
         + "[[closure]]\nname = \"wrist\"\nkind = \"point\"\nbetween = [\"/crank/pin/end\", \"/slide/eye\"]\n";
     folder(&scene(&links, &rest, [0.0, 0.0, -G], turn))
+}
+
+fn slider_crank(crank: f64, turn: Turn) -> SceneFolder {
+    slider_crank_in([0, 1, 2], crank, turn)
 }
 
 /// Bricard's mechanism (IFToMM A04): five rods, six hinges at right angles; gravity along −y.
@@ -195,6 +206,35 @@ fn bricard(turn: Turn) -> SceneFolder {
     let rest = frame("P5", "/j0/j1/j2/j3/j4", y)
         + &ground
         + "[[closure]]\nname = \"ring\"\nkind = \"hinge\"\naxis = [1.0, 0.0, 0.0]\nbetween = [\"/j0/j1/j2/j3/j4/P5\", \"/P5\"]\n";
+    folder(&scene(&links, &rest, [0.0, -G, 0.0], turn))
+}
+
+/// The same mechanism with the tree from the other end: what closes the ring is the first joint.
+fn bricard_reversed(turn: Turn) -> SceneFolder {
+    let (l, t) = (1.0 / 600.0, 1.01 / 12.0);
+    let rod = |joint, parent, position, axis, com, inertia| Link {
+        joint,
+        parent,
+        kind: "revolute",
+        position,
+        axis,
+        start: 0.0,
+        mass: 1.0,
+        com,
+        inertia,
+        more: "",
+    };
+    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let links = [
+        rod("r5", "", z, x, [0.0, -0.5, 0.0], [t, l, t]),
+        rod("r4", "/r5", [0.0, -1.0, 0.0], z, [0.5, 0.0, 0.0], [l, t, t]),
+        rod("r3", "/r5/r4", x, y, [0.0, 0.0, -0.5], [t, t, l]),
+        rod("r2", "/r5/r4/r3", [0.0, 0.0, -1.0], x, [0.0, 0.5, 0.0], [t, l, t]),
+        rod("r1", "/r5/r4/r3/r2", y, z, [-0.5, 0.0, 0.0], [l, t, t]),
+    ];
+    let rest = frame("P0", "/r5/r4/r3/r2/r1", [-1.0, 0.0, 0.0])
+        + &format!("[[frame]]\nname = \"P0\"\nrotation_deg = {}\n", list(turn.rpy_deg))
+        + "[[closure]]\nname = \"ring\"\nkind = \"hinge\"\naxis = [0.0, 1.0, 0.0]\nbetween = [\"/r5/r4/r3/r2/r1/P0\", \"/P0\"]\n";
     folder(&scene(&links, &rest, [0.0, -G, 0.0], turn))
 }
 
@@ -237,13 +277,22 @@ const FOUR_BAR: f64 = 3.5 * G / 3.0;
 
 const TURNS: [[f64; 3]; 3] = [[0.0; 3], [31.0, -47.0, 112.0], [-140.0, 20.0, 75.0]];
 
+/// The fixed rotations, and others drawn at random with a fixed seed.
+fn turns(n_random: usize) -> impl Iterator<Item = Turn> {
+    let mut random = SplitMix64::new(17);
+    let mut uniform = |low: f64, high: f64| low + (high - low) * random.unit();
+    let drawn: Vec<[f64; 3]> =
+        (0..n_random).map(|_| [uniform(-180.0, 180.0), uniform(-89.0, 89.0), uniform(-180.0, 180.0)]).collect();
+    TURNS.into_iter().chain(drawn).map(Turn::of)
+}
+
 #[test]
 fn a_four_bar_has_the_poles_of_its_one_degree_of_freedom() {
-    for turn in TURNS {
+    for turn in turns(5) {
         for is_reversed in [false, true] {
-            let hanging = linearized(&four_bar(core::f64::consts::PI, Turn::of(turn), is_reversed, ""));
+            let hanging = linearized(&four_bar(core::f64::consts::PI, turn, is_reversed, ""));
             assert_poles(&hanging, -FOUR_BAR);
-            assert_poles(&linearized(&four_bar(0.0, Turn::of(turn), is_reversed, "")), FOUR_BAR);
+            assert_poles(&linearized(&four_bar(0.0, turn, is_reversed, "")), FOUR_BAR);
             let words = hanging.reduction.words().join("\n");
             assert!(words.contains("closed loops and gears: `/pin0`, `/pin1` (10 equations)"), "{words}");
             assert_eq!((hanging.reduction.rank, hanging.reduction.holonomic_rank), (4, 4));
@@ -277,16 +326,20 @@ fn a_slider_crank_has_the_poles_of_its_one_degree_of_freedom() {
     let (r, m1, m2, m3, j) = (0.1, 0.4, 0.6, 0.5, 4e-4);
     let inertia = j + m1 * r * r / 4.0 + (m2 + m3) * r * r;
     let square = -0.5 * G * r * (m1 + m2) / inertia;
-    for turn in TURNS {
-        assert_poles(&linearized(&slider_crank(-core::f64::consts::FRAC_PI_2, Turn::of(turn))), square);
-        assert_poles(&linearized(&slider_crank(core::f64::consts::FRAC_PI_2, Turn::of(turn))), -square);
+    // the rod is on the crank, so it comes after it
+    let orders = [[0, 1, 2], [2, 0, 1], [0, 2, 1]];
+    for (k, turn) in turns(6).enumerate() {
+        let order = orders[k % 3];
+        assert_poles(&linearized(&slider_crank_in(order, -core::f64::consts::FRAC_PI_2, turn)), square);
+        assert_poles(&linearized(&slider_crank_in(order, core::f64::consts::FRAC_PI_2, turn)), -square);
+        // from elsewhere trim finds it
+        let loaded = loaded(&slider_crank_in(order, -1.1, turn), &[]);
+        let found = trimmed(&loaded);
+        let crank = found.trim.states.iter().find(|(axis, _)| axis.name == "/crank.position").unwrap().1;
+        assert!((crank + core::f64::consts::FRAC_PI_2).abs() < 1e-9, "{crank}");
+        assert!(initial::constraint_residuals(&loaded.scene.model, found.at.state())[0].distance < 1e-12);
+        assert_poles(&linearize(&loaded, &found.at, &Request::default()).unwrap(), square);
     }
-    // from elsewhere trim finds it
-    let loaded = loaded(&slider_crank(-1.1, Turn::of([0.0; 3])), &[]);
-    let found = trimmed(&loaded);
-    let (_, crank) = &found.trim.states[0];
-    assert!((crank + core::f64::consts::FRAC_PI_2).abs() < 1e-9, "{crank}");
-    assert!(initial::constraint_residuals(&loaded.scene.model, found.at.state())[0].distance < 1e-12);
 }
 
 type Matrix = [[f64; 3]; 3];
@@ -388,8 +441,23 @@ fn bricards_mechanism_has_the_poles_of_its_one_degree_of_freedom() {
         }
         sum
     };
-    assert_poles(&linear, pole_squared(start[0], potential, inertia));
+    let square = pole_squared(start[0], potential, inertia);
+    assert_poles(&linear, square);
     assert_eq!(linear.reduction.rank, 4);
+
+    // turned in space, and with the tree from the other end, it is the same mechanism
+    let energy = |run: &LockStep| run.fork().lockstep.world().energy().potential;
+    for turn in turns(8) {
+        for folder in [bricard(turn), bricard_reversed(turn)] {
+            let loaded = self::loaded(&folder, &[]);
+            let turned = trimmed(&loaded);
+            assert!((energy(&turned.at) - energy(&found.at)).abs() < 1e-9, "{:?}", turn.rpy_deg);
+            let opening = &initial::constraint_residuals(&loaded.scene.model, turned.at.state())[0];
+            assert!(opening.distance < 1e-10 && opening.angle < 1e-10, "{opening:?}");
+            let linear = linearize(&loaded, &turned.at, &Request::default()).unwrap();
+            assert_poles(&linear, square);
+        }
+    }
 }
 
 /// A scene can be started from every state that trim finds.
@@ -409,32 +477,42 @@ fn trimmed_states_are_accepted_as_starts() {
     assert_eq!(once_more.trim.iterations, 0);
 }
 
-/// The regulator of the reduced system holds the upright four-bar in a run of the scene with the gain in its diagram.
+/// The regulator of the reduced system holds the upright four-bar in a run of the scene with the gain in its diagram,
+/// whatever its place in space and the order of its bodies.
 #[test]
 fn a_regulator_stabilises_the_upright_four_bar() {
     let motor = "motor = { mode = \"torque\" }\n";
-    let linear = linearized(&four_bar(0.0, Turn::of([0.0; 3]), false, motor));
-    let system = &linear.system;
-    let names: Vec<&str> = system.states.iter().map(|s| s.name.as_str()).collect();
-    assert_eq!(names, ["/v0.position", "/v0.velocity"]);
-    let weights = DMatrix::from_diagonal(&DVector::from_column_slice(&[10.0, 1.0]));
-    let design = lqr(&system.a, &system.b, &weights, &DMatrix::from_element(1, 1, 0.1)).unwrap();
-    let folder = four_bar(0.05, Turn::of([0.0; 3]), false, motor);
-    folder.write(
-        "diagram.toml",
-        &format!(
-            "wires = [\"[/v0.position, /v0.velocity] -> feedback -> /v0\"]\n[[block]]\nname = \"feedback\"\ntype = \"matrix-gain\"\nunit = \"N·m\"\ngain = [[{:?}, {:?}]]\n",
-            -design.k[0], -design.k[1]
-        ),
-    );
-    folder.write(
-        "experiment.toml",
-        "title = \"t\"\nscene = \"scene.toml\"\ndiagram = \"diagram.toml\"\nduration = 6.0\nstep = 0.01\nrecord = [\"/v0.position\"]\n",
-    );
-    let loaded = loaded(&folder, &[]);
-    let mut run = operating_point(&loaded, 6.0).unwrap();
-    assert!(run.state().q.iter().all(|q| q.abs() < 1e-3), "{:?}", run.state().q);
-    assert!(run.world().statistics().fallback_steps == 0);
+    let mut gains: Vec<[f64; 2]> = Vec::new();
+    for (turn, is_reversed) in turns(4).zip([false, true].into_iter().cycle()) {
+        let linear = linearized(&four_bar(0.0, turn, is_reversed, motor));
+        let system = &linear.system;
+        // independent is the first bar in the file
+        let [position, velocity] = [0, 1].map(|k| system.states[k].name.clone());
+        assert!(position.ends_with(".position") && velocity.ends_with(".velocity") && system.n_states() == 2);
+        let weights = DMatrix::from_diagonal(&DVector::from_column_slice(&[10.0, 1.0]));
+        let design = lqr(&system.a, &system.b, &weights, &DMatrix::from_element(1, 1, 0.1)).unwrap();
+        gains.push([design.k[0], design.k[1]]);
+        let folder = four_bar(0.05, turn, is_reversed, motor);
+        folder.write(
+            "diagram.toml",
+            &format!(
+                "wires = [\"[{position}, {velocity}] -> feedback -> /v0\"]\n[[block]]\nname = \"feedback\"\ntype = \"matrix-gain\"\nunit = \"N·m\"\ngain = [[{:?}, {:?}]]\n",
+                -design.k[0], -design.k[1]
+            ),
+        );
+        folder.write(
+            "experiment.toml",
+            "title = \"t\"\nscene = \"scene.toml\"\ndiagram = \"diagram.toml\"\nduration = 6.0\nstep = 0.01\nrecord = [\"/v0.position\"]\n",
+        );
+        let loaded = loaded(&folder, &[]);
+        let mut run = operating_point(&loaded, 6.0).unwrap();
+        assert!(run.state().q.iter().all(|q| q.abs() < 1e-3), "{:?}", run.state().q);
+        assert!(run.world().statistics().fallback_steps == 0);
+    }
+    // all bars turn as one: the same equation and the same regulator
+    for gain in &gains {
+        assert!((0..2).all(|k| (gain[k] - gains[0][k]).abs() < 1e-7 * gains[0][k].abs()), "{gains:?}");
+    }
 }
 
 /// Benchmark bicycle: rear frame on a free joint, wheels as discs that roll without slipping. Published eigenvalues:

@@ -188,8 +188,7 @@ fn refuse_improper(tangent: &Tangent, names: &Names) -> Result<(), Diagnostics> 
     if diagnostics.any_error() { Err(diagnostics) } else { Ok(()) }
 }
 
-/// Refuses a tangent space that opens loops: the independent set of their equations, which was chosen where the run
-/// starts, is dependent here.
+/// Refuses a tangent space that opens loops: the equations that are used for them are dependent here.
 fn refuse_open_tangent(model: &Model<f64>, q: &[f64], tangent: &Tangent) -> Result<(), Diagnostics> {
     const MOVE: f64 = 1e-5;
     let opening = |q: &[f64]| {
@@ -210,8 +209,8 @@ fn refuse_open_tangent(model: &Model<f64>, q: &[f64], tangent: &Tangent) -> Resu
         // along the loops it is of second order: 16 times as large at 4 times the move
         let (near, far) = (opening_at(MOVE), opening_at(4.0 * MOVE));
         if near > 2.0 * before + 2e-9 && far < 8.0 * near {
-            let message = "the equations of the loops that the run uses are dependent at this position";
-            let help = "linearise nearer to where the scene starts, or start it nearer to this position (`initial`)";
+            let message = "the equations of the loops are dependent at this position";
+            let help = "it is a singular one, or almost: choose another (`initial` of the joints, or another time)";
             return Err(Diagnostic::without_location(message).with_help(help).into());
         }
     }

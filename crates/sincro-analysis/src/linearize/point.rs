@@ -108,9 +108,16 @@ pub(super) fn settle(loaded: &Loaded, at: &LockStep, names: &Names) -> LockStep 
     settled
 }
 
-/// Finds the modes of drives and contacts in the state that a run is in.
+/// Chooses the independent equations of loops in the state that a run is in: those of its start can be dependent here.
+pub(super) fn select_loop_equations(run: &mut LockStep) {
+    let q = run.state().q.clone();
+    run.world().mechanism().select_loop_rows(&q);
+}
+
+/// Finds the modes of drives and contacts and the equations of loops in the state that a run is in.
 pub(super) fn initialize(run: &mut LockStep) {
     let t = run.t();
+    select_loop_equations(run);
     let commands = run.state().commands.clone();
     match run.control().filter(|control| control.is_continuous()).cloned() {
         Some(mut control) => run.world().initialize_with(t, &mut control),

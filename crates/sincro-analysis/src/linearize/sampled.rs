@@ -135,6 +135,7 @@ impl<'a> PeriodMap<'a> {
             run.advance().map_err(|halt| stopped(&halt))?;
         }
         let start = run.snapshot(run.trace());
+        point::select_loop_equations(&mut run);
         let mut settled = run.fork().lockstep;
         point::initialize(&mut settled);
         let names = Names::default();

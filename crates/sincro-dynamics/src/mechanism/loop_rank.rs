@@ -1,4 +1,4 @@
-//! Independent equations of the loops of a mechanism, decided once for a run.
+//! Independent equations of the loops of a mechanism, decided once for a run and anew where a position is analysed.
 //!
 //! Rank is a property of the mechanism, not of one position: at a singular position, such as a parallelogram folded
 //! flat, fewer equations are independent than next to it, and off the manifold an overconstrained spatial loop has
@@ -25,9 +25,12 @@ const MAX_ITERATIONS: usize = 30;
 const CLOSED: f64 = 1e-13;
 
 impl Mechanism<f64> {
-    /// Decides at coordinates `q` which equations of loop joints and gears are used: an independent set. Returns their
-    /// number.
-    pub(crate) fn select_loop_rows(&mut self, q: &[f64]) -> usize {
+    /// Decides at coordinates `q` (n_q) which equations of loop joints and gears are used: an independent set, of as
+    /// many as are independent there or close by. Returns their number.
+    ///
+    /// A run keeps the set of its start. Far away the same equations can depend on each other, so analysis decides anew
+    /// at each position. Working memory is overwritten; the modes of contacts and drives stay.
+    pub fn select_loop_rows(&mut self, q: &[f64]) -> usize {
         let n_bilateral = self.model.constraints().n_bilateral();
         if n_bilateral == 0 || self.constraints.is_none() {
             return 0;
