@@ -140,8 +140,10 @@ pub fn trim(loaded: &Loaded, from: &LockStep, request: &WantedTrim) -> Result<(S
         let entries = list.iter().map(|(axis, x)| (axis.name.clone(), json!(x)));
         Value::Object(entries.collect::<Map<_, _>>())
     };
+    let initial = found.trim.initial.iter().map(|(joint, q)| (joint.clone(), json!(q)));
     let text = json!({
         "states": table(&found.trim.states),
+        "initial": Value::Object(initial.collect::<Map<_, _>>()),
         "inputs": table(&found.trim.inputs),
         "outputs": table(&found.trim.outputs),
         "largest_rate": found.trim.residual,

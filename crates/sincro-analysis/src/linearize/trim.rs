@@ -8,7 +8,9 @@
 //! step that would pass a joint limit or let bodies overlap ends there; then the modes of contacts, limits and drives
 //! are found anew. Joints that friction or a velocity motor holds keep their position, unless signals are asked for.
 
+use sincro_dynamics::actuation::drive::DriveKind;
 use sincro_dynamics::initial;
+use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State;
 use sincro_math::Dual;
 
@@ -94,6 +96,10 @@ pub struct TrimRequest {
 pub struct Trim {
     /// States with their values: coordinates, velocities (zero), states of rotors and of the diagram.
     pub states: Vec<(Axis, f64)>,
+    /// Coordinates of each joint as its `initial.position` takes them, by path: one number, or a list such as x, y, z
+    /// and quaternion of a free joint. A scene that starts with them, at rest and with the commands of
+    /// [`Trim::inputs`], starts in the equilibrium.
+    pub initial: Vec<(String, Vec<f64>)>,
     /// Motor commands with their values, free ones and held ones; those that the diagram gives are left out.
     pub inputs: Vec<(Axis, f64)>,
     /// Wanted signals with the values reached, in the order of [`TrimRequest::wanted`].
@@ -171,7 +177,9 @@ pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<T
     let found = lens.evaluate(&vec![0.0; lens.n_full() + lens.n_inputs()], None);
     let zip = |axes: Vec<Axis>, values: &[f64]| axes.into_iter().zip(values.iter().copied()).collect();
     let wanted = all.outputs.iter().map(|o| o.axis.clone()).collect();
+    let initial = initial_positions(&loaded.scene.model, at.state());
     let trim = Trim {
+        initial,
         states: zip(lens.axes().to_vec(), lens.values()),
         inputs: zip(all.inputs.iter().map(|i| i.axis.clone()).collect(), &lens.input_values()),
         outputs: if request.wanted.is_empty() { Vec::new() } else { zip(wanted, &found.outputs) },
@@ -179,6 +187,13 @@ pub fn trim(loaded: &Loaded, from: &LockStep, request: &TrimRequest) -> Result<T
         iterations,
     };
     Ok(Trimmed { trim, at })
+}
+
+/// Coordinates of the joints by path; force sensors, whose degrees of freedom are locked, have none.
+fn initial_positions(model: &Model<f64>, state: &State<f64>) -> Vec<(String, Vec<f64>)> {
+    let is_locked = |dof: usize| model.drives().iter().any(|d| d.dof == dof && d.kind == DriveKind::Lock);
+    let joints = model.names().joints.iter().filter(|joint| !is_locked(joint.v_idx));
+    joints.map(|joint| (joint.name.clone(), state.q[joint.q_idx..joint.q_idx + joint.n_q].to_vec())).collect()
 }
 
 /// Closes loops that are open where the search starts.

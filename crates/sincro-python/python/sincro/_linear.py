@@ -51,11 +51,15 @@ class LinearSystem:
 
 
 class Equilibrium:
-    """A state of rest: ``states``, ``inputs``, ``outputs`` (values by name), ``q``, ``largest_rate``, ``iterations``."""
+    """A state of rest: ``states``, ``inputs``, ``outputs`` (values by name), ``q``, ``largest_rate``, ``iterations``.
+
+    ``initial``: coordinates of each joint, by path, as its ``initial.position`` takes them.
+    """
 
     def __init__(self, text, q):
         found = json.loads(text)
         self.states, self.inputs, self.outputs = found["states"], found["inputs"], found["outputs"]
+        self.initial = found["initial"]
         self.largest_rate, self.iterations = found["largest_rate"], found["iterations"]
         self.q = np.array(q)
 

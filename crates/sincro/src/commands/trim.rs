@@ -97,6 +97,15 @@ fn show(arguments: &Arguments, found: &Trim) -> Exit {
             say!("  {:<width$}  {value:>16.9} {}", axis.name, axis.unit);
         }
     }
+    // orientations are no states but displacements from themselves
+    let lists: Vec<_> = found.initial.iter().filter(|(_, q)| q.len() > 3).collect();
+    if !lists.is_empty() {
+        say!("positions, as `initial` takes them");
+    }
+    for (joint, q) in lists {
+        let numbers: Vec<String> = q.iter().map(|x| format!("{x:.9}")).collect();
+        say!("  {joint}  [{}]", numbers.join(", "));
+    }
     Exit::Holds
 }
 
@@ -105,8 +114,13 @@ fn as_json(found: &Trim) -> Value {
         let entries = list.iter().map(|(axis, x)| (axis.name.clone(), json!({"value": x, "unit": axis.unit})));
         Value::Object(entries.collect::<Map<_, _>>())
     };
+    let initial = found.initial.iter().map(|(joint, q)| {
+        let position = if let [one] = q[..] { json!(one) } else { json!(q) };
+        (joint.clone(), json!({ "position": position }))
+    });
     json!({
         "states": table(&found.states),
+        "initial": Value::Object(initial.collect::<Map<_, _>>()),
         "commands": table(&found.inputs),
         "wanted": table(&found.outputs),
         "largest_rate": found.residual,
