@@ -2,6 +2,7 @@
 
 mod air;
 mod contacts;
+mod dc_motors;
 mod drives;
 mod load_friction;
 mod loop_kinds;

@@ -29,7 +29,8 @@ use crate::spatial::{Force, Pose, RigidInertia, Vec3};
 pub struct Energy<R> {
     /// Kinetic energy ½ vᵀ M v `[J]`, armature included.
     pub kinetic: R,
-    /// Potential energy `[J]`: of gravity, zero at the world's origin, and of springs, zero at rest.
+    /// Potential energy `[J]`: of gravity, zero at the world's origin, of springs, zero at rest, and, if
+    /// [added](Energy::with_stored), of the magnetic fields of windings.
     pub potential: R,
 }
 
@@ -37,6 +38,12 @@ impl<R: Real> Energy<R> {
     /// Sum of kinetic and potential energy `[J]`.
     pub fn total(&self) -> R {
         self.kinetic + self.potential
+    }
+
+    /// This energy with `stored` `[J]` of other elements added to the potential energy.
+    #[must_use]
+    pub fn with_stored(self, stored: R) -> Self {
+        Self { potential: self.potential + stored, ..self }
     }
 }
 

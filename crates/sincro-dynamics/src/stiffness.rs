@@ -25,6 +25,9 @@ pub enum StiffElement {
     Dof(usize),
     /// Spring and damper between two points, by its index in [`Model::spring_dampers`].
     SpringDamper(usize),
+    /// Winding with inductance, by its index in [`Model::windings`]: a spring of stiffness N² k_t k_e/L in series with
+    /// a damper of N² k_t k_e/R.
+    Winding(usize),
 }
 
 /// Element with the fastest dynamics, from [`stiffest`]: the one that limits the step of explicit methods.
@@ -53,6 +56,9 @@ impl Stiffness {
     pub fn element_name(&self, model: &Model<f64>) -> String {
         match self.element {
             StiffElement::Dof(dof) => format!("joint `{}`", model.names().dof_name(dof)),
+            StiffElement::Winding(k) => {
+                format!("winding of the motor of `{}`", model.names().dof_name(model.windings[k].dof))
+            }
             StiffElement::SpringDamper(k) => format!("spring_damper `{}`", model.names().spring_dampers[k]),
         }
     }
@@ -98,7 +104,8 @@ impl StiffnessProbe {
             self.at_rest.factor(model, &state.q, &mut self.scratch);
         }
         let joints = (0..model.n_v()).filter_map(|k| stiffness_of_joint(model, state, k, self.scratch.dofs[k].d));
-        of_lines.into_iter().chain(joints).max_by(|a, b| a.rate.total_cmp(&b.rate))
+        let windings = (0..model.windings.len()).filter_map(|k| stiffness_of_winding(model, k, &self.scratch));
+        of_lines.into_iter().chain(joints).chain(windings).max_by(|a, b| a.rate.total_cmp(&b.rate))
     }
 
     /// Fastest spring or damper between two points, with everything between them left free; leaves the factors of the
@@ -131,6 +138,18 @@ fn has_sprung_joints(model: &Model<f64>) -> bool {
     model.dofs.iter().any(|dof| dof.stiffness != 0.0 || dof.damping != 0.0)
         || !model.nonlinear_springs.is_empty()
         || model.motors().iter().any(|motor| motor.mode == MotorMode::Spring)
+        || !model.windings.is_empty()
+}
+
+/// Winding with inductance against the inertia of its joint: s² + (R/L) s + N² k_t k_e/(L D) = 0.
+fn stiffness_of_winding(model: &Model<f64>, k: usize, scratch: &Scratch<f64>) -> Option<Stiffness> {
+    let winding = &model.windings[k];
+    winding.state?;
+    let held = model.is_held(winding.dof) || model.motors()[winding.motor].mode != MotorMode::Voltage;
+    let (inertia, damping) = (scratch.dofs[winding.dof].d, winding.shorted_damping());
+    let stiffness = if held { 0.0 } else { damping * winding.resistance / winding.inductance };
+    let rate = fastest_root(1.0, winding.resistance / winding.inductance, stiffness / inertia);
+    Some(Stiffness { element: StiffElement::Winding(k), rate, stiffness, damping, inertia })
 }
 
 /// Spring and damper of degree of freedom `k` on `inertia`, spring motors included; `None` without, and where an ideal
@@ -150,6 +169,9 @@ fn stiffness_of_joint(model: &Model<f64>, state: &State<f64>, k: usize, inertia:
     for motor in model.motors().iter().filter(|m| m.dof == k && m.mode == MotorMode::Spring) {
         stiffness += motor.stiffness;
         damping += motor.damping;
+    }
+    for winding in model.active_windings().filter(|w| w.dof == k && w.state.is_none()) {
+        damping += winding.shorted_damping();
     }
     Some(Stiffness::new(StiffElement::Dof(k), stiffness, damping, inertia)).filter(|s| s.rate > 0.0)
 }

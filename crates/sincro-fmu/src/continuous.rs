@@ -1,7 +1,7 @@
 //! Continuous states of a scene for model exchange: their names and start values.
 
 use sincro_blocks::runner::Runner;
-use sincro_scene::record::{Probe, catalogue};
+use sincro_scene::record::{Probe, WindingQuantity, catalogue};
 use sincro_sim::Loaded;
 
 /// A continuous state of an FMU of model exchange, with its unit and initial value.
@@ -15,7 +15,7 @@ pub(crate) struct ContinuousState {
     pub start: f64,
 }
 
-/// States in the order q, v, speeds of rotors with a lag, continuous blocks.
+/// States in the order q, v, speeds of rotors with a lag, currents of windings, continuous blocks.
 #[must_use]
 pub(crate) fn states(loaded: &Loaded) -> Vec<ContinuousState> {
     let (model, initial) = (&loaded.scene.model, &loaded.scene.initial);
@@ -31,6 +31,11 @@ pub(crate) fn states(loaded: &Loaded) -> Vec<ContinuousState> {
     for (rotor, name) in model.rotors().iter().zip(&model.names().rotors) {
         if let Some(start) = rotor.speed.initial() {
             all.push(ContinuousState { name: format!("{name}.speed"), unit: "rad/s".into(), start });
+        }
+    }
+    for (k, winding) in model.windings().iter().enumerate() {
+        if let Some(state) = winding.state {
+            all.push(named(Probe::Winding(WindingQuantity::Current, k), initial.rotors[state]));
         }
     }
     if let Some(controller) = &loaded.controller {

@@ -66,7 +66,7 @@ axis"#,
         "scene.toml",
         r#"mode = "velocity""#,
         r#"mode = "servo""#,
-        r#"scene.toml:26:18: error: `mode` is "servo", expected one of `free`, `torque`, `velocity`, `position`, `spring`
+        r#"scene.toml:26:18: error: `mode` is "servo", expected one of `free`, `torque`, `velocity`, `position`, `spring`, `voltage`
   help: What it does with its command."#,
     ),
     (

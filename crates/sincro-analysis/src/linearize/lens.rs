@@ -15,7 +15,7 @@ use sincro_math::Dual;
 use super::axis;
 use super::names::{InputKind, Names, Output};
 use crate::linear::Axis;
-use sincro_scene::record::{Probe, RotorQuantity, catalogue, probe};
+use sincro_scene::record::{Probe, RotorQuantity, WindingQuantity, catalogue, probe};
 use sincro_sim::diagram_controller::DiagramController;
 use sincro_sim::load::Loaded;
 use sincro_sim::run::LockStep;
@@ -437,6 +437,12 @@ fn describe(loaded: &Loaded, at: &LockStep, state: &State<f64>, z: &[f64]) -> (V
             || axis(format!("{}.flow", model.names().rotors[rotor]), "kg/s"),
             |e| axis(&e.name, &*e.unit),
         ));
+        values.push(state.rotors[k]);
+    }
+    for (winding, mounted) in model.windings().iter().enumerate() {
+        let Some(k) = mounted.state else { continue };
+        let current = named(Probe::Winding(WindingQuantity::Current, winding));
+        axes.push(current.map_or_else(|| axis(format!("current[{winding}]"), "A"), |e| axis(&e.name, &*e.unit)));
         values.push(state.rotors[k]);
     }
     if let Some(control) = at.control() {

@@ -282,7 +282,8 @@ impl SimApi<'_> {
         let (Some(motor), Some(drive)) = (joint.motor, joint.drive) else { return Ok(()) };
         let position = self.world.state.q[joint.q_idx];
         let (told, default) = match drive.mode {
-            MotorMode::Free => (None, 0.0),
+            // no function of the API gives voltages
+            MotorMode::Free | MotorMode::Voltage => (None, 0.0),
             MotorMode::Torque => (joint.target_force, 0.0),
             MotorMode::Velocity => (joint.target_velocity, 0.0),
             MotorMode::Position | MotorMode::Spring => (joint.target_position, position),

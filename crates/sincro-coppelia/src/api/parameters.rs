@@ -146,7 +146,8 @@ impl SimApi<'_> {
 fn control_number(mode: MotorMode) -> i64 {
     match mode {
         MotorMode::Free => 0,
-        MotorMode::Torque => 1,
+        // the API has no voltages: the motor is one that gives a torque
+        MotorMode::Torque | MotorMode::Voltage => 1,
         MotorMode::Velocity => 4,
         MotorMode::Position => 8,
         MotorMode::Spring => 12,

@@ -6,6 +6,7 @@
 //! | `damper` | −c q̇ | | c q̇² |
 //! | `friction` | locked: any torque within the limit; sliding: ∓ limit(q̇) | | limit(q̇)·\|q̇\| |
 //! | [`motor`] | by mode | | −τ q̇ |
+//! | [`winding`] | N k_t i | ½ L i² | R i² |
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
 //!
@@ -20,9 +21,11 @@ pub(crate) mod friction;
 pub mod motor;
 pub mod spring;
 pub mod spring_damper;
+pub mod winding;
 
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use drive::{Drive, DriveKind};
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
 pub use motor::{Motor, MotorMode};
 pub use spring_damper::SpringDamper;
+pub use winding::Winding;

@@ -7,6 +7,7 @@
 //! | `Velocity` | whatever holds the commanded velocity exactly, limited |
 //! | `Position` | as `Velocity`, towards the commanded position: velocity kp·(command − q), limited |
 //! | `Spring` | stiffness·(command − q) − damping·q̇, limited |
+//! | `Voltage` | that of a direct-current motor's winding, see [`crate::actuation::winding`] |
 //!
 //! `Velocity` and `Position` are constraints, not stiff gains: see [`crate::actuation::drive`].
 
@@ -38,6 +39,8 @@ pub enum MotorMode {
     Position,
     /// The command is the rest position `[rad]` or `[m]` of a spring and damper.
     Spring,
+    /// The command is the voltage `[V]` across the motor's [`Winding`](super::Winding); without one no torque.
+    Voltage,
 }
 
 /// Motor on one degree of freedom, with its mode, limits and gains; attached to a joint by `JointSpec::motor`.
@@ -129,7 +132,7 @@ impl<R: Real> Motor<R> {
                 let within = wanted.abs().if_less(self.max_torque, implicit, R::zero());
                 (wanted.clamp_abs(self.max_torque), within)
             }
-            MotorMode::Free | MotorMode::Velocity | MotorMode::Position => (R::zero(), R::zero()),
+            MotorMode::Free | MotorMode::Velocity | MotorMode::Position | MotorMode::Voltage => (R::zero(), R::zero()),
         }
     }
 }

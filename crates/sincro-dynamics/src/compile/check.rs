@@ -1,6 +1,6 @@
 //! Checks of the builder's objects: errors, for which no model is built, and warnings.
 
-use crate::actuation::{DriveKind, MotorMode, SpringDamper};
+use crate::actuation::{DriveKind, MotorMode, SpringDamper, Winding};
 use crate::aero::rotor::RotorLaw;
 use crate::joint::{Friction, JointKind};
 use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
@@ -295,6 +295,7 @@ fn check_motor(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec, n
         let help = "give a list with one motor for each degree of freedom, with mode `free` for those without";
         found.error(id, "motor", message, if n == 0 { "a fixed joint has none: leave it out" } else { help });
     }
+    check_windings(found, id, name, spec);
     for motor in &spec.motor {
         let is_servo = matches!(motor.mode, MotorMode::Position | MotorMode::Spring);
         if is_servo && matches!(spec.kind, JointKind::Ball | JointKind::Free) {
@@ -306,6 +307,25 @@ fn check_motor(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec, n
             if x.is_nan() || x < 0.0 {
                 let message = format!("motor of `{name}`: {field} {x} is negative or not a number");
                 found.error(id, "motor", message, "give zero or more");
+            }
+        }
+    }
+}
+
+fn check_windings(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec) {
+    for (k, motor) in spec.motor.iter().enumerate() {
+        let winding = spec.winding.get(k).copied().flatten();
+        if (motor.mode == MotorMode::Voltage) != winding.is_some() {
+            let message = format!("motor of `{name}`: a winding and mode `voltage` go together");
+            found.error(id, "motor", message, "give both or neither");
+        }
+        for (field, x) in winding.iter().flat_map(Winding::numbers) {
+            let is_positive = matches!(field, "resistance" | "torque_constant" | "gear_ratio" | "max_voltage");
+            let is_bounded = x.is_finite() || (field == "max_voltage" && x > 0.0);
+            if !is_bounded || x < 0.0 || (is_positive && x == 0.0) {
+                let message = format!("motor of `{name}`: {field} {x} is not a number that a winding can have");
+                let help = if is_positive { "give a number above zero" } else { "give zero or more" };
+                found.error(id, "motor", message, help);
             }
         }
     }

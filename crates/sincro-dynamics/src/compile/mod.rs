@@ -75,6 +75,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             dofs: Vec::new(),
             applied: Vec::new(),
             wrenches: Vec::new(),
+            windings: Vec::new(),
             rotors: Vec::new(),
             drags: Vec::new(),
             spring_dampers: Vec::new(),
@@ -215,6 +216,11 @@ impl Compiler<'_> {
         names.spring_dampers.extend(builder.spring_dampers.iter().map(|(name, _)| name.clone()));
         params.inertias = (0..structure.links.len()).map(|l| link_inertia(&names, &params.masses, l)).collect();
         structure.names = Arc::new(names);
+        let mut n_states = structure.rotors.iter().filter(|r| r.speed.state().is_some()).count();
+        for winding in &mut structure.windings {
+            *winding = winding.mounted(winding.motor, winding.dof, n_states);
+            n_states += usize::from(winding.state.is_some());
+        }
         let mut model = Model::new(structure, params);
         let lines = spring_dampers(builder, &carriers, &model);
         model.structure_mut().spring_dampers = lines;
@@ -313,6 +319,12 @@ impl Compiler<'_> {
         let first = MotorId::new(self.params.motors.len());
         let motors = spec.motor.iter().enumerate().map(|(k, motor)| Motor { dof: v_idx + k, ..*motor });
         self.params.motors.extend(motors);
+        for (k, winding) in spec.winding.iter().enumerate() {
+            if let Some(winding) = winding {
+                self.structure.dofs[v_idx + k].armature += winding.gear_ratio.powi(2) * winding.rotor_inertia;
+                self.structure.windings.push(winding.mounted(first.index() + k, v_idx + k, 0));
+            }
+        }
         let motor = (!spec.motor.is_empty()).then_some(first);
         let name = self.nodes[node.0 as usize].name.clone();
         let (base, moving) = (at.attached(), carrier.attached());

@@ -7,7 +7,8 @@ use sincro_math::Real;
 use crate::ids::MotorId;
 use crate::model::Model;
 
-/// Layout of y and of its slope: displacement in the chart, velocities, totals if they are tracked, states of rotors.
+/// Layout of y and of its slope: displacement in the chart, velocities, totals if they are tracked, states of rotors
+/// and windings.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
     n_v: usize,
@@ -89,7 +90,7 @@ impl Layout {
         2 * self.n_v + 2 + motor.index()
     }
 
-    /// States of rotors.
+    /// States of elements: of rotors, then of windings.
     #[inline(always)]
     #[must_use]
     pub fn rotor_states(self) -> Range<usize> {

@@ -26,7 +26,7 @@ mod torques;
 
 use sincro_math::Real;
 
-use crate::actuation::{Drive, DriveKind, ExternalForce, Motor, damper, friction};
+use crate::actuation::{Drive, DriveKind, ExternalForce, Motor, MotorMode, damper, friction};
 use crate::aero::rotor::{RotorLaw, SpeedSource};
 use crate::constraint::{Constraints, Level};
 use crate::ids::{MotorId, RotorId};
@@ -279,6 +279,7 @@ impl<R: Real> Mechanism<R> {
             v,
             commands: &self.commands,
             drives: &self.drives,
+            elements: rotors,
             loads: &self.loads,
             implicit,
         };
@@ -445,9 +446,25 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Rates of the totals at the last evaluation, for velocities `v` over which forces do their work.
+    /// Rates of the currents of windings for the accelerations in `slope`, over a linearly implicit step of length `h`
+    /// (0: now).
     #[inline(always)]
-    fn total_rates(&mut self, t: f64, v_at: &[R], v: &[R], steps: (R, R), rates: &mut [R]) {
+    fn current_rates(&self, y: &[R], h: f64, slope: &mut [R]) {
+        let (layout, h) = (self.layout, R::splat(h));
+        for winding in &self.model.windings {
+            let Some(k) = winding.state else { continue };
+            let (at, dof) = (layout.rotor_states().start + k, layout.velocity(winding.dof));
+            let is_active = self.model.params.motors[winding.motor].mode == MotorMode::Voltage;
+            let v_end = y[dof] + h * slope[dof];
+            let command = self.commands[winding.motor];
+            slope[at] = if is_active { winding.current_rate(y[at], v_end, command, h) } else { R::zero() };
+        }
+    }
+
+    /// Rates of the totals at the last evaluation, with the states of elements there, for velocities `v` over which
+    /// forces do their work: means over a linearly implicit step.
+    #[inline(always)]
+    fn total_rates(&mut self, t: f64, (v_at, elements): (&[R], &[R]), v: &[R], steps: (R, R), rates: &mut [R]) {
         let (mut work, mut dissipation) = (R::zero(), R::zero());
         for (k, dof) in self.model.dofs.iter().enumerate() {
             work += dof.torque * v[k];
@@ -475,7 +492,7 @@ impl<R: Real> Mechanism<R> {
             work += of_actuators;
             dissipation += heat;
         }
-        self.find_motor_torques(v_at, steps);
+        self.find_motor_torques((v_at, elements), v, steps);
         for (i, drive) in self.model.params.drives.iter().enumerate() {
             if drive.kind == DriveKind::Friction {
                 dissipation += friction::dissipation(self.friction_torque(i, v_at[drive.dof]), v[drive.dof]);
@@ -484,6 +501,14 @@ impl<R: Real> Mechanism<R> {
         for (i, motor) in self.model.params.motors.iter().enumerate() {
             work += self.motor_torque[i] * v[motor.dof];
             rates[2 + i] = self.motor_torque[i];
+        }
+        for winding in self.model.active_windings() {
+            let (i, k) = (winding.motor, winding.dof);
+            let v_end = v[k] + v[k] - v_at[k];
+            let power = winding.power(winding.state_in(elements), (v_end, v[k]), self.commands[i], steps.0);
+            // the work of its torque is in the sum already
+            work += power.electrical - self.motor_torque[i] * v[k];
+            dissipation += power.heat;
         }
         if R::IS_SCALAR
             && let Some(constraints) = &self.constraints
@@ -504,12 +529,19 @@ impl<R: Real> Mechanism<R> {
         self.drives[i].abs().if_less(R::splat(0.5), locked, self.drives[i] * friction.limit_at(v))
     }
 
-    /// Torque of every motor in the last evaluation.
+    /// Torque of every motor in the last evaluation, with the velocities and states of elements there, and the mean
+    /// velocities over a linearly implicit step.
     #[inline(always)]
-    pub(crate) fn find_motor_torques(&mut self, v: &[R], steps: (R, R)) {
+    pub(crate) fn find_motor_torques(&mut self, (v, elements): (&[R], &[R]), mean: &[R], steps: (R, R)) {
         for (i, motor) in self.model.params.motors.iter().enumerate() {
             let q = self.model.dofs[motor.dof].coordinate_in(&self.q);
             self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], steps).0;
+        }
+        for winding in self.model.active_windings() {
+            let (i, k) = (winding.motor, winding.dof);
+            let v_end = mean[k] + mean[k] - v[k];
+            let current = winding.current_after(winding.state_in(elements), v_end, self.commands[i], steps.0);
+            self.motor_torque[i] = winding.torque_per_ampere() * current;
         }
         for d in 0..self.model.params.drives.len() {
             let drive = self.model.params.drives[d];

@@ -32,9 +32,10 @@ impl<R: Real> Mechanism<R> {
         self.accelerations(t, v, rotors, None, &mut rest[..n]);
         self.note_evaluation(t, v, &rest[..n]);
         if self.layout.tracks_totals() {
-            self.total_rates(t, v, v, (R::zero(), R::zero()), &mut rest[n..]);
+            self.total_rates(t, (v, rotors), v, (R::zero(), R::zero()), &mut rest[n..]);
         }
         self.rotor_rates(rotors, 0.0, &mut slope[self.layout.rotor_states()]);
+        self.current_rates(y, 0.0, slope);
         if let Some(v) = projected {
             self.singular.v = v;
         }
@@ -68,10 +69,11 @@ impl<R: Real> Mechanism<R> {
                 over[k] = half * (over[k] + v[k]);
             }
             let of_springs = R::splat(implicit.steps(h).1);
-            self.total_rates(t, v, &over, (step, of_springs), &mut rest[n..]);
+            self.total_rates(t, (v, rotors), &over, (step, of_springs), &mut rest[n..]);
         }
         self.step_velocity = over;
         self.rotor_rates(rotors, h, &mut slope[self.layout.rotor_states()]);
+        self.current_rates(y, h, slope);
         if let Some(v) = projected {
             self.singular.v = v;
         }

@@ -16,6 +16,8 @@ pub(crate) struct TorqueInput<'a, R> {
     pub v: &'a [R],
     pub commands: &'a [R],
     pub drives: &'a [R],
+    /// States of elements, of which those of windings are currents `[A]`.
+    pub elements: &'a [R],
     /// Forces that the bearings of joints transmit, where friction grows with them `[N]`.
     pub loads: &'a [R],
     /// Step of a linearly implicit method, and which terms it takes at the new state; none: all at this one.
@@ -54,6 +56,12 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
         let k = motor.dof;
         let q = model.dofs[k].coordinate_in(at.q);
         let (tau, implicit) = motor.torque(q, at.v[k], command, steps);
+        torque[k] += tau;
+        diagonal[k] += implicit;
+    }
+    for winding in model.active_windings() {
+        let (k, state, command) = (winding.dof, winding.state_in(at.elements), at.commands[winding.motor]);
+        let (tau, implicit) = winding.torque(state, v[k], command, steps.0);
         torque[k] += tau;
         diagonal[k] += implicit;
     }

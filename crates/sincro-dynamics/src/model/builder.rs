@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::LoopJointKind;
 use super::MassProperties;
-use crate::actuation::{ForceLaw, Motor, NonlinearLaw};
+use crate::actuation::{ForceLaw, Motor, NonlinearLaw, Winding};
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
 use crate::contact::{Material, PairLaw, Surface};
@@ -90,6 +90,8 @@ pub struct JointSpec {
     /// Motors; their commands are inputs of the world. Those of ball and free joints are in mode free, torque or
     /// velocity: torques about the axes of the child frame, then, of free ones, forces along them.
     pub motor: Vec<Motor<f64>>,
+    /// Windings of the motors in mode voltage, one entry a motor, or empty.
+    pub winding: Vec<Option<Winding<f64>>>,
 }
 
 impl JointSpec {
@@ -108,6 +110,7 @@ impl JointSpec {
             limits: Vec::new(),
             limit_restitution: 0.0,
             motor: Vec::new(),
+            winding: Vec::new(),
         }
     }
 }

@@ -42,7 +42,7 @@ pub use structure::Structure;
 use crate::actuation::Drive;
 use crate::actuation::damper;
 use crate::actuation::spring::{self, NonlinearSpring};
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
+use crate::actuation::{AppliedTorque, AppliedWrench, Motor, MotorMode, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
@@ -155,11 +155,31 @@ impl<R: Real> Model<R> {
         self.params.motors.len() + 6 * n_inputs + of_rotors
     }
 
-    /// Number of rotor states, the length of [`crate::state::State::rotors`]: one for each rotor with a lag and each
-    /// stock propeller.
+    /// Number of states of elements, the length of [`crate::state::State::rotors`]: one for each rotor with a lag and
+    /// each stock propeller, then one for each winding with inductance.
     #[must_use]
     pub fn n_rotor_states(&self) -> usize {
         self.rotors.iter().filter(|r| r.speed.state().is_some()).count()
+            + self.windings.iter().filter(|w| w.state.is_some()).count()
+    }
+
+    /// Windings of direct-current motors, in the order of their motors.
+    #[must_use]
+    pub fn windings(&self) -> &[Winding<R>] {
+        &self.windings
+    }
+
+    /// Windings whose motors are in mode [`MotorMode::Voltage`]; the others carry no current.
+    #[inline(always)]
+    pub(crate) fn active_windings(&self) -> impl Iterator<Item = &Winding<R>> {
+        self.windings.iter().filter(|w| self.params.motors[w.motor].mode == MotorMode::Voltage)
+    }
+
+    /// Energy of the magnetic fields of all windings `[J]` for the states of elements
+    /// ([`crate::state::State::rotors`]).
+    #[must_use]
+    pub fn magnetic_energy(&self, states: &[R]) -> R {
+        self.windings.iter().fold(R::zero(), |sum, w| sum + w.energy(w.state_in(states)))
     }
 
     /// Rotors, in the order of their ids.

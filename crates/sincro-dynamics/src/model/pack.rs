@@ -7,7 +7,7 @@ use sincro_math::Real;
 use super::{Dof, Link, Model, ModelParams, Structure};
 use crate::actuation::spring_damper::{LineActuator, LinkPoint};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
-use crate::actuation::{ForceLaw, SpringDamper};
+use crate::actuation::{ForceLaw, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, SpeedSource};
 use crate::joint::Friction;
@@ -90,6 +90,18 @@ impl<R: Real> Model<R> {
             stiffness: num(&|m| m.params.motors[i].stiffness),
             damping: num(&|m| m.params.motors[i].damping),
         });
+        let windings = first.windings.iter().enumerate().map(|(i, w)| Winding {
+            motor: w.motor,
+            dof: w.dof,
+            state: w.state,
+            resistance: num(&|m| m.windings[i].resistance),
+            inductance: num(&|m| m.windings[i].inductance),
+            torque_constant: num(&|m| m.windings[i].torque_constant),
+            back_emf_constant: num(&|m| m.windings[i].back_emf_constant),
+            gear_ratio: num(&|m| m.windings[i].gear_ratio),
+            rotor_inertia: num(&|m| m.windings[i].rotor_inertia),
+            max_voltage: num(&|m| m.windings[i].max_voltage),
+        });
         let lanes = |f: &dyn Fn(&Model<f64>) -> crate::signal::Signal| (0..R::LANES).map(|k| f(of(k))).collect();
         let applied = (0..first.applied.len())
             .map(|i| AppliedTorque { dof: first.applied[i].dof, signal: lanes(&|m| m.applied[i].signal[0].clone()) });
@@ -166,6 +178,7 @@ impl<R: Real> Model<R> {
             dofs: dofs.collect(),
             applied: applied.collect(),
             wrenches: wrenches.collect(),
+            windings: windings.collect(),
             rotors: rotors.collect(),
             drags: drags.collect(),
             spring_dampers: spring_dampers.collect(),
@@ -184,6 +197,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         m.links.iter().map(|l| (l.parent, l.kind, l.turned, l.shift, l.q_idx, l.v_idx)).collect()
     };
     let motors = |m: &Model<f64>| -> Vec<_> { m.params.motors.iter().map(|x| (x.dof, x.mode)).collect() };
+    let windings = |m: &Model<f64>| -> Vec<_> { m.windings.iter().map(|w| (w.motor, w.state)).collect() };
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
     let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body, x.input)).collect() };
     let rotors = |m: &Model<f64>| -> Vec<_> {
@@ -203,6 +217,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     let checks = [
         (links(a) == links(b), "links and joints"),
         (motors(a) == motors(b), "motors"),
+        (windings(a) == windings(b), "windings of motors"),
         (applied(a) == applied(b), "applied torques"),
         (wrenches(a) == wrenches(b), "external forces"),
         (rotors(a) == rotors(b), "rotors"),

@@ -17,8 +17,14 @@ const MOTOR_LEN: usize = 6;
 const MASS_LEN: usize = 10;
 
 /// Modes of motors, in the order of their numbers in [`ModelParams::to_numbers`].
-const MODES: [MotorMode; 5] =
-    [MotorMode::Free, MotorMode::Torque, MotorMode::Velocity, MotorMode::Position, MotorMode::Spring];
+const MODES: [MotorMode; 6] = [
+    MotorMode::Free,
+    MotorMode::Torque,
+    MotorMode::Velocity,
+    MotorMode::Position,
+    MotorMode::Spring,
+    MotorMode::Voltage,
+];
 
 /// Parameters of a model: gravity, masses, motors, bounds of joint limits, gears, contact laws of pairs. A value of its
 /// own, which a snapshot holds beside the state; [`World`](crate::world::World) sets them one by one.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Dof, Link, Names};
 use crate::actuation::spring::NonlinearSpring;
-use crate::actuation::{AppliedTorque, AppliedWrench, SpringDamper};
+use crate::actuation::{AppliedTorque, AppliedWrench, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
@@ -20,6 +20,8 @@ pub struct Structure<R> {
     pub(crate) applied: Vec<AppliedTorque>,
     /// External forces.
     pub(crate) wrenches: Vec<AppliedWrench<R>>,
+    /// Windings of direct-current motors, in the order of their motors.
+    pub(crate) windings: Vec<Winding<R>>,
     pub(crate) rotors: Vec<MountedRotor<R>>,
     pub(crate) drags: Vec<AirDrag<R>>,
     pub(crate) spring_dampers: Vec<SpringDamper<R>>,

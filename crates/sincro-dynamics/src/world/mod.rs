@@ -508,7 +508,8 @@ impl World {
         self.mechanism.mark_modes();
         let own = self.mechanism.dim();
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
-        self.mechanism.find_motor_torques(&self.state.v, (0.0, 0.0));
+        let State { v, rotors, .. } = &self.state;
+        self.mechanism.find_motor_torques((v, rotors), v, (0.0, 0.0));
         let velocities = self.layout().velocities();
         self.accelerations.copy_from_slice(&self.slope[velocities]);
         (&self.accelerations, self.mechanism.motor_torque())
@@ -522,7 +523,8 @@ impl World {
         for k in 0..n {
             self.accelerations[k] = (self.step_end_velocities[k] - self.state.v[k]) / self.next_step;
         }
-        self.mechanism.find_motor_torques(&self.state.v, (self.next_step, 0.0));
+        let State { v, rotors, .. } = &self.state;
+        self.mechanism.find_motor_torques((v, rotors), v, (self.next_step, 0.0));
         // the modes are those of the step that has been made
         self.mechanism.drives.copy_from_slice(&self.state.drives);
         (&self.accelerations, self.mechanism.motor_torque())

@@ -95,10 +95,11 @@ impl Observation<'_> {
         &self.mechanism.scratch
     }
 
-    /// Kinetic and potential energy `[J]`.
+    /// Kinetic and potential energy `[J]`, that of windings included.
     #[must_use]
     pub fn energy(&self) -> Energy<f64> {
         energy(self.model(), &self.state.q, &self.state.v, self.scratch())
+            .with_stored(self.model().magnetic_energy(&self.state.rotors))
     }
 
     /// Momentum of all bodies about the world's origin, in world axes: angular `[kg·m²/s]`, linear `[kg·m/s]`.

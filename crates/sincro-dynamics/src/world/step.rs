@@ -176,10 +176,11 @@ impl World {
         self.state.commands[motor.index()] = command;
     }
 
-    /// Kinetic and potential energy in the present state `[J]`; computed anew by each call.
+    /// Kinetic and potential energy in the present state `[J]`, that of windings included; computed anew by each call.
     pub fn energy(&mut self) -> Energy<f64> {
         let mechanism = &mut self.mechanism;
         energy_at(&mechanism.model, &self.state.q, &self.state.v, &mut mechanism.scratch)
+            .with_stored(mechanism.model.magnetic_energy(&self.state.rotors))
     }
 }
 

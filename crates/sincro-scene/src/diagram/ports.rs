@@ -9,7 +9,7 @@ use sincro_blocks::unit::Unit;
 use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::model::Model;
 
-use crate::record::probe::{depends_on_command, has_actuated_force};
+use crate::record::probe::{depends_on_command, has_actuated_force, has_commanded_circuit};
 use crate::record::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, Probe, catalogue};
 
 /// A measurement: where its components are read.
@@ -77,6 +77,7 @@ pub(crate) fn depends_on_commands(model: &Model<f64>, probe: Probe) -> bool {
         Probe::Acceleration(_) | Probe::MotorTorqueNow(_) | Probe::Frame(FrameQuantity::Acceleration, ..) => true,
         Probe::Rotor(quantity, k) => depends_on_command(model, quantity, k),
         Probe::SpringDamper(quantity, k) => has_actuated_force(model, quantity, k),
+        Probe::Winding(quantity, k) => has_commanded_circuit(model, quantity, k),
         _ => false,
     }
 }

@@ -8,7 +8,7 @@ use sincro_dynamics::ids::{JointId, MotorId};
 use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
-use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
+use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity};
 
 /// Signal that can be recorded: name, unit, and the probe that reads it; an entry of [`catalogue`].
 ///
@@ -211,6 +211,7 @@ fn motor_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
             MotorMode::Torque => units[3],
             MotorMode::Velocity => units[1],
             MotorMode::Position | MotorMode::Spring => units[0],
+            MotorMode::Voltage => "V",
             MotorMode::Free => "",
         };
         let mut add = |what: &str, unit: &dyn Fn(MotorId) -> &'static str, probe: fn(usize) -> Probe| {
@@ -221,6 +222,24 @@ fn motor_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
         add(command, &of_command, Probe::Command);
         add(torque, &|_| units[3], Probe::MotorTorqueMean);
         add(&format!("{torque}_now"), &|_| units[3], Probe::MotorTorqueNow);
+        for (component, motor) in components.iter().zip(&motors[*first..]) {
+            winding_signals(list, &joint.name, component, *motor, model);
+        }
+    }
+}
+
+/// Signals of the winding of a motor, if it has one.
+fn winding_signals(list: &mut List, joint: &str, component: &str, motor: MotorId, model: &Model<f64>) {
+    use WindingQuantity as Q;
+    let Some(k) = model.windings().iter().position(|w| w.motor == motor.index()) else { return };
+    let quantities = [
+        ("current", "A", Q::Current),
+        ("voltage", "V", Q::Voltage),
+        ("back_emf", "V", Q::BackEmf),
+        ("electrical_power", "W", Q::ElectricalPower),
+    ];
+    for (what, unit, quantity) in quantities {
+        list.add(format!("{joint}.{what}{component}"), unit, Probe::Winding(quantity, k));
     }
 }
 

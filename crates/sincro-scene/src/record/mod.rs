@@ -72,6 +72,8 @@ pub enum Probe {
     Drag(usize, usize),
     /// Quantity of a spring and damper between two points: quantity, index of the element.
     SpringDamper(LineQuantity, usize),
+    /// Quantity of a motor's winding: quantity, index of the winding.
+    Winding(WindingQuantity, usize),
     /// Component of the wind at its reference height `[m/s]`.
     Wind(usize),
     /// Quantity of the contacts of a body: quantity, frame of the body, component.
@@ -129,6 +131,19 @@ pub enum LineQuantity {
     Rate,
     /// Force along the line, positive where it pushes the points apart `[N]`.
     Force,
+}
+
+/// Quantity of the winding of a direct-current motor, for [`Probe::Winding`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WindingQuantity {
+    /// Current `[A]`.
+    Current,
+    /// Voltage across the motor: the command within the limits of the supply `[V]`.
+    Voltage,
+    /// Voltage that the rotation induces `[V]`.
+    BackEmf,
+    /// Power of the source `[W]`.
+    ElectricalPower,
 }
 
 /// Quantity of a frame in the world, for [`Probe::Frame`]; vectors in world axes.

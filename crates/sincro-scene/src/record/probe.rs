@@ -1,9 +1,10 @@
 //! One measurement, on any kind of number: what is recorded, what a diagram sees at ticks and between, what is
 //! linearised.
 
+use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::aero::rotor::{Hub, Load, Validity};
 use sincro_dynamics::coupled::{MechanismResponse, StateView};
-use sincro_dynamics::energy::{energy, momentum};
+use sincro_dynamics::energy::{Energy, energy, momentum};
 use sincro_dynamics::ids::BodyId;
 use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::model::Model;
@@ -13,7 +14,7 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::Observation;
 use sincro_math::Real;
 
-use super::{EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity};
+use super::{EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity};
 
 /// State at which a [`Probe`] is evaluated, in any number type; lists have the order of the model's state.
 #[derive(Clone, Copy, Debug)]
@@ -78,14 +79,15 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::DampingTorque(k) => model.damping_torque(k, at.q, at.v),
         Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
         Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),
-        Probe::Energy(EnergyQuantity::Kinetic) => energy(model, at.q, at.v, at.scratch).kinetic,
-        Probe::Energy(EnergyQuantity::Potential) => energy(model, at.q, at.v, at.scratch).potential,
-        Probe::Energy(EnergyQuantity::Total) => energy(model, at.q, at.v, at.scratch).total(),
+        Probe::Energy(EnergyQuantity::Kinetic) => stored(at).kinetic,
+        Probe::Energy(EnergyQuantity::Potential) => stored(at).potential,
+        Probe::Energy(EnergyQuantity::Total) => stored(at).total(),
         Probe::Momentum(k) if k < 3 => momentum(model, at.scratch).ang[k],
         Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
         Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
         Probe::Drag(k, component) => drag(at, k)[component],
         Probe::SpringDamper(quantity, k) if !has_actuated_force(model, quantity, k) => of_line(at, quantity, k),
+        Probe::Winding(quantity, k) if !has_commanded_circuit(model, quantity, k) => of_winding(at, quantity, k),
         Probe::Wind(k) => {
             let wind = model.wind()?;
             wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
@@ -106,6 +108,7 @@ pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>
         Probe::MotorTorqueNow(m) => response.motor_torque[m],
         Probe::Rotor(quantity, k) => of_rotor(at, quantity, k),
         Probe::SpringDamper(quantity, k) => of_line(at, quantity, k),
+        Probe::Winding(quantity, k) => of_winding(at, quantity, k),
         Probe::Frame(FrameQuantity::Acceleration, frame, k) => {
             kinematics::frame_acceleration(at.scratch, &attached(at.model, frame)).lin[k]
         }
@@ -166,6 +169,40 @@ pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
 /// Returns true for the force of a spring and damper with an actuator, which depends on its present command.
 pub(crate) fn has_actuated_force<R: Real>(model: &Model<R>, quantity: LineQuantity, k: usize) -> bool {
     quantity == LineQuantity::Force && model.spring_dampers()[k].actuator.is_some()
+}
+
+/// Returns true for a quantity of a winding that depends on its present command: all but the back-EMF, and the current
+/// where it is a state.
+pub(crate) fn has_commanded_circuit<R: Real>(model: &Model<R>, quantity: WindingQuantity, k: usize) -> bool {
+    match quantity {
+        WindingQuantity::BackEmf => false,
+        WindingQuantity::Current => model.windings()[k].state.is_none(),
+        WindingQuantity::Voltage | WindingQuantity::ElectricalPower => true,
+    }
+}
+
+fn of_winding<R: Real>(at: &View<'_, R>, quantity: WindingQuantity, k: usize) -> R {
+    let winding = &at.model.windings()[k];
+    let v = at.v[winding.dof];
+    // in another mode the command is no voltage; of the state alone there is none
+    let is_active = at.model.motors()[winding.motor].mode == MotorMode::Voltage;
+    let command = at.commands.get(winding.motor).copied().filter(|_| is_active).unwrap_or(R::zero());
+    let current = match winding.state {
+        Some(k) => at.rotors[k],
+        None if is_active => winding.current(R::zero(), v, command),
+        None => R::zero(),
+    };
+    match quantity {
+        WindingQuantity::Current => current,
+        WindingQuantity::Voltage => winding.voltage(command),
+        WindingQuantity::BackEmf => winding.back_emf(v),
+        WindingQuantity::ElectricalPower => winding.voltage(command) * current,
+    }
+}
+
+/// Energy of the mechanism and its windings.
+fn stored<R: Real>(at: &View<'_, R>) -> Energy<R> {
+    energy(at.model, at.q, at.v, at.scratch).with_stored(at.model.magnetic_energy(at.rotors))
 }
 
 fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {

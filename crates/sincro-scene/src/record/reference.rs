@@ -5,16 +5,20 @@
 
 use std::fmt::Write as _;
 
-use super::{ContactQuantity, EnergyQuantity, Entry, FrameQuantity, LineQuantity, Probe, RotorQuantity, catalogue};
+use super::{
+    ContactQuantity, EnergyQuantity, Entry, FrameQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity,
+    catalogue,
+};
 use crate::scene::from_text;
 
 /// A scene that has all signals.
 const SAMPLE: &str = include_str!("sample.toml");
 
 /// Objects of the sample with the headings of their tables; `""` takes the rest.
-const SECTIONS: [(&str, &str); 18] = [
+const SECTIONS: [(&str, &str); 19] = [
     ("/slide", "Prismatic joint"),
     ("/hinge", "Revolute joint, with a motor, a spring and stops; a screw joint has the same"),
+    ("/wheel", "Revolute joint with a motor in mode `voltage`"),
     ("/universal", "Universal joint: two angles"),
     ("/ball", "Ball joint, with velocity motors"),
     ("/planar", "Planar joint"),
@@ -134,6 +138,7 @@ fn meaning(probe: Probe) -> &'static str {
     use EnergyQuantity as E;
     use FrameQuantity as F;
     use RotorQuantity as R;
+    use WindingQuantity as W;
     match probe {
         Probe::Coordinate(_) => "joint coordinate",
         Probe::Rate(_) => "its rate; of ball and free joints the velocity against the parent, in axes of the child",
@@ -158,7 +163,7 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Frame(F::CenterOfMass, ..) => "centre of mass in the world",
         Probe::Frame(F::Wind, ..) => "velocity of the air at the origin, world axes; where the scene has wind",
         Probe::Energy(E::Kinetic) => "kinetic energy of all bodies, rotors and armatures",
-        Probe::Energy(E::Potential) => "potential energy of gravity and springs",
+        Probe::Energy(E::Potential) => "potential energy of gravity and springs, and that of currents in inductances",
         Probe::Energy(E::Total) => "their sum",
         Probe::Energy(E::Work) => "work done by motors, applied torques, forces, rotors and wind since the start",
         Probe::Energy(E::Dissipated) => "energy taken by dampers, friction, impacts and drag since the start",
@@ -175,6 +180,10 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::SpringDamper(LineQuantity::Length, _) => "distance of its ends",
         Probe::SpringDamper(LineQuantity::Rate, _) => "rate of that distance",
         Probe::SpringDamper(LineQuantity::Force, _) => "force along the line, positive where it pushes the ends apart",
+        Probe::Winding(W::Current, _) => "current of the winding",
+        Probe::Winding(W::Voltage, _) => "voltage across the motor: the command within the limits of the supply",
+        Probe::Winding(W::BackEmf, _) => "voltage that the rotation induces",
+        Probe::Winding(W::ElectricalPower, _) => "power of the source, voltage times current",
         Probe::Wind(_) => "velocity of the air at the reference height, world axes; where the scene has wind",
         Probe::Contact(C::Force, ..) => "sum of the contact forces on the body, world axes",
         Probe::Contact(C::Torque, ..) => "sum of their moments about the origin of the world, world axes",

@@ -488,7 +488,7 @@ impl SpringFile {
 pub(crate) struct MotorFile {
     /// What it does with its command.
     pub mode: MotorModeFile,
-    /// Command as a signal, held over each base step; default 0. Torque, velocity, or position, as the mode says.
+    /// Command as a signal, held over each base step; default 0. Torque, velocity, position, or voltage, as the mode says.
     pub command: Option<SignalFile>,
     /// Largest torque or force, above 0; none if left out or inf [N·m] or [N]. A joint that nothing drives has mode `free`.
     #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
@@ -505,6 +505,27 @@ pub(crate) struct MotorFile {
     /// Mode `spring`; default 0 [N·m·s/rad] or [N·s/m].
     #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
+    /// Mode `voltage`: resistance of the winding, above 0 [Ω].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub resistance: Option<f64>,
+    /// Mode `voltage`: inductance of the winding; default 0, the current then follows at once [H].
+    #[schemars(range(min = 0.0))]
+    pub inductance: Option<f64>,
+    /// Mode `voltage`: torque of the motor for each ampere, above 0 [N·m/A].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub torque_constant: Option<f64>,
+    /// Mode `voltage`: induced voltage for each rad/s of the motor; default `torque_constant` [V·s/rad].
+    #[schemars(range(min = 0.0))]
+    pub back_emf_constant: Option<f64>,
+    /// Mode `voltage`: turns of the motor for each turn of the joint, or angle of the motor over displacement [rad/m]; default 1.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub gear_ratio: Option<f64>,
+    /// Mode `voltage`: inertia of the motor's rotor, which gear_ratio² times is added to the armature of the joint; default 0 [kg·m²].
+    #[schemars(range(min = 0.0))]
+    pub rotor_inertia: Option<f64>,
+    /// Mode `voltage`: voltage of the supply, above 0; no limit if left out or inf [V].
+    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
+    pub max_voltage: Option<f64>,
 }
 
 /// What a motor does with its command.
@@ -521,6 +542,8 @@ pub(crate) enum MotorModeFile {
     Position,
     /// τ = stiffness·(command − q) − damping·q̇.
     Spring,
+    /// The command is the voltage across the winding of a direct-current motor [V].
+    Voltage,
 }
 
 /// A rigid body.

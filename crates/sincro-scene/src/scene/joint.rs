@@ -1,6 +1,6 @@
 //! Joints and motors: from what is written to the builder's specification.
 
-use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::actuation::{Motor, MotorMode, Winding};
 use sincro_dynamics::joint::{Friction, JointKind};
 use sincro_dynamics::model::JointSpec;
 use sincro_dynamics::signal::Signal;
@@ -57,6 +57,7 @@ pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'
     });
     let commands = commands.collect();
     spec.motor = motors.iter().map(|(file, pointer)| motor(file, pointer, signals)).collect();
+    spec.winding = motors.iter().map(|(file, _)| winding(file)).collect();
     (spec, commands)
 }
 
@@ -134,6 +135,23 @@ fn refuse_key(pointer: &str, key: &str, of: &str, signals: &mut SignalReader<'_>
     }
 }
 
+/// Keys of a motor in mode `voltage`.
+const ELECTRIC: [&str; 7] =
+    ["resistance", "inductance", "torque_constant", "back_emf_constant", "gear_ratio", "rotor_inertia", "max_voltage"];
+
+/// Winding of a motor in mode `voltage`; one that lacks a key is refused by [`motor`].
+fn winding(file: &MotorFile) -> Option<Winding<f64>> {
+    let plain = Winding::new(file.resistance.unwrap_or(1.0), file.torque_constant.unwrap_or(1.0));
+    (file.mode == MotorModeFile::Voltage).then(|| Winding {
+        inductance: file.inductance.unwrap_or(0.0),
+        back_emf_constant: file.back_emf_constant.unwrap_or(plain.back_emf_constant),
+        gear_ratio: file.gear_ratio.unwrap_or(1.0),
+        rotor_inertia: file.rotor_inertia.unwrap_or(0.0),
+        max_voltage: file.max_voltage.unwrap_or(f64::INFINITY),
+        ..plain
+    })
+}
+
 fn motor(file: &MotorFile, pointer: &str, signals: &mut SignalReader<'_>) -> Motor<f64> {
     let mode = match file.mode {
         MotorModeFile::Free => MotorMode::Free,
@@ -141,9 +159,11 @@ fn motor(file: &MotorFile, pointer: &str, signals: &mut SignalReader<'_>) -> Mot
         MotorModeFile::Velocity => MotorMode::Velocity,
         MotorModeFile::Position => MotorMode::Position,
         MotorModeFile::Spring => MotorMode::Spring,
+        MotorModeFile::Voltage => MotorMode::Voltage,
     };
     let word = signals.document.text(&format!("{pointer}/mode")).unwrap_or("").to_owned();
     let (position, spring) = (mode == MotorMode::Position, mode == MotorMode::Spring);
+    let voltage = mode == MotorMode::Voltage;
     let driven = mode != MotorMode::Free;
     let keys = [
         ("kp", position),
@@ -151,16 +171,22 @@ fn motor(file: &MotorFile, pointer: &str, signals: &mut SignalReader<'_>) -> Mot
         ("stiffness", spring),
         ("damping", spring),
         ("command", driven),
-        ("max_torque", driven),
+        ("max_torque", driven && !voltage),
     ];
-    for (key, _) in keys.iter().filter(|(_, fits)| !fits) {
+    let electric = ELECTRIC.map(|key| (key, voltage));
+    for (key, _) in keys.iter().chain(&electric).filter(|(_, fits)| !fits) {
         refuse_key(&format!("{pointer}/{key}"), key, &format!("a motor in mode `{word}`"), signals);
     }
-    for (key, needed) in [("kp", position), ("stiffness", spring)] {
+    let needed = [
+        ("kp", position, "[1/s]"),
+        ("stiffness", spring, "[N·m/rad] or [N/m]"),
+        ("resistance", voltage, "[Ω]"),
+        ("torque_constant", voltage, "[N·m/A]"),
+    ];
+    for (key, needed, unit) in needed {
         if needed && signals.document.get(&format!("{pointer}/{key}")).is_none() {
             let at = signals.document.at(&format!("{pointer}/mode"));
             let diagnostic = Diagnostic::error(&at, format!("`{key}` is missing: mode `{word}` needs it"));
-            let unit = if position { "[1/s]" } else { "[N·m/rad] or [N/m]" };
             signals.diagnostics.push(diagnostic.with_help(format!("give `{key}` {unit}")));
         }
     }

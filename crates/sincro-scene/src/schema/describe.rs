@@ -142,7 +142,7 @@ mod tests {
             of("JointFile", "damping"),
             "a number in N·m·s/rad or N·s/m or a list of numbers in N·m·s/rad or N·s/m"
         );
-        assert_eq!(of("MotorFile", "mode"), "one of `free`, `torque`, `velocity`, `position`, `spring`");
+        assert_eq!(of("MotorFile", "mode"), "one of `free`, `torque`, `velocity`, `position`, `spring`, `voltage`");
         assert_eq!(
             of("MotorFile", "command"),
             "a number or a table with one of `constant`, `step`, `ramp`, `sine`, `pulse`, `table`"
