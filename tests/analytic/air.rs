@@ -148,13 +148,13 @@ fn drag_of_equal_areas_knows_no_direction() {
     let model = flyer(0.0, Some(spec), None);
     for direction in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.6, 0.0, 0.8], [-0.36, 0.48, 0.8]] {
         let drag = &model.drags()[0];
-        let resistance = drag.resistance(Vec3(direction).scale(7.0));
+        let resistance = drag.resistance(Vec3(direction).scale(7.0), &Pose::identity());
         let expected = 0.5 * DENSITY * 0.5 * 49.0;
         assert!((resistance.force.norm() / expected - 1.0).abs() < 1e-14);
         assert!((resistance.force.dot(Vec3(direction)) + expected).abs() < 1e-12);
         assert!((resistance.dissipation / (7.0 * expected) - 1.0).abs() < 1e-14);
     }
-    assert_eq!(model.drags()[0].resistance(Vec3([0.0; 3])).force.0.map(f64::abs), [0.0; 3]);
+    assert_eq!(model.drags()[0].resistance(Vec3([0.0; 3]), &Pose::identity()).force.0.map(f64::abs), [0.0; 3]);
 }
 
 #[test]

@@ -16,7 +16,10 @@
 //! | ρ | density of the air | kg/m³ |
 //! | v, u | velocity of the centre of pressure, in the world and in the air | m/s |
 
+use std::sync::Arc;
+
 use sincro_math::Real;
+use sincro_math::scalar_field::ScalarField;
 
 use crate::wind::Air;
 use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
@@ -30,8 +33,8 @@ use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
 /// use sincro_geometry::spatial::{Pose, Vec3};
 ///
 /// let [area, linear] = [Vec3([0.2, 0.2, 0.5]), Vec3([0.0; 3])];
-/// let plate = AirDrag { link: 0, pose: Pose::identity(), area, linear, density: 1.225 };
-/// let drag = plate.resistance(Vec3([10.0, 0.0, 0.0])); // 10 m/s along x
+/// let plate = AirDrag { link: 0, pose: Pose::identity(), area, linear, density: 1.225, atmosphere: None };
+/// let drag = plate.resistance(Vec3([10.0, 0.0, 0.0]), &Pose::identity()); // 10 m/s along x
 /// assert!((drag.force[0] + 0.5 * 1.225 * 0.2 * 100.0).abs() < 1e-12); // N
 /// assert!((drag.dissipation + drag.force[0] * 10.0).abs() < 1e-12); // W
 /// ```
@@ -46,8 +49,10 @@ pub struct AirDrag<R> {
     pub area: Vec3<R>,
     /// Linear drag coefficient along each axis of the element `[N·s/m]`, not negative.
     pub linear: Vec3<R>,
-    /// Density of the air `[kg/m³]`.
+    /// Density of the air `[kg/m³]`, where `atmosphere` does not give it.
     pub density: f64,
+    /// Density of the air `[kg/m³]` over the position in the world; `None`: the same everywhere.
+    pub atmosphere: Option<Arc<ScalarField>>,
 }
 
 /// Result of [`AirDrag::resistance`]: force on the centre of pressure and the power that it dissipates.
@@ -70,12 +75,17 @@ impl<R: Real> AirDrag<R> {
     }
 
     /// Drag force `[N]` and dissipated power `[W]` at the velocity `u` `[m/s]` of the centre of pressure relative to
-    /// the air (from [`AirDrag::velocity`]), both vectors in the axes of the element.
+    /// the air (from [`AirDrag::velocity`]), both vectors in the axes of the element; `x_wl` is the pose of its link in
+    /// the world `[m]`.
     #[inline(always)]
-    pub fn resistance(&self, u: Vec3<R>) -> Resistance<R> {
+    pub fn resistance(&self, u: Vec3<R>, x_wl: &Pose<R>) -> Resistance<R> {
         // below that the root has no slope, and 0 · ∞ would be the derivative
         let square = u.dot(u).max(R::splat(f64::MIN_POSITIVE));
-        let speed = R::splat(0.5 * self.density) * square.sqrt();
+        let half_density = match &self.atmosphere {
+            None => R::splat(0.5 * self.density),
+            Some(density) => R::splat(0.5) * density.at(x_wl.point(self.pose.pos).0),
+        };
+        let speed = half_density * square.sqrt();
         let force = Vec3(core::array::from_fn(|k| -((speed * self.area[k] + self.linear[k]) * u[k])));
         Resistance { force, dissipation: -force.dot(u) }
     }

@@ -67,6 +67,9 @@ pub struct EvaluationPoint {
 /// assert!((terms.mass_matrix[0] * terms.forward_dynamics[0] + terms.inverse_dynamics[0]).abs() < 1e-12); // [N·m]
 /// ```
 pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<EquationTerms, String> {
+    if model.gravity_field().is_some() {
+        return Err("gravity depends on the position, which these terms do not have".into());
+    }
     let (n_q, n_v) = (model.n_q(), model.n_v());
     let filled = |name: &str, list: &[f64], zero: Vec<f64>| match list.len() {
         0 => Ok(zero),

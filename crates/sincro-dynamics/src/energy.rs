@@ -2,7 +2,7 @@
 
 use sincro_math::Real;
 
-use crate::actuation::spring;
+use crate::actuation::{GravityField, spring};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
@@ -57,6 +57,9 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
         e.kinetic += half * twist.dot(&inertia.mul(twist));
         e.potential += gravity_energy(model.params.gravity, inertia, &scratch.poses[i]);
     }
+    if let Some(field) = &model.gravity_field {
+        e.potential += field_energy(model, field, &scratch.poses);
+    }
     for (k, dof) in model.dofs.iter().enumerate() {
         e.kinetic += half * dof.armature * v[k] * v[k];
         if model.has_scalar_coordinate(k) {
@@ -83,6 +86,13 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
 fn gravity_energy<R: Real>(gravity: Vec3<R>, inertia: &RigidInertia<R>, pose: &Pose<R>) -> R {
     let first_moment = pose.rot.mul_vec(inertia.moment) + pose.pos.scale(inertia.mass);
     -gravity.dot(first_moment)
+}
+
+/// Potential energy m U(p) `[J]` of all bodies in a gravity field, after kinematics; zero without a potential.
+fn field_energy<R: Real>(model: &Model<R>, field: &GravityField, poses: &[Pose<R>]) -> R {
+    let Some(potential) = &field.potential else { return R::zero() };
+    let energy = |(mass, link, center): (R, usize, Vec3<R>)| mass * potential.at(poses[link].point(center).0);
+    model.centers_of_mass().fold(R::zero(), |sum, body| sum + energy(body))
 }
 
 /// Momentum of all bodies about the world's origin, in world axes: angular `[kg·m²/s]`, linear `[kg·m/s]`; armature

@@ -10,6 +10,7 @@ pub mod lanes;
 pub mod random;
 mod real;
 mod scalar;
+pub mod scalar_field;
 pub mod series;
 pub mod signal;
 

@@ -143,7 +143,7 @@ impl Sensor {
         match &self.kind {
             SensorKind::Imu { accelerometer, gyro } => {
                 let own = |v: Vec3<f64>| pose.rot.transpose().mul_vec(v);
-                let force = own(frame_acceleration(seen.scratch, &self.at).lin - seen.model.gravity());
+                let force = own(frame_acceleration(seen.scratch, &self.at).lin - seen.model.gravity_at(pose.pos));
                 let rate = own(frame_velocity(seen.scratch, &self.at).ang);
                 y[..3].copy_from_slice(&three(0, force, accelerometer, self.root_rate));
                 y[3..].copy_from_slice(&three(3, rate, gyro, self.root_rate));

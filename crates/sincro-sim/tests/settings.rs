@@ -108,7 +108,7 @@ const REFUSED: &[(&str, &str)] = &[
     (
         "gravity.x=1",
         r#"--set:1:1: error: `gravity.x`: `gravity` has no `x`
-  help: it is a list; its entries are counted from 0"#,
+  help: keys: `acceleration`, `potential`"#,
     ),
     (
         "/shoulder.initial.position.1=3",

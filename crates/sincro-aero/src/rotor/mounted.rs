@@ -1,6 +1,9 @@
 //! A rotor on a link: from the motion of its hub to the wrench on the airframe, and where its speed comes from.
 
+use std::sync::Arc;
+
 use sincro_math::Real;
+use sincro_math::scalar_field::ScalarField;
 
 use super::printed::PrintedScript;
 use super::{CoefficientTable, ConstantCoefficients, Load, Rotor, Spin, StockPropeller, Validity};
@@ -178,8 +181,10 @@ pub struct MountedRotor<R> {
     pub law: RotorLaw,
     /// Source of its speed.
     pub speed: SpeedSource<R>,
-    /// Density of the air [kg/m³].
+    /// Density of the air [kg/m³]; 1 where `atmosphere` gives it.
     pub density: f64,
+    /// Density of the air [kg/m³] over the position of the hub in the world; `None`: the same everywhere.
+    pub atmosphere: Option<Arc<ScalarField>>,
     /// Moment of inertia of the turning part about its axis `[kg·m²]`, for the gyroscopic moment only (its mass belongs
     /// to the link); 0 for none.
     pub inertia: f64,
@@ -209,6 +214,18 @@ impl<R: Real> MountedRotor<R> {
     #[inline(always)]
     pub fn load(&self, speed: R, rotors: &[R], hub: &Hub<'_, R>) -> Load<R> {
         let mut load = self.aerodynamic_load(speed, rotors, hub);
+        if let Some(density) = &self.atmosphere
+            && matches!(self.law, RotorLaw::Blade(_) | RotorLaw::Table(_) | RotorLaw::Printed(_))
+        {
+            // those of a density of 1: forces are proportional to it, the inflow does not depend on it
+            let density = density.at(hub.x_wl.point(self.pose.pos).0);
+            load = Load {
+                thrust: density * load.thrust,
+                torque: density * load.torque,
+                power: density * load.power,
+                ..load
+            };
+        }
         if self.inertia != 0.0 {
             // −ω × h, h = I Ω along the axis
             let momentum = R::splat(self.inertia * self.law.spin().map_or(0.0, Spin::sign)) * speed;

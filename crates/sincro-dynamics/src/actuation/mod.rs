@@ -10,14 +10,16 @@
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
 //!
-//! Gravity enters the recursions as an acceleration of the base ([`crate::energy`] has its potential energy); elements
-//! in the air are in [`crate::aero`].
+//! Uniform gravity enters the recursions as an acceleration of the base ([`crate::energy`] has its potential energy),
+//! one that depends on the position as forces on bodies ([`gravity_field`]); elements in the air are in
+//! [`crate::aero`].
 
 pub mod applied;
 pub(crate) mod damper;
 pub mod drive;
 pub mod force_law;
 pub(crate) mod friction;
+pub mod gravity_field;
 pub mod motor;
 pub mod spring;
 pub mod spring_damper;
@@ -26,6 +28,7 @@ pub mod winding;
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use drive::{Drive, DriveKind};
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
+pub use gravity_field::GravityField;
 pub use motor::{Motor, MotorMode};
 pub use spring_damper::SpringDamper;
 pub use winding::Winding;

@@ -115,6 +115,12 @@ pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'sta
     if model.params.drives.iter().any(|d| model.drive_limit(d).is_some()) {
         return Some("a drive with a limit or friction");
     }
+    if model.gravity_field.is_some() {
+        return Some("gravity that depends on the position");
+    }
+    if model.has_atmosphere() {
+        return Some("a density of the air that depends on the position");
+    }
     // particles are counted for each world
     if model.rotors.iter().any(|r| matches!(r.speed, SpeedSource::Particles { .. })) {
         return Some("a rotor of particles");

@@ -7,6 +7,8 @@ mod check;
 
 use std::sync::Arc;
 
+use sincro_math::scalar_field::ScalarField;
+
 use crate::actuation::spring::NonlinearSpring;
 use crate::actuation::spring_damper::{LineActuator, LinkPoint};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
@@ -46,6 +48,7 @@ struct Compiler<'a> {
     structure: Structure<f64>,
     params: ModelParams<f64>,
     names: Names,
+    atmosphere: Option<Arc<ScalarField>>,
 }
 
 impl ModelBuilder {
@@ -80,6 +83,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             drags: Vec::new(),
             spring_dampers: Vec::new(),
             wind: builder.wind.clone(),
+            gravity_field: builder.gravity_field.clone(),
             n_q: 0,
             sprung: Vec::new(),
             nonlinear_springs: Vec::new(),
@@ -87,6 +91,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
         },
         params: ModelParams::new(Vec3(builder.gravity)),
         names: Names::default(),
+        atmosphere: builder.air_density.clone(),
     };
     for id in 0..builder.nodes.len() {
         compiler.node(id);
@@ -170,6 +175,7 @@ impl Compiler<'_> {
                         area: Vec3(spec.area),
                         linear: Vec3(spec.linear),
                         density: spec.density,
+                        atmosphere: self.atmosphere.clone(),
                     });
                     self.names.drags.push(node.name.clone());
                 }
@@ -197,9 +203,12 @@ impl Compiler<'_> {
                 }
             }
         };
-        let (link, law, density) = (at.link as usize, spec.law.clone(), spec.density);
+        let (link, law, atmosphere) = (at.link as usize, spec.law.clone(), self.atmosphere.clone());
+        let density = if atmosphere.is_some() { 1.0 } else { spec.density };
         let RotorSpec { inertia, ground_effect, .. } = *spec;
-        self.structure.rotors.push(MountedRotor { link, pose: at.pose, law, speed, density, inertia, ground_effect });
+        let pose = at.pose;
+        let rotor = MountedRotor { link, pose, law, speed, density, atmosphere, inertia, ground_effect };
+        self.structure.rotors.push(rotor);
     }
 
     fn frame(&mut self, node: NodeId, at: Carrier, mass: Option<MassProperties>) {

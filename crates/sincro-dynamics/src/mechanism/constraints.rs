@@ -93,7 +93,7 @@ impl Mechanism<f64> {
         kinematics::poses(model, &self.base, scratch);
         c.motions.place(model, scratch, v);
         let set = &*model.params.constraints;
-        let gravity = model.params.gravity.norm();
+        let gravity = model.strongest_gravity(&scratch.poses);
         let margin = match closing {
             ActivationRule::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
             _ => Margin::of(1e-6),

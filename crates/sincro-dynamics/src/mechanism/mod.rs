@@ -80,6 +80,8 @@ pub struct Mechanism<R> {
     external_forces: Vec<ExternalForce<R>>,
     /// Power dissipated by drag elements in the last evaluation `[W]`.
     air_dissipation: R,
+    /// Power of gravity that depends on the position, where it has a potential, in the last evaluation `[W]`.
+    field_power: R,
     /// Springs and dampers between two points in the last evaluation.
     lines: lines::Lines<R>,
     /// First rotor whose load was not a number in the last evaluation.
@@ -120,6 +122,7 @@ impl<R: Real> Mechanism<R> {
             external: vec![Force::zero(); if model.has_external() { model.links.len() } else { 0 }],
             external_forces: Vec::new(),
             air_dissipation: R::zero(),
+            field_power: R::zero(),
             lines: lines::Lines::new(&model),
             without_load: None,
             motor_torque: vec![R::zero(); model.params.motors.len()],
@@ -330,13 +333,26 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     fn external_wrenches(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>) {
         self.external.fill(Force::zero());
-        if self.model.feels_air() || !self.model.spring_dampers.is_empty() {
+        let has_field = R::IS_SCALAR && self.model.gravity_field.is_some();
+        if self.model.feels_air() || !self.model.spring_dampers.is_empty() || has_field {
             // only poses and twists are looked at: any accelerations will do
             kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
         } else if !self.external_forces.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
             kinematics::poses(&self.model, &self.q, &mut self.scratch);
         }
         self.air_wrenches(t, v, rotors);
+        if let Some(field) = self.model.gravity_field.as_ref().filter(|_| R::IS_SCALAR) {
+            self.field_power = R::zero();
+            for (mass, link, center) in self.model.centers_of_mass() {
+                let x_wl = &self.scratch.poses[link];
+                let lin = x_wl.rot.tr_mul_vec(field.acceleration(x_wl.point(center))).scale(mass);
+                let wrench = Force { ang: center.cross(lin), lin };
+                self.external[link] += wrench;
+                if field.potential.is_some() {
+                    self.field_power += self.scratch.links[link].v.dot(&wrench);
+                }
+            }
+        }
         if !self.model.spring_dampers.is_empty() {
             let implicit = implicit.map(|(h, implicit)| implicit.steps(h));
             self.lines.add_wrenches(&self.model, &self.scratch, (v, &self.commands), implicit, &mut self.external);
@@ -425,7 +441,7 @@ impl<R: Real> Mechanism<R> {
         self.air_dissipation = R::zero();
         for drag in &self.model.drags {
             let (twist, x_wl) = at(drag.link);
-            let resistance = drag.resistance(drag.velocity(twist, x_wl, air.as_ref()));
+            let resistance = drag.resistance(drag.velocity(twist, x_wl, air.as_ref()), x_wl);
             self.external[drag.link] += drag.wrench(resistance.force);
             self.air_dissipation += resistance.dissipation;
         }
@@ -481,6 +497,8 @@ impl<R: Real> Mechanism<R> {
         for (i, link) in self.scratch.links.iter().enumerate().take(self.external.len()) {
             work += link.v.dot(&self.external[i]);
         }
+        // what comes out of a potential is no work
+        work -= self.field_power;
         if !self.model.drags.is_empty() {
             // drag's power is in `work` already: what it takes as heat, and what the wind does, add up to it
             work += self.air_dissipation;

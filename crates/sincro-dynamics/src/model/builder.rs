@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use sincro_math::scalar_field::ScalarField;
+
 use super::LoopJointKind;
 use super::MassProperties;
-use crate::actuation::{ForceLaw, Motor, NonlinearLaw, Winding};
+use crate::actuation::{ForceLaw, GravityField, Motor, NonlinearLaw, Winding};
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
 use crate::contact::{Material, PairLaw, Surface};
@@ -308,6 +310,8 @@ pub(crate) struct Node {
 /// ```
 pub struct ModelBuilder {
     pub(crate) gravity: [f64; 3],
+    pub(crate) gravity_field: Option<Arc<GravityField>>,
+    pub(crate) air_density: Option<Arc<ScalarField>>,
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) nodes: Vec<Node>,
     pub(crate) colliders: Vec<(NodeId, Pose<f64>, Surface, Material)>,
@@ -325,6 +329,8 @@ impl ModelBuilder {
         let world = Node { name: "/".into(), parent: NodeId::WORLD, pose: Pose::identity(), kind: NodeKind::World };
         Self {
             gravity,
+            gravity_field: None,
+            air_density: None,
             wind: None,
             nodes: vec![world],
             colliders: Vec::new(),
@@ -356,6 +362,17 @@ impl ModelBuilder {
     /// Adds a frame, a named point without mass, at `pose` in its parent's `[m]`; returns its id.
     pub fn frame(&mut self, name: &str, parent: NodeId, pose: Pose<f64>) -> NodeId {
         self.add(name, parent, pose, NodeKind::Frame)
+    }
+
+    /// Sets gravity that depends on the position, which adds to the uniform one.
+    pub fn set_gravity_field(&mut self, field: GravityField) {
+        self.gravity_field = Some(Arc::new(field));
+    }
+
+    /// Sets the density of the air over the position `[kg/m³]`, for all rotors and drag elements in the place of their
+    /// own; to be called before [`ModelBuilder::build`].
+    pub fn set_air_density(&mut self, density: ScalarField) {
+        self.air_density = Some(Arc::new(density));
     }
 
     /// Sets the wind, which rotors and drag elements feel; without it the air rests.

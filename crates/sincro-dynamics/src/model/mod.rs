@@ -42,12 +42,12 @@ pub use structure::Structure;
 use crate::actuation::Drive;
 use crate::actuation::damper;
 use crate::actuation::spring::{self, NonlinearSpring};
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor, MotorMode, SpringDamper, Winding};
+use crate::actuation::{AppliedTorque, AppliedWrench, GravityField, Motor, MotorMode, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
 use crate::joint::{StageKind, WORLD};
-use crate::spatial::Vec3;
+use crate::spatial::{Pose, Vec3};
 
 /// Compiled model: the kinematic tree and its elements, immutable but for parameters. Made by [`ModelBuilder::build`].
 /// Numbers are of type `R`: those of one world, or of several worlds packed into lanes ([`Model::pack`]).
@@ -77,6 +77,16 @@ impl<R> Deref for Model<R> {
     #[inline(always)]
     fn deref(&self) -> &Structure<R> {
         &self.structure
+    }
+}
+
+impl Model<f64> {
+    /// Largest gravitational acceleration on a body `[m/s²]`, with links at `poses` `[m]`.
+    pub(crate) fn strongest_gravity(&self, poses: &[Pose<f64>]) -> f64 {
+        let uniform = self.params.gravity.norm();
+        let Some(field) = &self.gravity_field else { return uniform };
+        let at = |(_, link, center): (f64, usize, Vec3<f64>)| field.acceleration(poses[link].point(center)).norm();
+        uniform + self.centers_of_mass().map(at).fold(0.0, f64::max)
     }
 }
 
@@ -232,6 +242,27 @@ impl<R: Real> Model<R> {
         &self.applied
     }
 
+    /// Gravity that depends on the position, in addition to the uniform one; `None` without.
+    #[must_use]
+    pub fn gravity_field(&self) -> Option<&GravityField> {
+        self.gravity_field.as_deref()
+    }
+
+    /// Centres of mass of the bodies on links: mass `[kg]`, index of the link, position in it `[m]`.
+    pub(crate) fn centers_of_mass(&self) -> impl Iterator<Item = (R, usize, Vec3<R>)> {
+        self.names.frames.iter().zip(&self.params.masses).filter_map(|(frame, mass)| {
+            let (link, mass) = (frame.link?, mass.as_ref()?);
+            let center = frame.pose.point(Vec3(mass.center_of_mass));
+            Some((R::splat(mass.mass), link, Vec3(center.0.map(R::splat))))
+        })
+    }
+
+    /// Returns true if the density of the air depends on the position.
+    #[must_use]
+    pub fn has_atmosphere(&self) -> bool {
+        self.rotors.iter().any(|r| r.atmosphere.is_some()) || self.drags.iter().any(|d| d.atmosphere.is_some())
+    }
+
     /// Returns true if an element feels the air.
     pub(crate) fn feels_air(&self) -> bool {
         !self.rotors.is_empty() || !self.drags.is_empty()
@@ -245,7 +276,7 @@ impl<R: Real> Model<R> {
 
     /// Returns true if external forces may act on links.
     pub(crate) fn has_external(&self) -> bool {
-        !self.wrenches.is_empty() || self.feels_air() || !self.spring_dampers.is_empty()
+        !self.wrenches.is_empty() || self.feels_air() || !self.spring_dampers.is_empty() || self.gravity_field.is_some()
     }
 
     /// Drives: joints with Coulomb friction, then motors in velocity and position mode, then locked force sensors.
@@ -299,10 +330,19 @@ impl<R: Real> Model<R> {
         self.params.inertias.iter().fold(R::zero(), |sum, inertia| sum + inertia.mass)
     }
 
-    /// Gravitational acceleration in world axes `[m/s²]`.
+    /// Uniform gravitational acceleration in world axes `[m/s²]`.
     #[must_use]
     pub fn gravity(&self) -> Vec3<R> {
         self.params.gravity
+    }
+
+    /// Gravitational acceleration at a position in the world `[m]`, world axes `[m/s²]`.
+    #[must_use]
+    pub fn gravity_at(&self, position: Vec3<R>) -> Vec3<R> {
+        match &self.gravity_field {
+            None => self.params.gravity,
+            Some(field) => self.params.gravity + field.acceleration(position),
+        }
     }
 
     /// Sets the names and values of sensors, each of which is a frame of the same name; replaces former ones.

@@ -133,6 +133,7 @@ impl<R: Real> Model<R> {
                 SpeedSource::Joint { dof, sign } => SpeedSource::Joint { dof, sign },
             },
             density: first.rotors[i].density,
+            atmosphere: first.rotors[i].atmosphere.clone(),
             inertia: first.rotors[i].inertia,
             ground_effect: first.rotors[i].ground_effect,
         });
@@ -142,6 +143,7 @@ impl<R: Real> Model<R> {
             area: vec3(&|m| m.drags[i].area),
             linear: vec3(&|m| m.drags[i].linear),
             density: first.drags[i].density,
+            atmosphere: first.drags[i].atmosphere.clone(),
         });
         let spring_dampers = (0..first.spring_dampers.len()).map(|i| {
             let of_first = &first.spring_dampers[i];
@@ -183,6 +185,7 @@ impl<R: Real> Model<R> {
             drags: drags.collect(),
             spring_dampers: spring_dampers.collect(),
             wind: first.wind.clone(),
+            gravity_field: first.gravity_field.clone(),
             n_q: first.n_q,
             sprung: first.sprung.clone(),
             nonlinear_springs: first.nonlinear_springs.clone(),
@@ -224,6 +227,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (drags(a) == drags(b), "drag elements"),
         (lines(a) == lines(b), "springs and dampers between two points"),
         (a.wind == b.wind, "wind"),
+        (a.gravity_field == b.gravity_field, "gravity over the position"),
         (a.params.constraints == b.params.constraints, "loop joints, limits and contacts"),
         (friction(a) == friction(b), "set of joints with Coulomb friction"),
         (a.nonlinear_springs == b.nonlinear_springs, "nonlinear springs of joints"),

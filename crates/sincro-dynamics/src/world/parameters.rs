@@ -114,7 +114,7 @@ impl World {
         kinematics::poses(model, &self.state.q, scratch);
         c.motions.place(model, scratch, &self.state.v);
         let set = &*model.params.constraints;
-        let fall = 4.0 * h * h * model.params.gravity.norm();
+        let fall = 4.0 * h * h * model.strongest_gravity(&scratch.poses);
         let speed = |k: usize| c.speed(k, &set.colliders[k], &scratch.poses);
         let is_near = |k: &usize| {
             let pair = &set.pairs[*k];

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use sincro_dynamics::model::Model;
 
 use crate::apply_overrides::{Target, apply_all, whole_paths};
-use crate::diagnostic::{Diagnostics, Located};
+use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::Document;
 use crate::expand::expand;
 use crate::folder::Folder;
@@ -85,7 +85,14 @@ impl<'a> Models<'a> {
             return Err(diagnostics);
         }
         let parser = self.parser.map(|parser| parser as &dyn ScriptParser);
-        scene::compile(&document, self.folder, 0, parser).map(|scene| scene.model)
+        let model = scene::compile(&document, self.folder, 0, parser).map(|scene| scene.model)?;
+        if model.gravity_field().is_some() {
+            // the recursions of the blocks know uniform gravity alone
+            let message = "blocks with a model of the robot do not know gravity that depends on the position";
+            let diagnostic = Diagnostic::error(&document.at("/gravity"), message);
+            return Err(diagnostic.with_help("give their scene `gravity = [x, y, z]`, or `set` it for them").into());
+        }
+        Ok(model)
     }
 
     /// Reads a scene file with everything reused in it written out, and the parameters that its formulas know.

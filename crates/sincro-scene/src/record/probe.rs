@@ -162,7 +162,7 @@ pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     let drag = &at.model.drags()[k];
     let x_wl = &at.scratch.link_poses()[drag.link];
     let air = at.model.wind().map(|wind| wind.at(at.t));
-    let force = drag.resistance(drag.velocity(&at.scratch.twist(drag.link), x_wl, air.as_ref())).force;
+    let force = drag.resistance(drag.velocity(&at.scratch.twist(drag.link), x_wl, air.as_ref()), x_wl).force;
     x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))
 }
 

@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::air::{DragFile, WindFile};
 use super::camera::CameraFile;
+use super::field::{AirDensityFile, GravityFile};
 use super::rotor::RotorFile;
 use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
@@ -40,9 +41,9 @@ pub(crate) struct SceneFile {
     #[allow(dead_code)] // written out before
     #[serde(default)]
     pub default: Vec<DefaultFile>,
-    /// Gravitational acceleration, world axes [m/s²].
+    /// Gravitational acceleration, world axes [m/s²]; or a table of formulas of the position.
     #[serde(default = "standard_gravity")]
-    pub gravity: [f64; 3],
+    pub gravity: GravityFile,
     /// Joints: what hangs on one moves against its parent.
     #[serde(default)]
     pub joint: Vec<JointFile>,
@@ -91,10 +92,9 @@ pub(crate) struct SceneFile {
     /// Whether a run may start with objects that overlap: they are then pushed apart in its first step.
     #[serde(default)]
     pub allow_overlap: bool,
-    /// Density of the air, for rotors and drag [kg/m³].
+    /// Density of the air, for rotors and drag [kg/m³]; or a table with a formula of the position.
     #[serde(default = "sea_level")]
-    #[schemars(range(min = 0.0))]
-    pub air_density: f64,
+    pub air_density: AirDensityFile,
 }
 
 /// Another scene file below a frame of its own: `/NAME` is the frame, `/NAME/…` are the objects of the file.
@@ -826,8 +826,8 @@ pub(crate) enum InFrameFile {
     Body,
 }
 
-pub(crate) fn standard_gravity() -> [f64; 3] {
-    [0.0, 0.0, -9.81]
+pub(crate) fn standard_gravity() -> GravityFile {
+    GravityFile::Uniform([0.0, 0.0, -9.81])
 }
 
 fn world() -> String {
@@ -850,8 +850,8 @@ fn first_format() -> u64 {
     1
 }
 
-fn sea_level() -> f64 {
-    1.225
+fn sea_level() -> AirDensityFile {
+    AirDensityFile::Uniform(1.225)
 }
 
 fn no_signals() -> [SignalFile; 3] {

@@ -7,6 +7,7 @@ mod air;
 mod body;
 mod camera;
 mod contact;
+mod field;
 mod file;
 mod height_field;
 mod initial;
@@ -153,7 +154,7 @@ pub(crate) fn compile(
     let entries = tree::entries(&file);
     let mut diagnostics = Diagnostics::new();
     let order = tree::order(&entries, document, &mut diagnostics);
-    let mut maker = Maker { document, folder, air_density: file.air_density, diagnostics: &mut diagnostics };
+    let mut maker = Maker { document, folder, air_density: file.air_density.uniform(), diagnostics: &mut diagnostics };
     let mut made: Vec<(Spec, Pose<f64>, Vec<ShownSurface>)> =
         entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry), maker.visuals(entry))).collect();
     let joints: Vec<&str> =
@@ -164,10 +165,18 @@ pub(crate) fn compile(
         }
     }
     let wind = file.wind.as_ref().and_then(|wind| air::wind(wind, seed, document, &mut diagnostics));
+    let gravity_field = file.gravity.field(document, &mut diagnostics);
+    let air_density = file.air_density.field(document, &mut diagnostics);
     if diagnostics.any_error() {
         return Err(diagnostics.sorted());
     }
-    let mut assembly = Assembly::new(file.gravity);
+    let mut assembly = Assembly::new(file.gravity.uniform());
+    if let Some(field) = gravity_field {
+        assembly.builder.set_gravity_field(field);
+    }
+    if let Some(field) = air_density {
+        assembly.builder.set_air_density(field);
+    }
     if let Some(wind) = wind {
         assembly.builder.wind(wind);
     }
@@ -430,6 +439,7 @@ impl Assembly {
         }
         let initial = initial::state(&model, &starts, document, &mut diagnostics);
         spring_damper::set_free_lengths(&mut model, &initial, file, document, &mut diagnostics);
+        field::check(&model, &initial, document, &mut diagnostics);
         self.check_fixtures(&model, &mut diagnostics);
         let commands = self.motors(&model);
         let start = Start { model: &model, initial: &initial, file, objects: &self.objects, document };

@@ -1,0 +1,58 @@
+//! Linearisation of force elements with states or formulas of their own, against closed forms.
+
+use sincro_analysis::linearize::{Request, linearize, operating_point};
+use sincro_testing::SceneFolder;
+
+const EXPERIMENT: &str = "title = \"Element\"\nduration = 1.0\nstep = 0.01\nrecord = [\"energy.total\"]\n";
+
+/// Poles and names of the states at the start.
+fn linear(scene: &str) -> (Vec<(f64, f64)>, Vec<String>) {
+    let loaded = SceneFolder::of(scene, EXPERIMENT).load(&[]).unwrap();
+    let at = operating_point(&loaded, 0.0).unwrap();
+    let linear = linearize(&loaded, &at, &Request::default()).unwrap_or_else(|found| panic!("{found}"));
+    let poles = linear.system.poles().iter().map(|mode| (mode.pole.re, mode.pole.im)).collect();
+    (poles, linear.system.states.iter().map(|axis| axis.name.clone()).collect())
+}
+
+#[test]
+fn a_motor_with_inductance_has_the_poles_of_its_equations() {
+    // s (s² + (R/L) s + K²/(L D)), K = 0.5, D = 0.02
+    let scene = r#"gravity = [0.0, 0.0, 0.0]
+[[joint]]
+name = "shaft"
+kind = "revolute"
+armature = 0.005
+motor = { mode = "voltage", command = 3.0, resistance = 1.0, inductance = 0.01, torque_constant = 0.05, gear_ratio = 10.0, rotor_inertia = 5e-5 }
+[[body]]
+name = "wheel"
+parent = "/shaft"
+mass = 1.0
+inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
+"#;
+    let (poles, names) = linear(scene);
+    let root = (2500.0_f64 - 1250.0).sqrt();
+    for expected in [0.0, -50.0 + root, -50.0 - root] {
+        assert!(poles.iter().any(|(re, im)| (re - expected).abs() < 1e-9 && *im == 0.0), "{expected}: {poles:?}");
+    }
+    assert_eq!(poles.len(), 3);
+    assert_eq!(names.last().unwrap(), "/shaft.current");
+}
+
+#[test]
+fn gravity_over_the_position_is_differentiated_exactly() {
+    // x'' = −9 x
+    let scene = r#"gravity = { acceleration = ["-9*x", "0", "0"], potential = "4.5*x^2" }
+[[joint]]
+name = "rail"
+kind = "prismatic"
+axis = [1.0, 0.0, 0.0]
+[[body]]
+name = "cart"
+parent = "/rail"
+mass = 2.0
+inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
+"#;
+    let (poles, _) = linear(scene);
+    assert_eq!(poles.len(), 2);
+    assert!(poles.iter().all(|(re, im)| re.abs() < 1e-12 && (im.abs() - 3.0).abs() < 1e-12), "{poles:?}");
+}
