@@ -17,4 +17,5 @@ mod sensors;
 mod spherical_motors;
 mod spring_dampers;
 mod springs;
+mod torus;
 mod wind;

@@ -32,6 +32,7 @@ impl Extent {
             Surface::Solid(Shape::Cuboid { size }) => about(size.map(|x| 0.5 * x)),
             Surface::Solid(Shape::Cylinder { radius, length }) => about([*radius, *radius, 0.5 * length]),
             Surface::Solid(Shape::Capsule { radius, length }) => about([*radius, *radius, 0.5 * length + radius]),
+            Surface::Solid(Shape::Torus { major_radius: a, tube_radius: r }) => about([a + r, a + r, *r]),
             Surface::Solid(Shape::Cone { radius, length }) => {
                 Self::Box([-radius, -radius, -0.25 * length], [*radius, *radius, 0.75 * length])
             }

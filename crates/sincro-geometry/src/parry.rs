@@ -17,6 +17,9 @@ pub struct ParryShape {
     pub pose: Pose<f64>,
 }
 
+/// Half the thickness of the disc in the core of a torus, relative to the radius of its tube.
+const DISC: f64 = 1e-6;
+
 /// Axes (x, y, z) of ours as (y, z, x) of the library's.
 const CYCLIC: Mat3<f64> = Mat3([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
 
@@ -34,6 +37,11 @@ impl ParryShape {
             Surface::Solid(Shape::Capsule { radius, length }) => plain(SharedShape::capsule_z(0.5 * length, *radius)),
             Surface::Solid(Shape::Cylinder { radius, length }) => {
                 turned(SharedShape::cylinder(0.5 * length, *radius), 0.0)
+            }
+            // its hull: a disc, which must have some thickness there, rounded
+            Surface::Solid(Shape::Torus { major_radius, tube_radius }) => {
+                let half = DISC * tube_radius;
+                turned(SharedShape::round_cylinder(half, *major_radius, tube_radius - half), 0.0)
             }
             // ours has its centre of mass in the origin, the library's the middle of its height
             Surface::Solid(Shape::Cone { radius, length }) => {

@@ -11,6 +11,7 @@ pub(super) fn solid(shape: &Shape, ray: &Ray) -> Option<Hit> {
         Shape::Cuboid { size } => cuboid(size, ray),
         Shape::Cylinder { radius, length } => cylinder(radius, length, ray),
         Shape::Capsule { radius, length } => capsule(radius, length, ray),
+        Shape::Torus { major_radius, tube_radius } => rounded_disc(major_radius, tube_radius, ray),
         Shape::Cone { radius, length } => cone(radius, length, ray),
     }
 }
@@ -113,6 +114,54 @@ fn capsule(radius: f64, length: f64, ray: &Ray) -> Option<Hit> {
         ball(center, radius, ray).filter(|hit| sign * ray.at(hit.distance)[2] >= half)
     };
     nearer(side, nearer(cap(1.0), cap(-1.0)))
+}
+
+/// Convex hull of a torus: two flat discs, and the outer half of the tube.
+fn rounded_disc(radius: f64, tube: f64, ray: &Ray) -> Option<Hit> {
+    let faces = nearer(disc(radius, tube, 1.0, ray), disc(radius, -tube, -1.0, ray));
+    nearer(faces, tube_of(radius, tube, ray))
+}
+
+/// Ray cast against the outer half of a tube about a circle: Newton's method for the distance to the disc in the
+/// circle, less the radius of the tube, which is a convex function along the ray.
+fn tube_of(radius: f64, tube: f64, ray: &Ray) -> Option<Hit> {
+    // a ray that grazes the tube converges linearly, and by halves
+    const STEPS: usize = 100;
+    let reach = radius + tube;
+    // where the ray is within reach of the centre
+    let middle = -ray.origin.dot(ray.direction);
+    let square = reach * reach - ray.at(middle).dot(ray.at(middle));
+    if square < 0.0 {
+        return None;
+    }
+    let (mut t, end) = ((middle - square.sqrt()).max(0.0), middle + square.sqrt());
+    let outside = |t: f64| {
+        let p = ray.at(t);
+        let across = (p[0] * p[0] + p[1] * p[1]).sqrt();
+        // inside the circle the nearest point of the hull is on a disc
+        let k = if across > radius { radius / across } else { 1.0 };
+        let from = p - Vec3([k * p[0], k * p[1], 0.0]);
+        (from.norm() - tube, from)
+    };
+    for _ in 0..STEPS {
+        let (apart, from) = outside(t);
+        if apart.abs() < 1e-13 * reach {
+            let p = ray.at(t);
+            let is_on_tube = p[0] * p[0] + p[1] * p[1] >= radius * radius;
+            let normal = from.scale(1.0 / from.norm());
+            return (is_on_tube && normal.dot(ray.direction) < 0.0).then_some(Hit { distance: t, normal });
+        }
+        let along = from.dot(ray.direction) / from.norm();
+        if along >= 0.0 || apart < 0.0 {
+            return None;
+        }
+        // the distance is convex: from outside, the step stays in front of the surface
+        t -= apart / along;
+        if t > end {
+            return None;
+        }
+    }
+    None
 }
 
 /// Its apex at 3/4 of the length, its base at −1/4.

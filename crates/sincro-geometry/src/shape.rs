@@ -46,6 +46,14 @@ pub enum Shape {
         /// Length between the centres of the caps `[m]`.
         length: f64,
     },
+    /// Torus about z: a circle of the `major_radius` in the plane z = 0, thickened by the `tube_radius`. Contact,
+    /// distances and ray casts take it for its convex hull, without the hole: a disc with a rounded edge.
+    Torus {
+        /// Radius of the circle in the middle of the tube `[m]`.
+        major_radius: f64,
+        /// Radius of the tube `[m]`, at most the major radius.
+        tube_radius: f64,
+    },
     /// Circular cone along z: base at z = −length/4, apex at z = 3·length/4.
     Cone {
         /// Radius of the base `[m]`.
@@ -64,6 +72,7 @@ impl Shape {
             Self::Sphere { radius: r } => 4.0 / 3.0 * PI * r * r * r,
             Self::Cylinder { radius: r, length } => PI * r * r * length,
             Self::Capsule { radius: r, length } => PI * r * r * (length + 4.0 / 3.0 * r),
+            Self::Torus { major_radius, tube_radius } => 2.0 * PI * PI * major_radius * tube_radius * tube_radius,
             Self::Cone { radius: r, length } => PI * r * r * length / 3.0,
         }
     }
@@ -77,6 +86,9 @@ impl Shape {
             Self::Sphere { radius } => vec![("radius", radius)],
             Self::Cylinder { radius, length } | Self::Capsule { radius, length } | Self::Cone { radius, length } => {
                 vec![("radius", radius), ("length", length)]
+            }
+            Self::Torus { major_radius, tube_radius } => {
+                vec![("major_radius", major_radius), ("tube_radius", tube_radius)]
             }
         }
     }
@@ -96,6 +108,9 @@ impl Shape {
             Self::Cylinder { radius: r, length: l } => (mass * (l * l / 12.0 + r * r / 4.0), 0.5 * mass * r * r),
             Self::Cone { radius: r, length: l } => (mass * (0.15 * r * r + 3.0 / 80.0 * l * l), 0.3 * mass * r * r),
             Self::Capsule { radius: r, length: l } => capsule_moments(density, r, l),
+            Self::Torus { major_radius: a, tube_radius: r } => {
+                (mass * (0.5 * a * a + 0.625 * r * r), mass * (a * a + 0.75 * r * r))
+            }
         };
         MassProperties { mass, center_of_mass: [0.0; 3], inertia: [transverse, 0.0, 0.0, transverse, 0.0, axial] }
     }
@@ -147,9 +162,12 @@ mod tests {
             r,
             (-0.5 * l - r, 0.5 * l + r),
         );
-        for (shape, (m, axial, transverse, moment)) in
-            [(Shape::Cone { radius: r, length: l }, cone), (Shape::Capsule { radius: r, length: l }, capsule)]
-        {
+        let torus = by_integration(|x, z| (x - l) * (x - l) + z * z < r * r, l + r, (-r, r));
+        for (shape, (m, axial, transverse, moment)) in [
+            (Shape::Cone { radius: r, length: l }, cone),
+            (Shape::Capsule { radius: r, length: l }, capsule),
+            (Shape::Torus { major_radius: l, tube_radius: r }, torus),
+        ] {
             let p = shape.mass_properties(1.0);
             assert!((p.mass - m).abs() < 2e-3 * m, "{shape:?}");
             assert!((p.inertia[5] - axial).abs() < 2e-3 * axial, "{shape:?}");

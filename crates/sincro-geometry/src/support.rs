@@ -55,6 +55,10 @@ impl Geometry {
                 closest_points(Core::Cylinder(*radius, 0.5 * length), 0.0)
             }
             Surface::Solid(Shape::Capsule { radius, length }) => closest_points(Core::Segment(0.5 * length), *radius),
+            // its hull: a disc, rounded
+            Surface::Solid(Shape::Torus { major_radius, tube_radius }) => {
+                closest_points(Core::Cylinder(*major_radius, 0.0), *tube_radius)
+            }
             Surface::Solid(Shape::Cone { radius, length }) => closest_points(Core::Cone(*radius, *length), 0.0),
             Surface::Hull(points) => closest_points(Core::Points(points), 0.0),
             Surface::HalfSpace => Solid::HalfSpace,
@@ -127,6 +131,8 @@ pub(super) fn normal_at(geometry: &Geometry, p: Vec3<f64>, towards: Vec3<f64>) -
         Surface::Solid(Shape::Capsule { length, .. }) => {
             unit(p - Vec3([0.0, 0.0, p[2].clamp(-0.5 * length, 0.5 * length)]))
         }
+        Surface::Solid(Shape::Torus { major_radius, .. }) if across <= *major_radius => up(p[2]),
+        Surface::Solid(Shape::Torus { major_radius, .. }) => unit(p - outwards.scale(*major_radius)),
         Surface::HalfSpace => up(1.0),
         Surface::Solid(Shape::Cuboid { size }) => {
             let face = |k: usize| {

@@ -46,6 +46,7 @@ impl Surface {
             Self::Solid(Shape::Sphere { radius }) => *radius,
             Self::Solid(Shape::Cuboid { size }) => 0.5 * length(size),
             Self::Solid(Shape::Capsule { radius, length }) => 0.5 * length + radius,
+            Self::Solid(Shape::Torus { major_radius, tube_radius }) => major_radius + tube_radius,
             Self::Solid(Shape::Cylinder { radius, length }) => (0.25 * length * length + radius * radius).sqrt(),
             Self::Solid(Shape::Cone { radius, length }) => {
                 (0.75 * length).max((length * length / 16.0 + radius * radius).sqrt())

@@ -25,6 +25,7 @@ pub(super) fn surfaces() -> Vec<Surface> {
         Surface::Solid(Shape::Cylinder { radius: 0.4, length: 0.9 }),
         Surface::Solid(Shape::Capsule { radius: 0.3, length: 0.5 }),
         Surface::Solid(Shape::Cone { radius: 0.5, length: 1.0 }),
+        Surface::Solid(Shape::Torus { major_radius: 0.5, tube_radius: 0.2 }),
         Surface::Hull(tetrahedron.to_vec()),
         Surface::HalfSpace,
     ]

@@ -334,7 +334,8 @@ fn primitive(surface: &Surface) -> (i64, [f64; 3]) {
         Surface::Solid(Shape::Capsule { radius, length }) => (8, [2.0 * radius, 2.0 * radius, length + 2.0 * radius]),
         Surface::HeightField { size, .. } => (7, [size[0], size[1], 0.0]),
         Surface::HalfSpace => (1, [0.0; 3]),
-        Surface::Hull(_) | Surface::Mesh(..) => (0, [0.0; 3]),
+        // the API has no tori
+        Surface::Hull(_) | Surface::Mesh(..) | Surface::Solid(Shape::Torus { .. }) => (0, [0.0; 3]),
     }
 }
 
@@ -351,6 +352,7 @@ fn reach_along(surface: &Surface, d: [f64; 3]) -> Option<f64> {
         // its origin is its centre of mass, a quarter of its height above the base
         Surface::Solid(Shape::Cone { radius, length }) => (0.75 * length * z).max(radius * across - 0.25 * length * z),
         Surface::Solid(Shape::Capsule { radius, length }) => radius + 0.5 * length * z.abs(),
+        Surface::Solid(Shape::Torus { major_radius, tube_radius }) => major_radius * across + tube_radius,
         Surface::HalfSpace => return None,
         Surface::Hull(points) | Surface::Mesh(points, _) => of_points(points),
         Surface::HeightField { columns, heights, size } => {
@@ -377,6 +379,9 @@ fn scaled(surface: &Surface, k: f64) -> Surface {
         }
         Surface::Solid(Shape::Capsule { radius, length }) => {
             Surface::Solid(Shape::Capsule { radius: k * radius, length: k * length })
+        }
+        Surface::Solid(Shape::Torus { major_radius, tube_radius }) => {
+            Surface::Solid(Shape::Torus { major_radius: k * major_radius, tube_radius: k * tube_radius })
         }
         Surface::HalfSpace => Surface::HalfSpace,
         Surface::Hull(list) => Surface::Hull(points(list)),

@@ -36,11 +36,20 @@ pub(crate) struct ContactCandidate {
     pub radius: f64,
     /// Share of the radius that belongs to a.
     pub radius_a: f64,
-    /// Axis of the disc whose rim it is, in link axes of a; the point is then the disc's centre. Planes only.
-    pub rim: Option<Vec3<f64>>,
+    /// Disc whose rim it is, rounded by the radius; the point is then the disc's centre. Planes only.
+    pub rim: Option<Rim>,
     pub feature: Feature,
     /// Features of the surfaces that the candidate comes from, the same as long as the same ones touch; 0: not known.
     pub id: u32,
+}
+
+/// Disc of which the lowest point over a plane may touch it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rim {
+    /// In link axes of a.
+    pub axis: Vec3<f64>,
+    /// Radius of the disc `[m]`; the rounding of its edge is the radius of the candidate.
+    pub radius: f64,
 }
 
 /// Contact kinematics of a candidate at one instant, world axes.
@@ -90,10 +99,10 @@ impl ContactCandidate {
                 let n = x_b.rot.mul_vec(Vec3::splat(normal.0));
                 let n_dot = w_b.cross(n);
                 let height = n.dot(p - x_b.point(Vec3::splat(origin.0)));
-                if let Some(axis) = self.rim {
+                if let Some(Rim { axis, radius: of_disc }) = self.rim {
                     let axis = x_a.rot.mul_vec(Vec3::splat(axis.0));
                     let axis_dot = motions.twist_of(self.a).ang.cross(axis);
-                    return rim(height, (p, p_dot), (n, n_dot), (axis, axis_dot), radius);
+                    return rim(height, (p, p_dot), (n, n_dot), (axis, axis_dot), (R::splat(of_disc), radius));
                 }
                 let point = p - n.scale(radius);
                 ContactKinematics {
@@ -137,14 +146,14 @@ impl ContactCandidate {
     }
 }
 
-/// The lowest point of a disc's rim over a plane: C = P + r u, u = −(n − (n·a) a)/s, s its length; gap = n·(P − o) − r
-/// s.
+/// The lowest point of a disc's rim over a plane, rounded by ρ: C = P + r u − ρ n, u = −(n − (n·a) a)/s, s its length;
+/// gap = n·(P − o) − r s − ρ. Of a torus r is the major radius and ρ that of the tube.
 fn rim<R: Real>(
     height: R,
     (p, p_dot): (Vec3<R>, Vec3<R>),
     (n, n_dot): (Vec3<R>, Vec3<R>),
     (axis, axis_dot): (Vec3<R>, Vec3<R>),
-    radius: R,
+    (radius, rounding): (R, R),
 ) -> ContactKinematics<R> {
     let along = n.dot(axis);
     let across = n - axis.scale(along);
@@ -155,10 +164,10 @@ fn rim<R: Real>(
     let u = across.scale(-inverse);
     let u_dot = -(across_dot.scale(inverse) - across.scale(inverse * inverse * inverse * across.dot(across_dot)));
     ContactKinematics {
-        distance: height - radius * s,
-        point: p + u.scale(radius),
+        distance: height - radius * s - rounding,
+        point: p + u.scale(radius) - n.scale(rounding),
         normal: n,
-        point_dot: p_dot + u_dot.scale(radius),
+        point_dot: p_dot + u_dot.scale(radius) - n_dot.scale(rounding),
         normal_dot: n_dot,
     }
 }

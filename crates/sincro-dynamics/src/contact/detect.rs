@@ -1,7 +1,7 @@
 //! Contact detection from the poses of the links: broad phase by bounding spheres, then the narrow phase of each pair.
 
 use super::broad_phase::{BroadPhase, Margin, are_close, center};
-use super::candidate::{ContactCandidate, Feature};
+use super::candidate::{ContactCandidate, Feature, Rim};
 use super::candidate_list::{CandidateList, SlotCandidate};
 use super::manifold::Manifolds;
 use super::{Collider, Pair, PairKind, Surface};
@@ -10,7 +10,7 @@ use crate::geometry::sat::{ContactKind, FaceClipper, PointOnPlane, Polytope};
 use crate::joint::WORLD;
 use crate::spatial::{Pose, Vec3};
 
-/// Sine of the tilt below which a cylinder on its end is held to stand on four points of its rim.
+/// Sine of the tilt below which a cylinder on its end, or a torus, is held to stand on four points of its rim.
 const STANDS: f64 = 1e-6;
 
 /// Contact detector; its memory grows to the largest manifold it has seen.
@@ -82,7 +82,7 @@ impl Detector {
         let at = |c: &Collider| if c.link == WORLD { c.pose } else { poses[c.link as usize].compose(&c.pose) };
         match pair.kind {
             PairKind::PointsOnPlane => points_on_plane(&self.points[pair.a], a, b, slots),
-            PairKind::CylinderOnPlane => cylinder_on_plane(a, b, (&at(a), &at(b)), slots),
+            PairKind::DiscsOnPlane => discs_on_plane(a, b, (&at(a), &at(b)), slots),
             PairKind::Balls => slots[0] = Some(balls(a, b)),
             PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
             PairKind::Polytopes => {
@@ -143,28 +143,32 @@ fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, s
     }
 }
 
-fn cylinder_on_plane(
+/// Both ends of a cylinder, or the circle of a torus, over a plane.
+fn discs_on_plane(
     a: &Collider,
     b: &Collider,
     (at_a, at_b): (&Pose<f64>, &Pose<f64>),
     slots: &mut [Option<ContactCandidate>],
 ) {
-    let Surface::Solid(Shape::Cylinder { radius, length }) = a.surface else { return };
+    // of a torus the circle in the middle of its tube
+    let (radius, rounding, heights) = match a.surface {
+        Surface::Solid(Shape::Cylinder { radius, length }) => (radius, 0.0, [-0.5 * length, 0.5 * length]),
+        Surface::Solid(Shape::Torus { major_radius, tube_radius }) => (major_radius, tube_radius, [0.0; 2]),
+        _ => return,
+    };
     let (n, axis) = (at_b.rot.col(2), at_a.rot.col(2));
     let across = n - axis.scale(n.dot(axis));
     let stands = across.norm() < STANDS;
-    for end in 0..2 {
-        let z = if end == 0 { -0.5 * length } else { 0.5 * length };
+    for (slots, z) in slots.chunks_mut(4).zip(heights) {
         let center = a.pose.point(Vec3([0.0, 0.0, z]));
-        let slots = &mut slots[4 * end..4 * end + 4];
         if !stands {
-            let rim = Some(a.pose.rot.col(2));
-            slots[0] = Some(ContactCandidate { rim, ..candidate(a, b, center, radius, plane_of(b)) });
+            let rim = Some(Rim { axis: a.pose.rot.col(2), radius });
+            slots[0] = Some(ContactCandidate { rim, ..candidate(a, b, center, rounding, plane_of(b)) });
             continue;
         }
         for (k, slot) in slots.iter_mut().enumerate() {
             let e = [[radius, 0.0, z], [0.0, radius, z], [-radius, 0.0, z], [0.0, -radius, z]][k];
-            *slot = Some(candidate(a, b, a.pose.point(Vec3(e)), 0.0, plane_of(b)));
+            *slot = Some(candidate(a, b, a.pose.point(Vec3(e)), rounding, plane_of(b)));
         }
     }
 }

@@ -180,6 +180,7 @@ fn core(c: &Collider, p: Vec3<f64>, n: Vec3<f64>) -> Core {
             let on_flank = n[2].abs() < ACROSS && core.point[2].abs() < 0.5 * length;
             Core { axis: z.filter(|_| on_flank), ..core }
         }
+        Surface::Solid(Shape::Torus { tube_radius, .. }) => inside(tube_radius, None),
         Surface::Solid(Shape::Cylinder { radius, .. }) if n[2].abs() < ACROSS => inside(radius, z),
         _ => Core { point: p, radius: 0.0, axis: None },
     }

@@ -183,8 +183,8 @@ pub struct Pair {
 enum PairKind {
     /// Rounded points of a against the plane b.
     PointsOnPlane,
-    /// A cylinder on a plane.
-    CylinderOnPlane,
+    /// A cylinder or torus on a plane.
+    DiscsOnPlane,
     /// Ball against ball.
     Balls,
     /// Ball a against cuboid b.
@@ -287,7 +287,8 @@ fn arrange(
     let cuboid: fn(&Surface) -> bool = |s| matches!(s, Surface::Solid(Shape::Cuboid { .. }));
     if is(b, |s| matches!(s, Surface::HalfSpace)) {
         let slots = match &colliders[a].surface {
-            Surface::Solid(Shape::Cylinder { .. }) => return Some((a, b, PairKind::CylinderOnPlane, 8)),
+            Surface::Solid(Shape::Cylinder { .. }) => return Some((a, b, PairKind::DiscsOnPlane, 8)),
+            Surface::Solid(Shape::Torus { .. }) => return Some((a, b, PairKind::DiscsOnPlane, 4)),
             Surface::Solid(Shape::Cone { .. }) => return Some((a, b, PairKind::General, MANIFOLD)),
             _ => colliders[a].points().0.len(),
         };

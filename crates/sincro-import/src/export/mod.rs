@@ -294,6 +294,6 @@ fn solid(shape: &Shape) -> Option<(&'static str, Vec<f64>)> {
         Shape::Sphere { radius } => ("sphere", vec![*radius]),
         Shape::Cylinder { radius, length } => ("cylinder", vec![*radius, *length]),
         Shape::Capsule { radius, length } => ("capsule", vec![*radius, *length]),
-        Shape::Cone { .. } => return None,
+        Shape::Cone { .. } | Shape::Torus { .. } => return None,
     })
 }

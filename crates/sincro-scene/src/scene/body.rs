@@ -36,6 +36,14 @@ pub(super) fn shapes(
     let solids = file.shape.iter().enumerate().filter(|(_, s)| is_solid(s));
     let one = |(k, shape): (usize, &ShapeFile)| {
         let pointer = format!("{pointer}/shape/{k}");
+        if let Some(torus) = shape.torus.as_ref().filter(|torus| torus.tube_radius > torus.major_radius) {
+            let message = format!(
+                "the tube of the torus is wider, {}, than its circle, {}",
+                torus.tube_radius, torus.major_radius
+            );
+            let diagnostic = Diagnostic::error(&document.at(&format!("{pointer}/torus/tube_radius")), message);
+            diagnostics.push(diagnostic.with_help("give a `tube_radius` up to `major_radius`; a ball is a `sphere`"));
+        }
         let placement = Placement::new(shape.position, shape.rotation_deg, shape.quaternion_wxyz);
         ShapeInstance {
             shape: solid(shape),
@@ -57,6 +65,7 @@ fn solid(file: &ShapeFile) -> Shape {
         ShapeFile { cylinder: Some(c), .. } => Shape::Cylinder { radius: c.radius, length: c.length },
         ShapeFile { capsule: Some(c), .. } => Shape::Capsule { radius: c.radius, length: c.length },
         ShapeFile { cone: Some(c), .. } => Shape::Cone { radius: c.radius, length: c.length },
+        ShapeFile { torus: Some(t), .. } => Shape::Torus { major_radius: t.major_radius, tube_radius: t.tube_radius },
         ShapeFile { sphere, .. } => {
             Shape::Sphere { radius: sphere.as_ref().expect("the schema wants one kind of shape").radius }
         }

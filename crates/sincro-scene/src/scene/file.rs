@@ -611,7 +611,7 @@ pub(crate) struct InertiaFile {
     "oneOf" = [
         {"required": ["cuboid"]}, {"required": ["cylinder"]}, {"required": ["capsule"]}, {"required": ["cone"]},
         {"required": ["sphere"]}, {"required": ["plane"]}, {"required": ["hull"]}, {"required": ["mesh"]},
-        {"required": ["height_field"]}
+        {"required": ["height_field"]}, {"required": ["torus"]}
     ],
     "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
 ))]
@@ -624,6 +624,8 @@ pub(crate) struct ShapeFile {
     pub capsule: Option<RoundFile>,
     /// A cone along z: base at −length/4, apex at 3·length/4.
     pub cone: Option<RoundFile>,
+    /// A torus about z, such as a tyre; what touches it touches a disc with its rounded edge.
+    pub torus: Option<TorusFile>,
     /// A ball.
     pub sphere: Option<SphereFile>,
     /// Everything below z = 0 of its frame; of bodies fixed in the world.
@@ -668,6 +670,18 @@ pub(crate) struct RoundFile {
     /// Length along z [m].
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub length: f64,
+}
+
+/// A torus about z; its hole has no contact.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TorusFile {
+    /// Radius of the circle in the middle of the tube [m].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub major_radius: f64,
+    /// Radius of the tube, at most `major_radius` [m].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub tube_radius: f64,
 }
 
 /// A ball.
@@ -754,7 +768,7 @@ pub(crate) struct FrameFile {
 #[schemars(extend(
     "oneOf" = [
         {"required": ["cuboid"]}, {"required": ["cylinder"]}, {"required": ["capsule"]}, {"required": ["cone"]},
-        {"required": ["sphere"]}, {"required": ["mesh"]}
+        {"required": ["sphere"]}, {"required": ["torus"]}, {"required": ["mesh"]}
     ],
     "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
 ))]
@@ -767,6 +781,8 @@ pub(crate) struct VisualFile {
     pub capsule: Option<RoundFile>,
     /// A cone along z: base at −length/4, apex at 3·length/4.
     pub cone: Option<RoundFile>,
+    /// A torus about z, such as a tyre; what touches it touches a disc with its rounded edge.
+    pub torus: Option<TorusFile>,
     /// A ball.
     pub sphere: Option<SphereFile>,
     /// Triangles from a file, which need not enclose a volume.

@@ -44,6 +44,7 @@ fn solid(file: &VisualFile) -> Option<Shape> {
         VisualFile { cylinder: Some(c), .. } => Shape::Cylinder { radius: c.radius, length: c.length },
         VisualFile { capsule: Some(c), .. } => Shape::Capsule { radius: c.radius, length: c.length },
         VisualFile { cone: Some(c), .. } => Shape::Cone { radius: c.radius, length: c.length },
+        VisualFile { torus: Some(t), .. } => Shape::Torus { major_radius: t.major_radius, tube_radius: t.tube_radius },
         VisualFile { sphere: Some(s), .. } => Shape::Sphere { radius: s.radius },
         _ => return None,
     })

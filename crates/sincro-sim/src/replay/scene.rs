@@ -388,6 +388,10 @@ fn shown_view(shown: &ShownSurface) -> ShapeView {
 
 fn solid_view(shape: Shape) -> ShapeView {
     let (kind, size) = match shape {
+        // drawn by its triangles, as what every viewer knows
+        Shape::Torus { major_radius, tube_radius } => {
+            return made_of("mesh", surface::of_torus(major_radius, tube_radius));
+        }
         Shape::Cuboid { size } => ("cuboid", size.to_vec()),
         Shape::Sphere { radius } => ("sphere", vec![radius, 0.0]),
         Shape::Cylinder { radius, length } => ("cylinder", vec![radius, length]),

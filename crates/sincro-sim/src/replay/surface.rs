@@ -1,6 +1,7 @@
 //! Triangles of surfaces that are no simple solids, for pictures: hulls of points, meshes, height fields.
 
 use sincro_dynamics::geometry::polyhedron;
+use sincro_math::elementary::sin_cos;
 
 /// Corners `[m]` and triangles, counter-clockwise seen from outside.
 pub(super) type Triangles = (Vec<[f32; 3]>, Vec<[u32; 3]>);
@@ -34,6 +35,25 @@ pub(super) fn of_heights(columns: usize, heights: &[f64], size: [f64; 2]) -> Tri
     ((0..rows * columns).map(corner).collect(), (0..n_cells).flat_map(cell).collect())
 }
 
+/// Triangles of a torus about z.
+pub(super) fn of_torus(major_radius: f64, tube_radius: f64) -> Triangles {
+    const AROUND: usize = 48;
+    const ALONG: usize = 16;
+    let turn = |k: usize, n: usize| sin_cos(core::f64::consts::TAU * k as f64 / n as f64);
+    let corner = |k: usize| {
+        let ((sin, cos), (up, out)) = (turn(k / ALONG, AROUND), turn(k % ALONG, ALONG));
+        let across = major_radius + tube_radius * out;
+        single([across * cos, across * sin, tube_radius * up])
+    };
+    let at = |around: usize, along: usize| ((around % AROUND) * ALONG + along % ALONG) as u32;
+    let quad = |k: usize| {
+        let (i, j) = (k / ALONG, k % ALONG);
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    ((0..AROUND * ALONG).map(corner).collect(), (0..AROUND * ALONG).flat_map(quad).collect())
+}
+
 fn single(p: [f64; 3]) -> [f32; 3] {
     p.map(|x| x as f32)
 }
@@ -48,6 +68,13 @@ mod tests {
     fn volume((corners, faces): &Triangles) -> f64 {
         let at = |k: u32| Vec3(corners[k as usize].map(f64::from));
         faces.iter().map(|f| at(f[0]).dot(at(f[1]).cross(at(f[2])))).sum()
+    }
+
+    #[test]
+    fn a_torus_encloses_nearly_its_volume() {
+        let exact = 2.0 * core::f64::consts::PI.powi(2) * 0.3 * 0.05 * 0.05;
+        let found = volume(&of_torus(0.3, 0.05)) / 6.0;
+        assert!(found < exact && found > 0.97 * exact, "{found} {exact}");
     }
 
     #[test]
