@@ -4,6 +4,7 @@ mod air;
 mod contacts;
 mod dc_motors;
 mod drives;
+mod elastic_gears;
 mod gravity_field;
 mod load_friction;
 mod loop_kinds;

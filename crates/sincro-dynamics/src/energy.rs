@@ -70,6 +70,9 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
         let dof = &model.dofs[spring.dof];
         e.potential += spring.law.potential(q[dof.q_idx as usize] - dof.rest);
     }
+    for gear in &model.elastic_gears {
+        e.potential += gear.energy(gear.error(q, v).0);
+    }
     for element in &model.spring_dampers {
         let line = element.line(|link| (scratch.links[link].v, scratch.poses[link]));
         e.potential += element.potential(line.length);

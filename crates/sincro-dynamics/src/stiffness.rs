@@ -25,6 +25,8 @@ pub enum StiffElement {
     Dof(usize),
     /// Spring and damper between two points, by its index in [`Model::spring_dampers`].
     SpringDamper(usize),
+    /// Elastic gear, by its index in [`Model::elastic_gears`], taken as touching.
+    ElasticGear(usize),
     /// Winding with inductance, by its index in [`Model::windings`]: a spring of stiffness N² k_t k_e/L in series with
     /// a damper of N² k_t k_e/R.
     Winding(usize),
@@ -59,6 +61,7 @@ impl Stiffness {
             StiffElement::Winding(k) => {
                 format!("winding of the motor of `{}`", model.names().dof_name(model.windings[k].dof))
             }
+            StiffElement::ElasticGear(k) => format!("coupling `{}`", model.names().elastic_gears[k]),
             StiffElement::SpringDamper(k) => format!("spring_damper `{}`", model.names().spring_dampers[k]),
         }
     }
@@ -123,13 +126,18 @@ impl StiffnessProbe {
         );
         at_rest.factor(model, &state.q, scratch);
         forces.place(model, lines, scratch, at_rest.zeros());
-        forces.factor(model, scratch, lines.iter().map(|_| 1.0), at_rest.zeros());
+        let n_rows = lines.len() + model.elastic_gears.len();
+        forces.factor(model, scratch, core::iter::repeat_n(1.0, n_rows), at_rest.zeros());
         let each = model.spring_dampers.iter().zip(lines.iter()).zip(forces.inverse_inertias()).enumerate();
         let each = each.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, ((element, line), inverse))| {
             let (stiffness, damping) = element.implicit_terms(line.length, line.rate);
             Stiffness::new(StiffElement::SpringDamper(k), stiffness, damping, 1.0 / inverse)
         });
-        each.filter(|s| s.rate > 0.0).max_by(|a, b| a.rate.total_cmp(&b.rate))
+        let of_gears = model.elastic_gears.iter().zip(forces.inverse_inertias().skip(lines.len())).enumerate();
+        let of_gears = of_gears.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, (gear, inverse))| {
+            Stiffness::new(StiffElement::ElasticGear(k), gear.stiffness, gear.damping, 1.0 / inverse)
+        });
+        each.chain(of_gears).filter(|s| s.rate > 0.0).max_by(|a, b| a.rate.total_cmp(&b.rate))
     }
 }
 

@@ -8,6 +8,7 @@
 //! | [`motor`] | by mode | | −τ q̇ |
 //! | [`winding`] | N k_t i | ½ L i² | R i² |
 //! | [`applied`] | a signal of time | | −τ q̇ |
+//! | [`elastic_gear`] | −k p − c ẋ between two joints, outside of the backlash | ½ k p² | c ẋ² |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
 //!
 //! Uniform gravity enters the recursions as an acceleration of the base ([`crate::energy`] has its potential energy),
@@ -17,6 +18,7 @@
 pub mod applied;
 pub(crate) mod damper;
 pub mod drive;
+pub mod elastic_gear;
 pub mod force_law;
 pub(crate) mod friction;
 pub mod gravity_field;
@@ -27,6 +29,7 @@ pub mod winding;
 
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use drive::{Drive, DriveKind};
+pub use elastic_gear::ElasticGear;
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
 pub use gravity_field::GravityField;
 pub use motor::{Motor, MotorMode};

@@ -125,8 +125,8 @@ pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'sta
     if model.rotors.iter().any(|r| matches!(r.speed, SpeedSource::Particles { .. })) {
         return Some("a rotor of particles");
     }
-    if method != MethodKind::Rk4 && !model.spring_dampers.is_empty() {
-        return Some("a spring or damper between two points, with an implicit method");
+    if method != MethodKind::Rk4 && model.has_lines() {
+        return Some("a spring or damper between two points, or an elastic gear, with an implicit method");
     }
     (!model.constraints().is_empty()).then_some("contacts, loop joints or limits of joints")
 }

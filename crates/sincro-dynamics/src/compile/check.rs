@@ -47,6 +47,21 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
             found.0.push(Diagnostic { severity, node: None, field: "spring_damper", message, help });
         }
     }
+    for (name, spec) in &builder.elastic_gears {
+        let numbers = [
+            ("ratio", spec.gear.ratio, spec.gear.ratio.is_finite() && spec.gear.ratio != 0.0),
+            ("offset", spec.gear.offset, spec.gear.offset.is_finite()),
+            ("stiffness", spec.stiffness, spec.stiffness.is_finite() && spec.stiffness > 0.0),
+            ("damping", spec.damping, spec.damping.is_finite() && spec.damping >= 0.0),
+            ("backlash", spec.backlash, spec.backlash.is_finite() && spec.backlash >= 0.0),
+        ];
+        for (field, x, _) in numbers.into_iter().filter(|(.., fits)| !fits) {
+            let message = format!("{field} {x} of the elastic gear `{name}` is none that it can have");
+            let help = "give a finite ratio other than 0, a positive stiffness, damping and backlash of zero or more";
+            let (severity, help) = (Severity::Error, help.into());
+            found.0.push(Diagnostic { severity, node: None, field: "coupling", message, help });
+        }
+    }
     found.0
 }
 

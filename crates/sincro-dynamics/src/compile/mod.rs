@@ -11,7 +11,7 @@ use sincro_math::scalar_field::ScalarField;
 
 use crate::actuation::spring::NonlinearSpring;
 use crate::actuation::spring_damper::{LineActuator, LinkPoint};
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor, SpringDamper};
+use crate::actuation::{AppliedTorque, AppliedWrench, ElasticGear, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedSource};
 use crate::contact::{self, Collider, PairLaw};
@@ -82,6 +82,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             rotors: Vec::new(),
             drags: Vec::new(),
             spring_dampers: Vec::new(),
+            elastic_gears: Vec::new(),
             wind: builder.wind.clone(),
             gravity_field: builder.gravity_field.clone(),
             n_q: 0,
@@ -224,6 +225,20 @@ impl Compiler<'_> {
         let Self { mut structure, mut params, mut names, carriers, .. } = self;
         names.spring_dampers.extend(builder.spring_dampers.iter().map(|(name, _)| name.clone()));
         params.inertias = (0..structure.links.len()).map(|l| link_inertia(&names, &params.masses, l)).collect();
+        for (name, spec) in &builder.elastic_gears {
+            let of = |k: usize| names.joints.iter().find(|j| j.node == spec.gear.joints[k]);
+            let (Some(one), Some(two)) = (of(0), of(1)) else { continue };
+            structure.elastic_gears.push(ElasticGear {
+                dofs: [one.v_idx, two.v_idx],
+                coordinates: [one.q_idx, two.q_idx],
+                ratio: spec.gear.ratio,
+                offset: spec.gear.offset,
+                stiffness: spec.stiffness,
+                damping: spec.damping,
+                backlash: spec.backlash,
+            });
+            names.elastic_gears.push(name.clone());
+        }
         structure.names = Arc::new(names);
         let mut n_states = structure.rotors.iter().filter(|r| r.speed.state().is_some()).count();
         for winding in &mut structure.windings {

@@ -2,7 +2,8 @@
 //!
 //! A spring and damper with stiffness k and damping c along the line with Jacobian j (one row, ℓ̇ = j v) gives at the
 //! end of a step h the force F(x + h ℓ̇⁺, ℓ̇⁺) ≈ F + h (−k) ℓ̇ − κ ℓ̈, κ = h (c + h k), ℓ̈ = j v̇ + j̇ v. The last term
-//! couples all degrees of freedom between the two points; joint springs are on the diagonal of the mass matrix only.
+//! couples all degrees of freedom between the two points (of an elastic gear, whose row is ẋ = q̇₂ − r q̇₁, its two);
+//! joint springs are on the diagonal of the mass matrix only.
 //! Forces λ = −κ ℓ̈ of all m lines solve, with the rows scaled by √κ,
 //!
 //! (1 + Ĵ M⁻¹ Ĵᵀ) λ̂ = −(Ĵ v̇₀ + Ĵ˙ v), λ = √κ λ̂,
@@ -55,9 +56,9 @@ fn row_of<R: Real>(element: &SpringDamper<R>, line: &Line<R>) -> Row<R> {
 }
 
 impl<R: Real> ImplicitForces<R> {
-    /// Working memory for the model; none if it has no springs and dampers between points.
+    /// Working memory for the model; none if it has no springs and dampers between points and no elastic gears.
     pub fn new(model: &Model<R>) -> Option<Box<Self>> {
-        let m = model.spring_dampers.len();
+        let m = model.spring_dampers.len() + model.elastic_gears.len();
         if m == 0 {
             return None;
         }
@@ -91,6 +92,11 @@ impl<R: Real> ImplicitForces<R> {
         self.motions.place(model, scratch, v);
         self.rows.clear();
         self.rows.extend(model.spring_dampers.iter().zip(lines).map(|(element, line)| row_of(element, line)));
+        let rows = model.elastic_gears.iter().map(|gear| {
+            let [one, two] = gear.dofs.map(|dof| dof as u32);
+            Row::of_joints([(two, R::one()), (one, -gear.ratio)])
+        });
+        self.rows.extend(rows);
     }
 
     /// Factors of the system for the coefficients `kappa` [N·s²/m], after forward dynamics gave the accelerations

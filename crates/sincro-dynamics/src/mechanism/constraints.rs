@@ -141,21 +141,19 @@ impl Mechanism<f64> {
 
     /// Returns true if the constraints last classified as closed make a problem that is solved by sweeps.
     pub(crate) fn is_large_contact_problem(&self) -> bool {
-        self.model.spring_dampers.is_empty() && self.constraints.as_ref().is_some_and(|c| c.is_large(&self.model))
+        !self.model.has_lines() && self.constraints.as_ref().is_some_and(|c| c.is_large(&self.model))
     }
 
     /// Returns true if contacts and limits can be so many that a problem at velocity level is solved by sweeps.
     pub(crate) fn can_have_many_contacts(&self) -> bool {
-        self.constraints.is_some()
-            && self.model.spring_dampers.is_empty()
-            && self.model.params.constraints.max_rows() > DIRECT_ROWS
+        self.constraints.is_some() && !self.model.has_lines() && self.model.params.constraints.max_rows() > DIRECT_ROWS
     }
 
     /// Sets whether problems at velocity level are solved by sweeps in the evaluations that follow.
     pub(crate) fn set_sweeps(&mut self, sweeps: bool) {
         if let Some(c) = &mut self.constraints {
             // sweeps know no forces of lines at the new state
-            c.sweeps = sweeps && self.model.spring_dampers.is_empty();
+            c.sweeps = sweeps && !self.model.has_lines();
         }
     }
 

@@ -1,5 +1,5 @@
-//! Springs and dampers between two points: their forces on links, at one instant or at the end of a linearly implicit
-//! step, and their power.
+//! Springs and dampers between two points, and elastic gears: their forces on links, at one instant or at the end of a
+//! linearly implicit step, and their power.
 
 use sincro_math::Real;
 
@@ -23,9 +23,10 @@ pub(super) struct Lines<R> {
 impl<R: Real> Lines<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.spring_dampers.len();
+        let m = n + model.elastic_gears.len();
         // solves linear systems: lanes leave implicit methods to one world at a time
         let implicit = if R::IS_SCALAR { ImplicitForces::new(model) } else { None };
-        Self { lines: Vec::with_capacity(n), kappa: vec![R::zero(); n], power: R::zero(), implicit }
+        Self { lines: Vec::with_capacity(n), kappa: vec![R::zero(); m], power: R::zero(), implicit }
     }
 
     /// Bytes on the heap.
@@ -42,7 +43,7 @@ impl<R: Real> Lines<R> {
         &mut self,
         model: &Model<R>,
         scratch: &Scratch<R>,
-        (v, commands): (&[R], &[R]),
+        (q, v, commands): (&[R], &[R], &[R]),
         implicit: Option<(f64, f64)>,
         external: &mut [Force<R>],
     ) {
@@ -65,6 +66,14 @@ impl<R: Real> Lines<R> {
             }
             self.power += force * line.rate;
             self.lines.push(line);
+        }
+        if let Some(steps) = implicit {
+            let (of_dampers, of_springs) = (R::splat(steps.0), R::splat(steps.1));
+            for (gear, kappa) in model.elastic_gears.iter().zip(&mut self.kappa[model.spring_dampers.len()..]) {
+                let (x, rate) = gear.error(q, v);
+                let (k, c) = gear.implicit_terms(x, rate);
+                *kappa = of_dampers * (c + of_springs * k);
+            }
         }
         if R::IS_SCALAR
             && let (Some(_), Some(forces)) = (implicit, &mut self.implicit)

@@ -334,7 +334,7 @@ impl<R: Real> Mechanism<R> {
     fn external_wrenches(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>) {
         self.external.fill(Force::zero());
         let has_field = R::IS_SCALAR && self.model.gravity_field.is_some();
-        if self.model.feels_air() || !self.model.spring_dampers.is_empty() || has_field {
+        if self.model.feels_air() || self.model.has_lines() || has_field {
             // only poses and twists are looked at: any accelerations will do
             kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
         } else if !self.external_forces.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
@@ -353,9 +353,10 @@ impl<R: Real> Mechanism<R> {
                 }
             }
         }
-        if !self.model.spring_dampers.is_empty() {
+        if self.model.has_lines() {
             let implicit = implicit.map(|(h, implicit)| implicit.steps(h));
-            self.lines.add_wrenches(&self.model, &self.scratch, (v, &self.commands), implicit, &mut self.external);
+            let at = (&*self.q, v, &*self.commands);
+            self.lines.add_wrenches(&self.model, &self.scratch, at, implicit, &mut self.external);
         }
         for wrench in &self.model.wrenches {
             self.external[wrench.link] += wrench.wrench(t, &self.scratch.poses[wrench.link].rot, &self.commands);
@@ -490,6 +491,9 @@ impl<R: Real> Mechanism<R> {
             let dof = &self.model.dofs[spring.dof];
             let v = v[spring.dof];
             dissipation -= spring.torques(dof, self.q[dof.q_idx as usize], v).1 * v;
+        }
+        for gear in &self.model.elastic_gears {
+            dissipation += gear.dissipation(gear.error(&self.q, v_at).0, gear.rate(v));
         }
         for applied in &self.model.applied {
             work += applied.torque::<R>(t) * v[applied.dof];

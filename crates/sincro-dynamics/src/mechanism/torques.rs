@@ -49,6 +49,14 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
         torque[k] += tau;
         diagonal[k] += implicit;
     }
+    for gear in &model.elastic_gears {
+        let (x, rate) = gear.error(at.q, at.v);
+        let (k, _) = gear.implicit_terms(x, rate);
+        // spring at x + h ẋ: what is known now; the rest couples two degrees of freedom
+        let tau = gear.torque(x, rate) - steps.1 * k * rate;
+        torque[gear.dofs[1]] += tau;
+        torque[gear.dofs[0]] -= gear.ratio * tau;
+    }
     for applied in &model.applied {
         torque[applied.dof] += applied.torque(at.t);
     }

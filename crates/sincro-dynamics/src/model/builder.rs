@@ -285,6 +285,20 @@ pub struct GearSpec {
     pub offset: f64,
 }
 
+/// Elastic gear with backlash between two joints with one degree of freedom each; to be added by
+/// [`ModelBuilder::elastic_gear`]. Units are those of a revolute second joint.
+#[derive(Clone, Debug)]
+pub struct ElasticGearSpec {
+    /// Joints, ratio and offset, as of a rigid gear: q₂ = ratio·q₁ + offset in the middle of the gap.
+    pub gear: GearSpec,
+    /// Stiffness of the mesh, at the second joint `[N·m/rad]`.
+    pub stiffness: f64,
+    /// Damping of the mesh while the teeth touch `[N·m·s/rad]`.
+    pub damping: f64,
+    /// Backlash: free travel of the second joint while the first is held `[rad]`.
+    pub backlash: f64,
+}
+
 pub(crate) struct Node {
     pub(crate) name: String,
     pub(crate) parent: NodeId,
@@ -318,6 +332,7 @@ pub struct ModelBuilder {
     pub(crate) contact_pairs: Vec<([NodeId; 2], PairLaw)>,
     pub(crate) loop_joints: Vec<(String, LoopJointSpec)>,
     pub(crate) gears: Vec<(String, GearSpec)>,
+    pub(crate) elastic_gears: Vec<(String, ElasticGearSpec)>,
     pub(crate) spring_dampers: Vec<(String, SpringDamperSpec)>,
     pub(crate) rest_speed: f64,
 }
@@ -337,6 +352,7 @@ impl ModelBuilder {
             contact_pairs: Vec::new(),
             loop_joints: Vec::new(),
             gears: Vec::new(),
+            elastic_gears: Vec::new(),
             spring_dampers: Vec::new(),
             rest_speed: REST_SPEED,
         }
@@ -502,6 +518,11 @@ impl ModelBuilder {
     /// ```
     pub fn gear(&mut self, name: &str, spec: GearSpec) {
         self.gears.push((name.into(), spec));
+    }
+
+    /// Adds an elastic gear with backlash; see [`ElasticGear`](crate::actuation::ElasticGear).
+    pub fn elastic_gear(&mut self, name: &str, spec: ElasticGearSpec) {
+        self.elastic_gears.push((name.into(), spec));
     }
 
     /// Adds a spring, damper and actuator between two points; see [`SpringDamper`](crate::actuation::SpringDamper).

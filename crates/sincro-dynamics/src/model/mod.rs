@@ -28,8 +28,8 @@ pub use crate::geometry::{MassProperties, Shape};
 pub use crate::ids::{BodyId, JointId, MotorId, RotorId};
 pub use crate::joint::{Dof, Link};
 pub use builder::{
-    BodySpec, DragSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, REST_SPEED, RotorDrive,
-    RotorSpec, SpringDamperSpec,
+    BodySpec, DragSpec, ElasticGearSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId,
+    REST_SPEED, RotorDrive, RotorSpec, SpringDamperSpec,
 };
 pub(crate) use constraints::RESERVED_SLOTS;
 pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
@@ -42,7 +42,9 @@ pub use structure::Structure;
 use crate::actuation::Drive;
 use crate::actuation::damper;
 use crate::actuation::spring::{self, NonlinearSpring};
-use crate::actuation::{AppliedTorque, AppliedWrench, GravityField, Motor, MotorMode, SpringDamper, Winding};
+use crate::actuation::{
+    AppliedTorque, AppliedWrench, ElasticGear, GravityField, Motor, MotorMode, SpringDamper, Winding,
+};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
@@ -230,6 +232,17 @@ impl<R: Real> Model<R> {
         &self.spring_dampers
     }
 
+    /// Elastic gears, in the order in which they were added.
+    #[must_use]
+    pub fn elastic_gears(&self) -> &[ElasticGear<R>] {
+        &self.elastic_gears
+    }
+
+    /// Returns true if there are springs and dampers that couple degrees of freedom: between points, of elastic gears.
+    pub(crate) fn has_lines(&self) -> bool {
+        !self.spring_dampers.is_empty() || !self.elastic_gears.is_empty()
+    }
+
     /// Wind that rotors and drag elements feel; `None` if the air rests.
     #[must_use]
     pub fn wind(&self) -> Option<&Wind> {
@@ -276,7 +289,7 @@ impl<R: Real> Model<R> {
 
     /// Returns true if external forces may act on links.
     pub(crate) fn has_external(&self) -> bool {
-        !self.wrenches.is_empty() || self.feels_air() || !self.spring_dampers.is_empty() || self.gravity_field.is_some()
+        !self.wrenches.is_empty() || self.feels_air() || self.has_lines() || self.gravity_field.is_some()
     }
 
     /// Drives: joints with Coulomb friction, then motors in velocity and position mode, then locked force sensors.

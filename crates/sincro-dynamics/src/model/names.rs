@@ -104,6 +104,8 @@ pub struct Names {
     pub drags: Vec<String>,
     /// Names of the springs and dampers between two points, in the order of [`super::Model::spring_dampers`].
     pub spring_dampers: Vec<String>,
+    /// Names of the elastic gears, in the order of [`Model::elastic_gears`](super::Model::elastic_gears).
+    pub elastic_gears: Vec<String>,
     /// Sensors, each with a frame of the same name.
     pub sensors: Vec<SensorInfo>,
     /// Id of the joint of each degree of freedom (n_v).
@@ -166,6 +168,16 @@ impl Names {
     #[must_use]
     pub fn body_info(&self, id: BodyId) -> &FrameInfo {
         &self.frames[id.index()]
+    }
+
+    /// Joint of a degree of freedom.
+    ///
+    /// # Panics
+    ///
+    /// If the model has no such degree of freedom.
+    #[must_use]
+    pub fn joint_of(&self, dof: usize) -> &JointInfo {
+        &self.joints[self.dof_joint[dof].index()]
     }
 
     /// Name of the joint to which degree of freedom `dof` belongs. Panics if there is no such degree of freedom.

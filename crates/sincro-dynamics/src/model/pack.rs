@@ -7,7 +7,7 @@ use sincro_math::Real;
 use super::{Dof, Link, Model, ModelParams, Structure};
 use crate::actuation::spring_damper::{LineActuator, LinkPoint};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
-use crate::actuation::{ForceLaw, SpringDamper, Winding};
+use crate::actuation::{ElasticGear, ForceLaw, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, SpeedSource};
 use crate::joint::Friction;
@@ -167,6 +167,15 @@ impl<R: Real> Model<R> {
                 }),
             }
         });
+        let elastic_gears = first.elastic_gears.iter().enumerate().map(|(i, gear)| ElasticGear {
+            dofs: gear.dofs,
+            coordinates: gear.coordinates,
+            ratio: num(&|m| m.elastic_gears[i].ratio),
+            offset: num(&|m| m.elastic_gears[i].offset),
+            stiffness: num(&|m| m.elastic_gears[i].stiffness),
+            damping: num(&|m| m.elastic_gears[i].damping),
+            backlash: num(&|m| m.elastic_gears[i].backlash),
+        });
         let params = ModelParams {
             gravity: vec3(&|m| m.params.gravity),
             inertias: inertias.collect(),
@@ -184,6 +193,7 @@ impl<R: Real> Model<R> {
             rotors: rotors.collect(),
             drags: drags.collect(),
             spring_dampers: spring_dampers.collect(),
+            elastic_gears: elastic_gears.collect(),
             wind: first.wind.clone(),
             gravity_field: first.gravity_field.clone(),
             n_q: first.n_q,
@@ -216,6 +226,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         };
         m.spring_dampers.iter().map(structure).collect()
     };
+    let gears = |m: &Model<f64>| -> Vec<_> { m.elastic_gears.iter().map(|gear| gear.dofs).collect() };
     let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| !x.friction.is_none()).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),
@@ -225,6 +236,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (wrenches(a) == wrenches(b), "external forces"),
         (rotors(a) == rotors(b), "rotors"),
         (drags(a) == drags(b), "drag elements"),
+        (gears(a) == gears(b), "elastic gears"),
         (lines(a) == lines(b), "springs and dampers between two points"),
         (a.wind == b.wind, "wind"),
         (a.gravity_field == b.gravity_field, "gravity over the position"),

@@ -8,7 +8,9 @@ use sincro_dynamics::ids::{JointId, MotorId};
 use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
-use super::{ContactQuantity, EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity};
+use super::{
+    ContactQuantity, EnergyQuantity, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity,
+};
 
 /// Signal that can be recorded: name, unit, and the probe that reads it; an entry of [`catalogue`].
 ///
@@ -125,6 +127,12 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
         if let Some(actuator) = model.spring_dampers()[k].actuator {
             list.add(format!("{name}.command"), "N", Probe::Command(actuator.command));
         }
+    }
+    for (k, name) in model.names().elastic_gears.iter().enumerate() {
+        let second = model.names().joint_of(model.elastic_gears()[k].dofs[1]);
+        let units = if matches!(second.kind, JointKind::Prismatic { .. }) { LENGTH.0 } else { ANGLE.0 };
+        list.add(format!("{name}.mesh_error"), units[0], Probe::ElasticGear(GearQuantity::MeshError, k));
+        list.add(format!("{name}.torque"), units[3], Probe::ElasticGear(GearQuantity::Torque, k));
     }
     if model.wind().is_some() {
         list.vector("wind", &XYZ, "m/s", Probe::Wind);

@@ -72,6 +72,8 @@ pub enum Probe {
     Drag(usize, usize),
     /// Quantity of a spring and damper between two points: quantity, index of the element.
     SpringDamper(LineQuantity, usize),
+    /// Quantity of an elastic gear: quantity, index of the gear.
+    ElasticGear(GearQuantity, usize),
     /// Quantity of a motor's winding: quantity, index of the winding.
     Winding(WindingQuantity, usize),
     /// Component of the wind at its reference height `[m/s]`.
@@ -131,6 +133,15 @@ pub enum LineQuantity {
     Rate,
     /// Force along the line, positive where it pushes the points apart `[N]`.
     Force,
+}
+
+/// Quantity of an elastic gear, for [`Probe::ElasticGear`], in the units of its second joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GearQuantity {
+    /// Mesh error q₂ − ratio·q₁ − offset, the travel within the backlash included `[rad]` or `[m]`.
+    MeshError,
+    /// Torque on the second joint `[N·m]` or force `[N]`.
+    Torque,
 }
 
 /// Quantity of the winding of a direct-current motor, for [`Probe::Winding`].

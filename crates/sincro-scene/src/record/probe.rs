@@ -14,7 +14,7 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::Observation;
 use sincro_math::Real;
 
-use super::{EnergyQuantity, FrameQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity};
+use super::{EnergyQuantity, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity};
 
 /// State at which a [`Probe`] is evaluated, in any number type; lists have the order of the model's state.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +87,14 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
         Probe::Drag(k, component) => drag(at, k)[component],
         Probe::SpringDamper(quantity, k) if !has_actuated_force(model, quantity, k) => of_line(at, quantity, k),
+        Probe::ElasticGear(quantity, k) => {
+            let gear = &model.elastic_gears()[k];
+            let (x, rate) = gear.error(at.q, at.v);
+            match quantity {
+                GearQuantity::MeshError => x,
+                GearQuantity::Torque => gear.torque(x, rate),
+            }
+        }
         Probe::Winding(quantity, k) if !has_commanded_circuit(model, quantity, k) => of_winding(at, quantity, k),
         Probe::Wind(k) => {
             let wind = model.wind()?;

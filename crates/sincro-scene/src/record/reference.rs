@@ -6,8 +6,8 @@
 use std::fmt::Write as _;
 
 use super::{
-    ContactQuantity, EnergyQuantity, Entry, FrameQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity,
-    catalogue,
+    ContactQuantity, EnergyQuantity, Entry, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity,
+    WindingQuantity, catalogue,
 };
 use crate::scene::from_text;
 
@@ -15,7 +15,7 @@ use crate::scene::from_text;
 const SAMPLE: &str = include_str!("sample.toml");
 
 /// Objects of the sample with the headings of their tables; `""` takes the rest.
-const SECTIONS: [(&str, &str); 19] = [
+const SECTIONS: [(&str, &str); 20] = [
     ("/slide", "Prismatic joint"),
     ("/hinge", "Revolute joint, with a motor, a spring and stops; a screw joint has the same"),
     ("/wheel", "Revolute joint with a motor in mode `voltage`"),
@@ -32,6 +32,7 @@ const SECTIONS: [(&str, &str); 19] = [
     ("/free/solid/rotor", "Rotor; without a lag there is no command beside the speed"),
     ("/free/solid/hull", "Drag element"),
     ("/cable", "Spring, damper and actuator between two points; without an actuator there is no command"),
+    ("/teeth", "Elastic coupling; a rigid one has the signal of closures"),
     ("/free/solid/imu", "Inertial measurement unit; this and all other sensors also have the signals of a frame"),
     ("/free/solid/pose", "Pose sensor"),
     ("/free/solid/speed", "Velocity sensor"),
@@ -180,6 +181,10 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::SpringDamper(LineQuantity::Length, _) => "distance of its ends",
         Probe::SpringDamper(LineQuantity::Rate, _) => "rate of that distance",
         Probe::SpringDamper(LineQuantity::Force, _) => "force along the line, positive where it pushes the ends apart",
+        Probe::ElasticGear(GearQuantity::MeshError, _) => {
+            "mesh error, second − ratio·first − offset, the travel within the backlash included"
+        }
+        Probe::ElasticGear(GearQuantity::Torque, _) => "torque of the teeth on the second joint",
         Probe::Winding(W::Current, _) => "current of the winding",
         Probe::Winding(W::Voltage, _) => "voltage across the motor: the command within the limits of the supply",
         Probe::Winding(W::BackEmf, _) => "voltage that the rotation induces",

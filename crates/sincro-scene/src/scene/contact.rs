@@ -279,6 +279,19 @@ impl Joiner<'_> {
             self.diagnostics.push(diagnostic.with_help("give two joints"));
             return None;
         }
+        for key in ["damping", "backlash"].into_iter().filter(|_| file.stiffness.is_none()) {
+            let pointer = format!("{pointer}/{key}");
+            if self.document.get(&pointer).is_some() {
+                let message = format!("`{key}` has no meaning for the rigid coupling `{}`", file.name);
+                let diagnostic = Diagnostic::error(&self.document.key_at(&pointer), message);
+                self.diagnostics.push(diagnostic.with_help("give `stiffness` of its teeth too, or leave it out"));
+            }
+        }
+        if file.stiffness.is_some() && file.ratio == 0.0 {
+            let at = self.document.at(&format!("{pointer}/ratio"));
+            let diagnostic = Diagnostic::error(&at, format!("the ratio of coupling `{}` is 0", file.name));
+            self.diagnostics.push(diagnostic.with_help("give the rate of the second joint over that of the first"));
+        }
         let [Some(a), Some(b)] = joints else { return None };
         Some(GearSpec { joints: [a, b], ratio: file.ratio, offset: file.offset })
     }

@@ -376,7 +376,7 @@ pub(crate) enum ClosureKindFile {
     Distance,
 }
 
-/// Two joints of one degree of freedom that move together: second = ratio·first + offset.
+/// Two joints of one degree of freedom that move together: second = ratio·first + offset; exactly, or with a `stiffness` through an elastic mesh with backlash.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CouplingFile {
@@ -389,6 +389,15 @@ pub(crate) struct CouplingFile {
     /// Coordinate of the second where that of the first is zero [rad] or [m].
     #[serde(default)]
     pub offset: f64,
+    /// Stiffness of the teeth at the second joint, above 0; without it the gear is rigid [N·m/rad] or [N/m].
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub stiffness: Option<f64>,
+    /// With `stiffness`: damping while the teeth touch; default 0 [N·m·s/rad] or [N·s/m].
+    #[schemars(range(min = 0.0))]
+    pub damping: Option<f64>,
+    /// With `stiffness`: free travel of the second joint while the first is held; default 0 [rad] or [m].
+    #[schemars(range(min = 0.0))]
+    pub backlash: Option<f64>,
 }
 
 /// Contact law between two bodies; what is left out is combined from their two surfaces.

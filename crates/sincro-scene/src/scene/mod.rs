@@ -34,7 +34,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use sincro_dynamics::contact::Surface;
-use sincro_dynamics::model::{BodySpec, DragSpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
+use sincro_dynamics::model::{BodySpec, DragSpec, ElasticGearSpec, ForceSpec, JointSpec, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::state::State;
@@ -381,7 +381,13 @@ impl Assembly {
         }
         for (k, coupling) in file.coupling.iter().enumerate() {
             if let Some(spec) = joiner.coupling(coupling, &format!("/coupling/{k}")) {
-                self.builder.gear(&format!("/{}", coupling.name), spec);
+                let name = format!("/{}", coupling.name);
+                let Some(stiffness) = coupling.stiffness else {
+                    self.builder.gear(&name, spec);
+                    continue;
+                };
+                let (damping, backlash) = (coupling.damping.unwrap_or(0.0), coupling.backlash.unwrap_or(0.0));
+                self.builder.elastic_gear(&name, ElasticGearSpec { gear: spec, stiffness, damping, backlash });
             }
         }
         for (k, pair) in file.contact_pair.iter().enumerate() {
