@@ -29,6 +29,17 @@ pub struct State<R> {
     pub memory: Vec<R>,
 }
 
+/// Signal at which a loop is opened for analysis: all that reads it sees another value than its block gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopOpening<R> {
+    /// Index of the component in the signals.
+    pub signal: usize,
+    /// Value that is seen in its place.
+    pub value: R,
+    /// Value that the block gave when it was last due.
+    pub own: R,
+}
+
 /// Compiled diagram with its state, run step by step together with a plant: see the verbs in the [module](self).
 ///
 /// ```
@@ -60,6 +71,8 @@ pub struct Runner<R: Number> {
     program: Arc<Program>,
     /// State of the diagram.
     pub state: State<R>,
+    /// Signal of a block evaluated at ticks at which a loop is opened; `None` in a run. Not part of the state.
+    pub opening: Option<LoopOpening<R>>,
     instances: Vec<Box<dyn RunningBlock<R>>>,
     /// For each of the program's periods: true if it is due.
     due: Vec<bool>,
@@ -98,6 +111,7 @@ impl<R: Number> Runner<R> {
             with_states: those(&|s| !s.states.is_empty()),
             with_memory: those(&|s| !s.memory.is_empty() || !s.states.is_empty()),
             state,
+            opening: None,
             instances,
             program,
         };
@@ -163,7 +177,18 @@ impl<R: Number> Runner<R> {
         for k in steps {
             if self.program.steps[k].rate != Rate::Constant && self.due[self.period[k]] {
                 self.output(k, t, f64::INFINITY, tick);
+                self.replace_opened(k);
             }
+        }
+    }
+
+    /// Puts the other value in place of the output of step `k`, if a loop is opened there.
+    #[inline(always)]
+    fn replace_opened(&mut self, k: usize) {
+        if let Some(opening) = &mut self.opening
+            && self.program.steps[k].out.contains(&opening.signal)
+        {
+            opening.own = core::mem::replace(&mut self.state.signals[opening.signal], opening.value);
         }
     }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::Serialize;
 use sincro_analysis::linear::{Axis, Complex, DMatrix, Margin, Stability};
-use sincro_analysis::linearize::Reduction;
+use sincro_analysis::linearize::{OpenLoop, Reduction};
 use sincro_figures::linear::{self, Analysis, Channel};
 use sincro_figures::plot::{self, Size};
 use sincro_sim::file::{FileError, prepare};
@@ -52,6 +52,8 @@ struct File<'a> {
     controllable_dimensions: usize,
     observable_dimensions: usize,
     channels: Vec<ChannelFile<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    loops: Vec<LoopFile<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reduction: Option<ReductionFile<'a>>,
 }
@@ -100,14 +102,28 @@ struct ChannelFile<'a> {
 }
 
 #[derive(Serialize)]
+struct LoopFile<'a> {
+    signal: &'a str,
+    unit: &'a str,
+    sample_time: f64,
+    samples_per_period: usize,
+    gain_margins_db: Vec<At>,
+    phase_margins_deg: Vec<At>,
+    modulus_margin: At,
+    omega: &'a [f64],
+    magnitude_db: Vec<Option<f64>>,
+    phase_deg: &'a [f64],
+}
+
+#[derive(Serialize)]
 struct At {
     omega: f64,
     value: f64,
 }
 
 /// Text of `linearization.json`: matrices A, B, C, D by rows, names and units of states, inputs and outputs, poles
-/// `[1/s]`, gain margins `[dB]` and phase margins `[°]` at their frequencies `[rad/s]`, and the constraints eliminated
-/// before (`reduction`).
+/// `[1/s]`, gain margins `[dB]` and phase margins `[°]` at their frequencies `[rad/s]` of channels and of opened loops,
+/// and the constraints eliminated before (`reduction`).
 #[must_use]
 pub fn json(analysis: &Analysis, reduction: Option<&Reduction>) -> String {
     let s = analysis.system;
@@ -138,6 +154,7 @@ pub fn json(analysis: &Analysis, reduction: Option<&Reduction>) -> String {
         controllable_dimensions: analysis.controllability.rank,
         observable_dimensions: analysis.observability.rank,
         channels: analysis.channels.iter().map(|channel| channel_file(analysis, channel)).collect(),
+        loops: analysis.loops.iter().map(loop_file).collect(),
         reduction: reduction.filter(|reduction| !reduction.is_empty()).map(reduction_file),
     };
     let mut text = serde_json::to_string_pretty(&file).expect("numbers and texts are JSON");
@@ -158,8 +175,27 @@ fn reduction_file(reduction: &Reduction) -> ReductionFile<'_> {
     }
 }
 
+fn loop_file(open: &OpenLoop) -> LoopFile<'_> {
+    let bode = &open.margins.bode;
+    LoopFile {
+        signal: &open.signal.name,
+        unit: &open.signal.unit,
+        sample_time: open.sample_time,
+        samples_per_period: open.n_samples(),
+        gain_margins_db: at(&bode.gain_margins),
+        phase_margins_deg: at(&bode.phase_margins),
+        modulus_margin: At { omega: open.margins.modulus_margin.omega, value: open.margins.modulus_margin.value },
+        omega: &bode.omega,
+        magnitude_db: bode.magnitude_db.iter().map(|x| x.is_finite().then_some(*x)).collect(),
+        phase_deg: &bode.phase_deg,
+    }
+}
+
+fn at(margins: &[Margin]) -> Vec<At> {
+    margins.iter().map(|m| At { omega: m.omega, value: m.value }).collect()
+}
+
 fn channel_file<'a>(analysis: &'a Analysis, channel: &Channel) -> ChannelFile<'a> {
-    let at = |margins: &[Margin]| margins.iter().map(|m| At { omega: m.omega, value: m.value }).collect();
     ChannelFile {
         input: &analysis.system.inputs[channel.input].name,
         output: &analysis.system.outputs[channel.output].name,

@@ -202,6 +202,36 @@ fn negative_numbers_are_values_and_refused_by_what_they_mean() {
     }
 }
 
+/// Mass on a rail under a sampled gain.
+fn sampled_rail() -> SceneFolder {
+    let scene = "[[joint]]\nname = \"rail\"\nkind = \"prismatic\"\ndamping = 3.0\nmotor = { mode = \"torque\" }\n[[body]]\nname = \"cart\"\n\
+                 parent = \"/rail\"\nmass = 2.0\ninertia = { xx = 1.0, yy = 1.0, zz = 1.0 }\n";
+    let diagram = "wires = [\"/rail.position -> control -> /rail\"]\n[[block]]\nname = \"control\"\ntype = \"gain\"\ngain = -40.0\n\
+                   unit = \"N\"\nsample_time = 0.02\n";
+    let experiment = "title = \"Rail\"\nscene = \"scene.toml\"\ndiagram = \"diagram.toml\"\nduration = 1.0\nstep = 0.01\n\
+                      record = [\"/rail.position\"]\n";
+    SceneFolder::of(&format!("gravity = [0.0, 0.0, 0.0]\n{scene}"), experiment).with("diagram.toml", diagram)
+}
+
+#[test]
+fn a_sampled_loop_is_opened_by_name() {
+    let folder = sampled_rail();
+    let scene = folder.to_str().unwrap();
+    let program = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
+    let out = folder.join("linear");
+    let found = program.call(&["linearize", scene, "--sampled", "--loop", "/rail", "--out", out.to_str().unwrap()]);
+    assert_eq!(found.status, 0, "{}", found.stderr);
+    assert!(found.stdout.contains("open loops, closed by −1"), "{}", found.stdout);
+    let json = fs::read_to_string(out.join("linearization.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["loops"][0]["samples_per_period"], 1);
+    assert!(json["loops"][0]["phase_margins_deg"][0]["value"].as_f64().unwrap() > 0.0, "{json}");
+    assert!(out.join("figures/loop-01-bode.svg").is_file());
+    // without a name the signals are listed
+    let found = program.call(&["linearize", scene, "--sampled"]);
+    assert!(found.stdout.contains("open a loop with --loop at one of `control`"), "{}", found.stdout);
+}
+
 #[test]
 fn results_that_cannot_be_written_are_refused_before_the_run() {
     let folder = SceneFolder::new();

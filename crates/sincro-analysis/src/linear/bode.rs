@@ -284,7 +284,7 @@ impl<'a> Channel<'a> {
 }
 
 /// Poles and zeros as rates, with the real parts that are rounding taken away.
-struct Corners {
+pub(super) struct Corners {
     poles: Vec<Complex<f64>>,
     zeros: Vec<Complex<f64>>,
     /// Half the sampling frequency `[rad/s]`.
@@ -292,7 +292,7 @@ struct Corners {
 }
 
 impl Corners {
-    fn new(system: &StateSpace, poles: &[Complex<f64>], zeros: &[Complex<f64>]) -> Self {
+    pub(super) fn new(system: &StateSpace, poles: &[Complex<f64>], zeros: &[Complex<f64>]) -> Self {
         let size = system.a.norm();
         let rate = |&z: &Complex<f64>| match system.sample_time {
             None if modulus(z) <= NOTHING * size => Complex::new(0.0, 0.0),
@@ -333,7 +333,7 @@ impl Corners {
     }
 
     /// Even in the logarithm, with more points about each resonance.
-    fn grid(&self) -> Vec<f64> {
+    pub(super) fn grid(&self) -> Vec<f64> {
         let (first, last) = self.range();
         let decades = log10(last / first).0;
         let n = ((decades * PER_DECADE as f64).ceil() as usize).max(2);
@@ -392,7 +392,7 @@ impl Corners {
 }
 
 /// The phase with each step the shortest way.
-fn unwrapped(values: &[Complex<f64>]) -> Vec<f64> {
+pub(super) fn unwrapped(values: &[Complex<f64>]) -> Vec<f64> {
     let mut phases: Vec<f64> = Vec::with_capacity(values.len());
     for g in values {
         let phase = atan2(g.im, g.re).0;
@@ -404,7 +404,7 @@ fn unwrapped(values: &[Complex<f64>]) -> Vec<f64> {
 }
 
 /// `20 log₁₀`.
-fn decibel(magnitude: f64) -> f64 {
+pub(super) fn decibel(magnitude: f64) -> f64 {
     if magnitude == 0.0 { f64::NEG_INFINITY } else { 20.0 * log10(magnitude).0 }
 }
 
@@ -415,7 +415,16 @@ fn power_of_ten(power: f64) -> f64 {
 fn gain_margins(channel: &Channel, omega: &[f64], values: &[Complex<f64>]) -> Vec<Margin> {
     // the negative real axis is crossed; what stays on it up to rounding does not cross
     let is_left = |g: &Complex<f64>| g.re < 0.0 && g.im.abs() > 1e-9 * g.re.abs();
-    let found = crossings(channel, omega, values, |g| g.im, |a, b| is_left(a) && is_left(b));
+    let mut found = crossings(channel, omega, values, |g| g.im, |a, b| is_left(a) && is_left(b));
+    // of a sampled system G is real at half the sampling frequency
+    let nyquist = channel.system.sample_time.map(|tick| PI / tick);
+    if let (Some(&last), Some(g)) = (omega.last(), values.last())
+        && nyquist.is_some_and(|nyquist| (last - nyquist).abs() <= 1e-12 * nyquist)
+        && g.re < 0.0
+        && !is_left(g)
+    {
+        found.push(last);
+    }
     found.into_iter().map(|w| Margin { omega: w, value: -decibel(modulus(channel.at(w))) }).collect()
 }
 

@@ -8,6 +8,7 @@
 
 pub mod bode;
 mod error;
+mod loop_margins;
 pub mod lqr;
 pub mod lyapunov;
 pub mod modes;
@@ -18,6 +19,7 @@ mod zeros;
 
 pub use bode::{Bode, Margin};
 pub use error::LinearError;
+pub use loop_margins::LoopMargins;
 pub use lqr::{Regulator, dlqr, lqr};
 pub use modes::{Mode, Stability};
 pub use nalgebra::{Complex, DMatrix, DVector};

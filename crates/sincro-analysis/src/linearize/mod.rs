@@ -14,12 +14,14 @@
 
 mod lens;
 mod names;
+mod open_loop;
 mod point;
 mod reduction;
 mod sampled;
 mod trim;
 mod words;
 
+pub use open_loop::{OpenLoop, open_loops, openable_signals};
 pub use point::{Request, operating_point};
 pub use sampled::{SampledLoop, linearize_sampled};
 pub use trim::{Trim, TrimRequest, Trimmed, trim};

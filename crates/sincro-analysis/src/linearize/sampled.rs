@@ -19,13 +19,13 @@ use super::lens::Lens;
 use super::names::Names;
 use super::point;
 use super::reduction::{Equations, Metric, Tangent};
-use crate::linear::{Axis, DMatrix, StateSpace};
+use crate::linear::{Axis, DMatrix, DVector, StateSpace};
 use sincro_scene::diagnostic::Diagnostic;
 use sincro_sim::load::Loaded;
 use sincro_sim::run::{Halt, LockStep};
 
 /// Change of each state `[rad]`, `[m]` and the like: differences are central, their error is of its square.
-const CHANGE: f64 = 1e-5;
+pub(super) const CHANGE: f64 = 1e-5;
 
 /// Derivatives below this are rounding of an effect that does not exist.
 const NO_EFFECT: f64 = 1e-9;
@@ -68,13 +68,11 @@ pub fn linearize_sampled(loaded: &Loaded, at: &LockStep) -> Result<SampledLoop, 
             end
         };
         let (up, down) = (side(CHANGE)?, side(-CHANGE)?);
-        for (i, (up, down)) in map.difference(&up, &middle).iter().zip(map.difference(&down, &middle)).enumerate() {
-            a[(i, k)] = (up - down) / (2.0 * CHANGE);
-        }
+        a.set_column(k, &map.slope(&up, &down, &middle));
     }
     let start = map.at_start();
     let drift = map.difference(&middle, &start).iter().fold(0.0_f64, |worst, x| worst.max(x.abs()));
-    let kept = map.kept(&a);
+    let kept = map.kept(&a, &DMatrix::zeros(0, n));
     let a = a.select_rows(&kept).select_columns(&kept);
     let n = kept.len();
     let system = StateSpace {
@@ -91,8 +89,15 @@ pub fn linearize_sampled(loaded: &Loaded, at: &LockStep) -> Result<SampledLoop, 
     Ok(SampledLoop { system, period, drift })
 }
 
+/// Moment of a period at which the blocks that are due are evaluated, with the number of base steps done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Moment {
+    Before(u64),
+    After(u64),
+}
+
 /// Base steps after which every block and sensor is due again.
-fn period(loaded: &Loaded, at: &LockStep) -> Result<u64, Diagnostic> {
+pub(super) fn period(loaded: &Loaded, at: &LockStep) -> Result<u64, Diagnostic> {
     let of_blocks = at.control().into_iter().flat_map(|control| {
         let steps = control.wiring().program().steps.iter();
         steps.filter_map(|step| if let Rate::Sampled(every) = step.rate { Some(every) } else { None })
@@ -115,7 +120,7 @@ fn common(a: u64, b: u64) -> u64 {
 }
 
 /// The state over a period as a function of its change at the start.
-struct PeriodMap<'a> {
+pub(super) struct PeriodMap<'a> {
     lens: Lens<f64>,
     model: &'a Model<f64>,
     run: LockStep,
@@ -128,7 +133,7 @@ struct PeriodMap<'a> {
 }
 
 impl<'a> PeriodMap<'a> {
-    fn new(loaded: &'a Loaded, at: &LockStep, period: u64) -> Result<Self, Diagnostic> {
+    pub fn new(loaded: &'a Loaded, at: &LockStep, period: u64) -> Result<Self, Diagnostic> {
         let mut run = at.fork().lockstep;
         // everything is due where the period begins
         while !run.tick().is_multiple_of(period) {
@@ -158,15 +163,23 @@ impl<'a> PeriodMap<'a> {
         Ok(Self { lens, model, run, start, tangent, period, axes, n_continuous, n_memory })
     }
 
-    fn n_states(&self) -> usize {
+    pub fn n_states(&self) -> usize {
         self.axes.len()
     }
 
-    /// States with an effect: all of the world, and of the others those that something else depends on.
-    fn kept(&self, a: &DMatrix<f64>) -> Vec<usize> {
+    /// Names and units of the states.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// States with an effect: all of the world, and of the others those that something else or an output depends on.
+    pub fn kept(&self, a: &DMatrix<f64>, c: &DMatrix<f64>) -> Vec<usize> {
         let n_world = self.tangent.states.len() + self.n_continuous;
         let mut kept: Vec<usize> = (0..self.n_states()).collect();
-        let has_effect = |k: usize, kept: &[usize]| kept.iter().any(|&i| i != k && a[(i, k)].abs() > NO_EFFECT);
+        let has_effect = |k: usize, kept: &[usize]| {
+            kept.iter().any(|&i| i != k && a[(i, k)].abs() > NO_EFFECT)
+                || c.column(k).iter().any(|x| x.abs() > NO_EFFECT)
+        };
         while let Some(at) = kept.iter().rposition(|&k| {
             let stays = (a[(k, k)] - 1.0).abs() <= NO_EFFECT || a[(k, k)].abs() <= NO_EFFECT;
             k >= n_world && stays && !has_effect(k, &kept)
@@ -181,8 +194,26 @@ impl<'a> PeriodMap<'a> {
         self.start.clone()
     }
 
+    /// Derivative of the state by a change of [`CHANGE`] to both sides, from the states that these lead to and the one
+    /// between.
+    pub fn slope(&self, up: &Snapshot, down: &Snapshot, middle: &Snapshot) -> DVector<f64> {
+        let sides = (self.difference(up, middle), self.difference(down, middle));
+        let slopes = sides.0.iter().zip(&sides.1).map(|(up, down)| (up - down) / (2.0 * CHANGE));
+        DVector::from_iterator(sides.0.len(), slopes)
+    }
+
     /// The state after one period from a changed one.
-    fn after(&mut self, change: &[f64]) -> Result<Snapshot, Diagnostic> {
+    pub fn after(&mut self, change: &[f64]) -> Result<Snapshot, Diagnostic> {
+        self.after_with(change, |_, _| ())
+    }
+
+    /// The state after one period from a changed one; `visit` sees the run before and after each evaluation of the
+    /// blocks, to open a loop and to read what is given there.
+    pub fn after_with(
+        &mut self,
+        change: &[f64],
+        mut visit: impl FnMut(Moment, &mut LockStep),
+    ) -> Result<Snapshot, Diagnostic> {
         let n_world = self.tangent.states.len();
         let mut full = vec![0.0; self.lens.n_full()];
         for (x, column) in change.iter().zip(&self.tangent.columns) {
@@ -198,6 +229,7 @@ impl<'a> PeriodMap<'a> {
         }
         snapshot.sensors.iter_mut().zip(rest).for_each(|(x, by)| *x += by);
         self.run.restore(&snapshot);
+        visit(Moment::Before(0), &mut self.run);
         if let (Some(control), Some(diagram)) = (self.run.control(), &mut snapshot.diagram) {
             let (mut control, tick, t) = (control.clone(), self.run.tick(), self.run.t());
             let measured = control.evaluate(self.run.world(), tick, t);
@@ -206,9 +238,13 @@ impl<'a> PeriodMap<'a> {
             })?;
             *diagram = control.runner.state.clone();
             self.run.restore(&snapshot);
+            self.run.set_opening(control.runner.opening);
         }
-        for _ in 0..self.period {
+        visit(Moment::After(0), &mut self.run);
+        for tick in 1..=self.period {
+            visit(Moment::Before(tick), &mut self.run);
             self.run.advance().map_err(|halt| stopped(&halt))?;
+            visit(Moment::After(tick), &mut self.run);
         }
         Ok(self.run.snapshot(self.run.trace()))
     }

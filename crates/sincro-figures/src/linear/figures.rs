@@ -1,6 +1,7 @@
 //! The figures of a linearised scene: poles and zeros, Bode diagrams, step responses.
 
 use sincro_analysis::linear::{Bode, Complex};
+use sincro_analysis::linearize::OpenLoop;
 
 use super::text::margins;
 use super::{Analysis, Channel};
@@ -32,32 +33,43 @@ pub fn all(analysis: &Analysis) -> Vec<(String, Figure)> {
     if figures.is_empty() {
         figures.push(("poles".to_owned(), map(analysis, None)));
     }
+    for (k, open) in analysis.loops.iter().enumerate() {
+        figures.push((format!("loop-{:02}-bode", k + 1), loop_bode(open)));
+    }
     figures
+}
+
+/// Bode diagram of an open loop, with its margins.
+pub(super) fn loop_bode(open: &OpenLoop) -> Figure {
+    bode_figure(format!("Bode diagram of the loop opened at {}", open.signal.name), "dB".to_owned(), &open.margins.bode)
 }
 
 /// Magnitude over phase, with the margins drawn in.
 pub(super) fn bode(analysis: &Analysis, channel: &Channel) -> Figure {
-    let bode = &channel.bode;
     let unit = analysis.gain_unit(channel);
     let unit = if unit.is_empty() { "dB".to_owned() } else { format!("dB of {unit}") };
+    bode_figure(format!("Bode diagram {}", analysis.name(channel)), unit, &channel.bode)
+}
+
+fn bode_figure(title: String, unit: String, bode: &Bode) -> Figure {
     let curve = |y: &[f64]| Series::new("", Role::Simulated, bode.omega.clone(), y.to_vec());
     let mut magnitude = Panel::new(Axis::new("magnitude", unit));
     magnitude.series.push(curve(&bode.magnitude_db));
     let mut phase = Panel { share: 0.8, ..Panel::new(Axis { degrees: true, ..Axis::new("phase", "°") }) };
     phase.series.push(curve(&bode.phase_deg));
-    add_margins(&mut magnitude, &mut phase, channel);
+    add_margins(&mut magnitude, &mut phase, bode);
     let x = Axis { log: true, ..Axis::new("angular frequency", "rad/s") };
-    Figure { title: format!("Bode diagram {}", analysis.name(channel)), x, panels: vec![magnitude, phase], space: None }
+    Figure { title, x, panels: vec![magnitude, phase], space: None }
 }
 
 /// The gain margin from the curve up to 0 dB, the phase margin from −180° up to the curve, dotted lines at the
 /// crossovers.
-fn add_margins(magnitude: &mut Panel, phase: &mut Panel, channel: &Channel) {
-    let bode = &channel.bode;
-    let (gain_words, phase_words) = margins(channel);
+fn add_margins(magnitude: &mut Panel, phase: &mut Panel, bode: &Bode) {
+    let (gain_words, phase_words) = margins(bode);
     let full = |omega: f64| vec![(omega, f64::NEG_INFINITY), (omega, f64::INFINITY)];
     let guide = |points: Vec<(f64, f64)>, name: String, weight| Guide { points, name, label: String::new(), weight };
-    if let Some(margin) = bode.gain_margin() {
+    // a logarithmic axis has no zero
+    if let Some(margin) = bode.gain_margin().filter(|margin| margin.omega > 0.0) {
         let span = vec![(margin.omega, -margin.value), (margin.omega, 0.0)];
         magnitude.guides.push(guide(full(margin.omega), String::new(), Weight::Dotted));
         magnitude.guides.push(guide(span, format!("gain margin {gain_words}"), Weight::Strong));

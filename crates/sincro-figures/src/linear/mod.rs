@@ -8,6 +8,7 @@ mod page;
 mod text;
 
 use sincro_analysis::linear::{Bode, Complex, DMatrix, LinearError, Mode, StateSpace, StepResponse, SubspaceRank};
+use sincro_analysis::linearize::OpenLoop;
 
 pub use figures::all as figures;
 pub use page::html;
@@ -36,6 +37,8 @@ pub struct Analysis<'a> {
     pub silent: Vec<String>,
     /// Equations (constraints) that were eliminated before, one sentence each; empty if there were none.
     pub reduction: Vec<String>,
+    /// Loops of a sampled system that were opened, with their margins; may be empty.
+    pub loops: &'a [OpenLoop],
 }
 
 /// Transfer function of one input to one output, with what is derived from it.
@@ -79,7 +82,14 @@ impl<'a> Analysis<'a> {
             channels,
             silent,
             reduction: Vec::new(),
+            loops: &[],
         }
+    }
+
+    /// Sets [`Analysis::loops`].
+    #[must_use]
+    pub fn with_loops(self, loops: &'a [OpenLoop]) -> Self {
+        Self { loops, ..self }
     }
 
     /// Sets [`Analysis::reduction`]: one sentence for each constraint that was eliminated before.

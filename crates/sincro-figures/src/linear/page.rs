@@ -24,6 +24,7 @@ pub fn html(analysis: &Analysis) -> String {
     ];
     all.extend(analysis.shown().iter().map(|channel| channel_section(analysis, channel)));
     all.push(("Channels".to_owned(), overview(analysis)));
+    all.push(("Open loops".to_owned(), open_loops(analysis)));
     all.push(("Matrices".to_owned(), matrices(analysis)));
     document(&analysis.title, "report", &(banner + &sections(&all) + PLOT_SCRIPT))
 }
@@ -68,6 +69,14 @@ fn overview(analysis: &Analysis) -> String {
     };
     let content = table(&StateTable::channels(analysis)) + &list(&analysis.silent) + &rest;
     if analysis.channels.is_empty() { list(&analysis.silent) } else { content + MARGINS_KEY }
+}
+
+fn open_loops(analysis: &Analysis) -> String {
+    if analysis.loops.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<Figure> = analysis.loops.iter().map(figures::loop_bode).collect();
+    table(&StateTable::loops(analysis)) + &paragraph("key", &text::loop_notes(analysis).join(" ")) + &figures_of(&shown)
 }
 
 const MARGINS_KEY: &str = "<p class=\"key\">Margins are those of the loop closed by −1 around the channel: how much gain or phase lag it \

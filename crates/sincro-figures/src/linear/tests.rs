@@ -1,6 +1,6 @@
 //! Claims about what is shown of a linear system.
 
-use sincro_analysis::linear::{DMatrix, StateSpace};
+use sincro_analysis::linear::{Axis, DMatrix, StateSpace};
 use sincro_testing::systems::{sampled, servo};
 
 use super::text::text;
@@ -31,6 +31,24 @@ fn the_text_names_what_matters() {
     assert!(text.contains("2 rad/(s·V)"), "{text}");
     assert!(text.contains("controllable: yes, all 3 dimensions"), "{text}");
     assert!(text.lines().all(|line| !line.ends_with(' ') && line.chars().count() < 130), "{text}");
+}
+
+#[test]
+fn an_open_loop_is_shown_with_its_margins() {
+    let system = sampled();
+    let open = OpenLoop {
+        signal: Axis::new("pid", "N"),
+        sample_time: 0.05,
+        margins: system.loop_margins(),
+        system: system.clone(),
+    };
+    let analysis = Analysis::of("Sampled", &system).with_loops(std::slice::from_ref(&open));
+    let (text, page) = (text(&analysis), html(&analysis));
+    assert!(text.contains("open loops, closed by −1") && text.contains("pid [N]"), "{text}");
+    assert!(!text.contains("several samples in a period"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() < 130), "{text}");
+    assert!(page.contains("Open loops") && page.contains("Bode diagram of the loop opened at pid"));
+    assert!(figures(&analysis).iter().any(|(name, _)| name == "loop-01-bode"));
 }
 
 #[test]

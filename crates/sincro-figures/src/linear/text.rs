@@ -1,6 +1,7 @@
 //! A linearised scene in words and tables, for the terminal. The page takes its cells from here.
 
-use sincro_analysis::linear::{Axis, Complex, DMatrix, Mode, Stability, SubspaceRank};
+use sincro_analysis::linear::{Axis, Bode, Complex, DMatrix, Mode, Stability, SubspaceRank};
+use sincro_analysis::linearize::OpenLoop;
 
 use super::{Analysis, Channel};
 use crate::plot::number::{short, significant};
@@ -74,10 +75,29 @@ impl StateTable {
             let gain = channel.gain.map_or("∞".to_owned(), |gain| {
                 format!("{} {}", short(gain, DIGITS), analysis.gain_unit(channel)).trim_end().to_owned()
             });
-            let (gain_margin, phase_margin) = margins(channel);
+            let (gain_margin, phase_margin) = margins(&channel.bode);
             vec![analysis.name(channel), gain, gain_margin, phase_margin, zeros(&channel.zeros)]
         };
         Self { head, rows: analysis.channels.iter().map(row).collect() }
+    }
+
+    /// The opened loops: sample times, margins.
+    pub(super) fn loops(analysis: &Analysis) -> Self {
+        let head =
+            ["loop opened at", "sample time [s]", "samples a period", "gain margin", "phase margin", "modulus margin"];
+        let row = |open: &OpenLoop| {
+            let (gain, phase) = margins(&open.margins.bode);
+            let modulus = open.margins.modulus_margin;
+            vec![
+                named(&open.signal),
+                short(open.sample_time, 6),
+                open.n_samples().to_string(),
+                gain,
+                phase,
+                at_frequency(modulus.value, "", modulus.omega),
+            ]
+        };
+        Self { head: head.map(str::to_owned).to_vec(), rows: analysis.loops.iter().map(row).collect() }
     }
 
     /// Aligned text, two blanks between columns.
@@ -132,7 +152,24 @@ pub fn text(analysis: &Analysis) -> String {
     for silent in &analysis.silent {
         out += &format!("  {silent}\n");
     }
+    if !analysis.loops.is_empty() {
+        out += &format!("\nopen loops, closed by −1\n{}", StateTable::loops(analysis).aligned("  "));
+        for line in loop_notes(analysis) {
+            out += &format!("  {line}\n");
+        }
+    }
     out
+}
+
+/// Meaning of the margins of loops with several samples in a period.
+pub(super) fn loop_notes(analysis: &Analysis) -> Vec<String> {
+    let is_lifted = analysis.loops.iter().any(|open| open.n_samples() > 1);
+    let lines = [
+        "several samples in a period: the gain margin is the factor on all of them, the phase margin the angle of all loci,",
+        "at which a pole reaches the unit circle; the modulus margin is the smallest singular value of I + L,",
+        "its frequency that of the period",
+    ];
+    if is_lifted { lines.map(str::to_owned).to_vec() } else { Vec::new() }
 }
 
 /// Unit of poles and zeros; those of a sampled system are factors of one tick.
@@ -184,15 +221,15 @@ pub(super) fn reach_lines(analysis: &Analysis) -> [String; 2] {
 }
 
 /// Gain and phase margin in words: `9.54 dB at 2.24 rad/s`.
-pub(super) fn margins(channel: &Channel) -> (String, String) {
-    let (gain, phase) = (channel.bode.gain_margin(), channel.bode.phase_margin());
-    let words = |value: f64, unit: &str, omega: f64| {
-        format!("{}{unit} at {} rad/s", significant(value, 3), significant(omega, 3))
-    };
+pub(super) fn margins(bode: &Bode) -> (String, String) {
     (
-        gain.map_or("–".into(), |margin| words(margin.value, " dB", margin.omega)),
-        phase.map_or("–".into(), |margin| words(margin.value, "°", margin.omega)),
+        bode.gain_margin().map_or("–".into(), |margin| at_frequency(margin.value, " dB", margin.omega)),
+        bode.phase_margin().map_or("–".into(), |margin| at_frequency(margin.value, "°", margin.omega)),
     )
+}
+
+fn at_frequency(value: f64, unit: &str, omega: f64) -> String {
+    format!("{}{unit} at {} rad/s", significant(value, 3), significant(omega, 3))
 }
 
 /// `−1.5 ± 4.77j`: a pair, or a real number.

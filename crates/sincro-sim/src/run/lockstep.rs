@@ -3,6 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
+use sincro_blocks::runner::LoopOpening;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
@@ -304,6 +305,15 @@ impl LockStep {
     #[must_use]
     pub fn control(&self) -> Option<&DiagramController<f64>> {
         self.control.as_ref()
+    }
+
+    /// Opens a loop of the diagram for analysis, at a signal that a block gives at ticks: from its next evaluation on,
+    /// all that reads the signal sees the value of `opening` in its place. `None` closes the loop again. Not part of a
+    /// snapshot; without effect where there is no diagram.
+    pub fn set_opening(&mut self, opening: Option<LoopOpening<f64>>) {
+        if let Some(control) = &mut self.control {
+            control.runner.opening = opening;
+        }
     }
 
     /// Returns the base step `[s]`.

@@ -6,13 +6,17 @@ use clap::Args;
 use sincro::{Loaded, linearization, load};
 use sincro_analysis::linear::{DMatrix, lqr};
 use sincro_analysis::linearize::{
-    Linearization, Request, TrimRequest, linearize, linearize_sampled, operating_point, trim,
+    Linearization, Request, TrimRequest, linearize, linearize_sampled, open_loops, openable_signals, operating_point,
+    trim,
 };
 use sincro_figures::linear::{Analysis, text};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
 use super::run::parse_settings;
 use crate::{Exit, diagnostics};
+
+/// Names listed at most.
+const MAX_NAMED: usize = 8;
 
 /// Arguments of `linearize`.
 #[derive(Debug, Args)]
@@ -42,6 +46,10 @@ pub(crate) struct Arguments {
     /// poles
     #[arg(long, conflicts_with_all = ["inputs", "outputs", "closed_loop", "lqr_q"])]
     sampled: bool,
+    /// With --sampled: margins of the loop that is opened at this signal, which a block of the diagram gives at ticks,
+    /// or at this motor; may be repeated
+    #[arg(long = "loop", value_name = "SIGNAL", requires = "sampled")]
+    loops: Vec<String>,
     /// Weights of the states: design a linear-quadratic regulator with them and --lqr-r
     #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', requires = "lqr_r")]
     lqr_q: Vec<f64>,
@@ -97,13 +105,15 @@ fn sampled(arguments: &Arguments, loaded: &Loaded) -> Exit {
     let start = || -> Result<_, Diagnostics> {
         let at = operating_point(loaded, arguments.at)?;
         let at = if arguments.equilibrium { trim(loaded, &at, &TrimRequest::default())?.at } else { at };
-        Ok(linearize_sampled(loaded, &at)?)
+        let names: Vec<Located<String>> = arguments.loops.iter().map(|name| located("--loop", name)).collect();
+        let loops = open_loops(loaded, &at, &names)?;
+        Ok((linearize_sampled(loaded, &at)?, loops, openable_signals(loaded, &at)))
     };
-    let found = match start() {
+    let (found, loops, openable) = match start() {
         Ok(found) => found,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
-    let analysis = Analysis::of(format!("{}, sampled loop", loaded.experiment.title), &found.system);
+    let analysis = Analysis::of(format!("{}, sampled loop", loaded.experiment.title), &found.system).with_loops(&loops);
     if let Some(out) = &arguments.out
         && let Err(error) = linearization::write(&analysis, None, out)
     {
@@ -120,10 +130,19 @@ fn sampled(arguments: &Arguments, loaded: &Loaded) -> Exit {
         drift if drift < 1e-8 => say!("  an equilibrium: no state changes by more than {drift:.1e} in a period"),
         drift => say!("  no equilibrium: states change by up to {drift:.4} in a period"),
     }
+    if loops.is_empty() && !openable.is_empty() {
+        say!("  margins: open a loop with --loop at one of {}", quoted(&openable));
+    }
     if let Some(out) = &arguments.out {
         say!("report {}", out.join("report.html").display());
     }
     Exit::Holds
+}
+
+/// Names in backticks, the first few of many.
+fn quoted(names: &[String]) -> String {
+    let list = names.iter().take(MAX_NAMED).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    if names.len() > MAX_NAMED { format!("{list} and {} more", names.len() - MAX_NAMED) } else { list }
 }
 
 fn compute(arguments: &Arguments, loaded: &Loaded) -> Result<Linearization, Diagnostics> {
