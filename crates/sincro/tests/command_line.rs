@@ -233,6 +233,33 @@ fn a_sampled_loop_is_opened_by_name() {
 }
 
 #[test]
+fn wrong_names_and_values_of_an_analysis_are_refused_and_nothing_is_written() {
+    let folder = sampled_rail();
+    let scene = folder.to_str().unwrap();
+    let program = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
+    let out = folder.join("linear");
+    let cases: [(&[&str], &str); 11] = [
+        (&["linearize", "--sampled", "--loop", "contrl"], "there is no signal `contrl`"),
+        (&["linearize", "--sampled", "--loop", "/rail.position"], "no block of the diagram gives `/rail.position`"),
+        (&["linearize", "--loop", "control"], "--sampled"),
+        (&["linearize", "--at", "nan"], "there is no operating point at NaN s"),
+        (&["linearize", "--input", "/nowhere"], "there is no input `/nowhere`"),
+        (&["linearize", "--output", "/rail.positon"], "there is no signal `/rail.positon`"),
+        (&["linearize", "--lqr-q", "nan,1", "--lqr-r", "1"], "--lqr-q"),
+        (&["trim", "--want", "/rail.position=nan"], "is no signal with a value"),
+        (&["trim", "--want", "/rail.position"], "is no signal with a value"),
+        (&["trim", "--free", "/nowhere"], "there is no input `/nowhere`"),
+        (&["trim", "--from", "inf"], "there is no operating point at inf s"),
+    ];
+    for (arguments, said) in cases {
+        let all = [&[arguments[0], scene], &arguments[1..], &["--out", out.to_str().unwrap()]].concat();
+        let found = program.call(&all);
+        assert!(found.status == 2 && found.stderr.contains(said), "{arguments:?}: {} {}", found.status, found.stderr);
+        assert!(!out.exists(), "{arguments:?}");
+    }
+}
+
+#[test]
 fn results_that_cannot_be_written_are_refused_before_the_run() {
     let folder = SceneFolder::new();
     let scene = pendulum(&folder, "", "");

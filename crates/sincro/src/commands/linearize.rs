@@ -77,6 +77,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(found) => found,
         Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
+    // before anything is written
+    let words = match regulator(arguments, &found) {
+        Ok(words) => words,
+        Err(diagnostic) => return diagnostics::refuse_diagnostics(&diagnostic.into()),
+    };
     let title = format!("{}, linearised", loaded.experiment.title);
     let analysis = Analysis::of(title, &found.system).with_reduction(found.reduction.words());
     if let Some(out) = &arguments.out
@@ -89,15 +94,10 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     } else {
         print(&analysis, &found, arguments.out.as_deref());
     }
-    match regulator(arguments, &found) {
-        Ok(words) => {
-            if !arguments.json && !words.is_empty() {
-                say!("{words}");
-            }
-            Exit::Holds
-        }
-        Err(diagnostic) => diagnostics::refuse_diagnostics(&diagnostic.into()),
+    if !arguments.json && !words.is_empty() {
+        say!("{words}");
     }
+    Exit::Holds
 }
 
 /// Linearises the sampled loop as a whole, and shows or writes it.
@@ -203,6 +203,12 @@ fn regulator(arguments: &Arguments, found: &Linearization) -> Result<String, Dia
         if given != wanted {
             let diagnostic = Diagnostic::without_location(format!("{flag} has {given} weights for {wanted}"));
             return Err(diagnostic.with_help("give one for each state (--lqr-q) and each input (--lqr-r)"));
+        }
+    }
+    for (flag, weights) in [("--lqr-q", &arguments.lqr_q), ("--lqr-r", &arguments.lqr_r)] {
+        if let Some(weight) = weights.iter().find(|weight| !weight.is_finite()) {
+            let diagnostic = Diagnostic::without_location(format!("{flag} has the weight {weight}"));
+            return Err(diagnostic.with_help("weights are finite numbers"));
         }
     }
     let design = lqr(&system.a, &system.b, &diagonal(&arguments.lqr_q), &diagonal(&arguments.lqr_r))
