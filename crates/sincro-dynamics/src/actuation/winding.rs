@@ -9,7 +9,7 @@
 //! h² N² k_t k_e/(L + h R) in the diagonal. At L = 0 both are those of the straight line.
 //!
 //! Energy: the source gives V i; ½ L i² is stored; N k_t i q̇ moves the joint; the rest, R i² where k_e = k_t, is heat.
-//! Source: key `ogata2010`, section 3-6 (armature-controlled motor).
+//! Source: key `ogata2010` (armature-controlled motor).
 
 use sincro_math::Real;
 
