@@ -35,6 +35,7 @@ pub mod coupled;
 pub mod energy;
 pub mod ids;
 pub mod initial;
+pub mod inverse_kinematics;
 pub mod joint;
 pub mod mechanism;
 pub mod model;

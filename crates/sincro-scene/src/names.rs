@@ -18,7 +18,7 @@ use crate::document::Document;
 use crate::tree::{self, join};
 
 /// Keys of a scene whose values are paths of objects.
-const PATH_KEYS: [&str; 6] = ["parent", "object", "joint", "between", "joints", "with"];
+const PATH_KEYS: [&str; 7] = ["parent", "object", "joint", "between", "joints", "with", "frame"];
 
 /// Result of looking for a short name.
 #[derive(Clone, Debug, PartialEq, Eq)]

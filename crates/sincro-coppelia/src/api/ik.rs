@@ -11,8 +11,11 @@
 //! own it has positions of joints, from a calculation or setting until the scene is taken over again. Searches, which
 //! move nothing, are in `ik_search.rs`.
 
+use sincro_dynamics::inverse_kinematics::{
+    LEAST_DAMPING, MAX_ROTATION_STEP, MAX_TRANSLATION_STEP, damped_step, rotation_between,
+};
 use sincro_dynamics::joint::JointKind;
-use sincro_dynamics::spatial::{Pose, Quat, Vec3};
+use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_math::elementary::atan2;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,12 +29,6 @@ const MAX_COUNT: usize = 32;
 const MAX_ELEMENTS: usize = 16;
 /// Iterations that may be asked for.
 const MAX_ITERATIONS: i64 = 1_000;
-/// Largest rotation of a joint in one iteration `[rad]`.
-const MAX_ROTATION_STEP: f64 = 0.2;
-/// The same of a sliding joint `[m]`.
-const MAX_TRANSLATION_STEP: f64 = 0.1;
-/// λ² of the methods without damping: only what is singular is touched.
-const LEAST_DAMPING: f64 = 1e-12;
 
 /// Bit of the constraint on the position along x; combined with others in the constraints of an element.
 pub(crate) const X: i64 = 1;
@@ -431,12 +428,11 @@ impl SimApi<'_> {
             }
             let (rows, e) = self.rows(&group.elements, ik_joints)?;
             let damping = (group.damping * group.damping).max(LEAST_DAMPING);
-            let Some(x) = normal(&rows, &e, damping) else {
+            let Some(changes) = damped_step(&rows, &e, damping) else {
                 return Err(ApiError::new("the group cannot be solved: its equations are not finite"));
             };
             hit_limit = false;
-            for (k, ik_joint) in ik_joints.iter().enumerate() {
-                let change: f64 = rows.iter().zip(&x).map(|(row, x)| row[k] * x).sum();
+            for (ik_joint, change) in ik_joints.iter().zip(changes) {
                 let most = if group.has_free_steps {
                     f64::INFINITY
                 } else if ik_joint.is_sliding {
@@ -539,11 +535,7 @@ fn masked(element: &Element, v: Vec3<f64>) -> Vec3<f64> {
 fn turn(element: &Element, tip: &Pose<f64>, target: &Pose<f64>) -> Vec3<f64> {
     match (element.constraints & ALPHA_BETA != 0, element.constraints & GAMMA != 0) {
         (false, _) => Vec3::zero(),
-        (true, true) => {
-            let q = Quat::from_matrix(&target.rot.mul(&tip.rot.transpose()));
-            let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
-            along(q.xyz, q.xyz.norm(), sign * 2.0 * atan2(q.xyz.norm(), q.w.abs()).0)
-        }
+        (true, true) => rotation_between(&tip.rot, &target.rot),
         (true, false) => {
             let (from, to) = (tip.rot.col(2), target.rot.col(2));
             let cross = from.cross(to);
@@ -555,32 +547,4 @@ fn turn(element: &Element, tip: &Pose<f64>, target: &Pose<f64>) -> Vec3<f64> {
 /// A direction with another length; zero if it has none.
 fn along(v: Vec3<f64>, norm: f64, length: f64) -> Vec3<f64> {
     if norm == 0.0 { Vec3::zero() } else { v.scale(length / norm) }
-}
-
-/// x of (J·Jᵀ + λ²·I)·x = e, by Cholesky; none if that fails.
-fn normal(rows: &[Vec<f64>], e: &[f64], damping: f64) -> Option<Vec<f64>> {
-    let m = rows.len();
-    let l = cholesky(rows, damping);
-    let mut x = e.to_vec();
-    for i in 0..m {
-        x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) / l[i][i];
-    }
-    for i in (0..m).rev() {
-        x[i] = (i + 1..m).fold(x[i], |sum, k| sum - l[k][i] * x[k]) / l[i][i];
-    }
-    x.iter().all(|x| x.is_finite()).then_some(x)
-}
-
-/// Lower factor of J·Jᵀ + λ²·I; no pivot falls below half of λ².
-pub(super) fn cholesky(rows: &[Vec<f64>], damping: f64) -> Vec<Vec<f64>> {
-    let m = rows.len();
-    let mut l = vec![vec![0.0; m]; m];
-    for i in 0..m {
-        for j in 0..=i {
-            let product: f64 = rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
-            let sum = (0..j).fold(product + if i == j { damping } else { 0.0 }, |sum, k| sum - l[i][k] * l[j][k]);
-            l[i][j] = if i == j { sum.max(0.5 * damping).sqrt() } else { sum / l[j][j] };
-        }
-    }
-    l
 }

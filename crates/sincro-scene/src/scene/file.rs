@@ -10,6 +10,7 @@ use serde::Deserialize;
 use super::air::{DragFile, WindFile};
 use super::camera::CameraFile;
 use super::field::{AirDensityFile, GravityFile};
+use super::pose_start::InitialPoseFile;
 use super::rotor::RotorFile;
 use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
@@ -82,6 +83,8 @@ pub(crate) struct SceneFile {
     /// Springs, dampers and actuators between two points.
     #[serde(default)]
     pub spring_damper: Vec<SpringDamperFile>,
+    /// Pose of a body or frame in the world at the start, solved for the positions of joints; a list for several.
+    pub initial_pose: Option<OneOrList<InitialPoseFile>>,
     /// Contact laws of pairs of bodies, where they are not the combination of the two surfaces.
     #[serde(default)]
     pub contact_pair: Vec<ContactPairFile>,

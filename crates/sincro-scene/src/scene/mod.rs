@@ -17,6 +17,7 @@ mod mesh;
 mod object;
 mod pieces;
 mod placement;
+mod pose_start;
 mod proximity;
 mod rotor;
 mod schema;
@@ -443,7 +444,12 @@ impl Assembly {
                 starts.push((object.path.as_str(), entries[entry].pointer.as_str(), &file.initial));
             }
         }
-        let initial = initial::state(&model, &starts, document, &mut diagnostics);
+        let mut initial = initial::state(&model, &starts, document, &mut diagnostics);
+        if let Some(poses) = &file.initial_pose {
+            let is_list = matches!(poses, file::OneOrList::List(_));
+            let pointer = |k: usize| if is_list { format!("/initial_pose/{k}") } else { "/initial_pose".into() };
+            pose_start::solve(&model, poses.as_slice(), pointer, &mut initial, document, &mut diagnostics);
+        }
         spring_damper::set_free_lengths(&mut model, &initial, file, document, &mut diagnostics);
         field::check(&model, &initial, document, &mut diagnostics);
         self.check_fixtures(&model, &mut diagnostics);

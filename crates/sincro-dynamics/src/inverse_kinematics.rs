@@ -1,0 +1,158 @@
+//! Inverse kinematics by damped least squares: steps of joints that bring end effectors to their targets.
+//!
+//! Δq = Jᵀ (J Jᵀ + λ² 1)⁻¹ e with the errors e of position `[m]` and orientation `[rad]`, each joint at most 0.2 rad or
+//! 0.1 m an iteration. Source: key `wampler1986`. [`damped_step`] is the step that `simIK` takes; [`pose_coordinates`]
+//! iterates it for poses of frames, with λ² falling with the square of the error: quadratic near the target, without
+//! jumps near singular positions.
+
+use crate::initial::limit_violations;
+use crate::joint::JointKind;
+use crate::model::Model;
+use crate::recursions::kinematics::{Attached, frame_pose, jacobian, poses};
+use crate::scratch::Scratch;
+use crate::spatial::{Mat3, Quat, Vec3};
+use crate::state::State;
+use sincro_math::elementary::atan2;
+
+/// Largest rotation of a joint in one iteration `[rad]`.
+pub const MAX_ROTATION_STEP: f64 = 0.2;
+/// The same of a sliding joint `[m]`.
+pub const MAX_TRANSLATION_STEP: f64 = 0.1;
+/// λ² of steps without damping: only what is singular is touched.
+pub const LEAST_DAMPING: f64 = 1e-12;
+
+/// λ² of [`pose_coordinates`] over the square of the error.
+const DAMPING_SHARE: f64 = 1e-2;
+/// Iteration limit of [`pose_coordinates`].
+const MAX_ITERATIONS: usize = 500;
+/// Error at which it ends `[m]`, `[rad]`.
+const CONVERGED: f64 = 1e-13;
+
+/// Change of the joints Δq = Jᵀ (J Jᵀ + λ² 1)⁻¹ e for the `rows` of J (one entry a joint), the errors `e` and
+/// `damping` = λ²; `None` if the equations are not finite.
+#[must_use]
+pub fn damped_step(rows: &[Vec<f64>], e: &[f64], damping: f64) -> Option<Vec<f64>> {
+    let m = rows.len();
+    let l = cholesky(rows, damping);
+    let mut x = e.to_vec();
+    for i in 0..m {
+        x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) / l[i][i];
+    }
+    for i in (0..m).rev() {
+        x[i] = (i + 1..m).fold(x[i], |sum, k| sum - l[k][i] * x[k]) / l[i][i];
+    }
+    let n = rows.first().map_or(0, Vec::len);
+    let change = |k: usize| rows.iter().zip(&x).map(|(row, x)| row[k] * x).sum();
+    x.iter().all(|x| x.is_finite()).then(|| (0..n).map(change).collect())
+}
+
+/// Lower Cholesky factor of J Jᵀ + λ² 1 for the `rows` of J and `damping` = λ²; no pivot falls below half of λ².
+#[must_use]
+pub fn cholesky(rows: &[Vec<f64>], damping: f64) -> Vec<Vec<f64>> {
+    let m = rows.len();
+    let mut l = vec![vec![0.0; m]; m];
+    for i in 0..m {
+        for j in 0..=i {
+            let product: f64 = rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
+            let sum = (0..j).fold(product + if i == j { damping } else { 0.0 }, |sum, k| sum - l[i][k] * l[j][k]);
+            l[i][j] = if i == j { sum.max(0.5 * damping).sqrt() } else { sum / l[j][j] };
+        }
+    }
+    l
+}
+
+/// Rotation vector `[rad]` that turns `from` into `to`, both rotations from one frame.
+#[must_use]
+pub fn rotation_between(from: &Mat3<f64>, to: &Mat3<f64>) -> Vec3<f64> {
+    let q = Quat::from_matrix(&to.mul(&from.transpose()));
+    let (norm, sign) = (q.xyz.norm(), if q.w < 0.0 { -1.0 } else { 1.0 });
+    let angle = sign * 2.0 * atan2(norm, q.w.abs()).0;
+    if norm == 0.0 { Vec3::zero() } else { q.xyz.scale(angle / norm) }
+}
+
+/// Target of a frame, for [`pose_coordinates`].
+#[derive(Clone, Copy, Debug)]
+pub struct PoseTarget {
+    /// Frame, by the link that carries it.
+    pub frame: Attached<f64>,
+    /// Position of its origin in the world `[m]`; `None` for any.
+    pub position: Option<Vec3<f64>>,
+    /// Rotation from its axes to those of the world; `None` for any.
+    pub rotation: Option<Mat3<f64>>,
+}
+
+/// Result of [`pose_coordinates`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseSolution {
+    /// Coordinates of the best iterate (n_q).
+    pub q: Vec<f64>,
+    /// Largest errors left: of positions `[m]`, of orientations `[rad]`.
+    pub errors: [f64; 2],
+    /// Names of the joints that ended beyond a limit: none are held there.
+    pub beyond_limits: Vec<String>,
+}
+
+/// Coordinates near those of `x` at which all `targets` are met: joints with scalar coordinates that carry their frames
+/// are moved, those of ball and free joints stay. The best iterate, with its errors, if they cannot be met.
+#[must_use]
+pub fn pose_coordinates(model: &Model<f64>, x: &State<f64>, targets: &[PoseTarget]) -> PoseSolution {
+    let mut scratch = Scratch::new(model);
+    let mut q = x.q.clone();
+    let mut best = (f64::INFINITY, q.clone(), [f64::INFINITY; 2]);
+    for _ in 0..MAX_ITERATIONS {
+        let (rows, e, errors) = equations(model, &q, targets, &mut scratch);
+        let worst = errors[0].max(errors[1]);
+        if worst < best.0 {
+            best = (worst, q.clone(), errors);
+        }
+        let square: f64 = e.iter().map(|e| e * e).sum();
+        let step = damped_step(&rows, &e, (DAMPING_SHARE * square).max(LEAST_DAMPING));
+        let Some(step) = step.filter(|_| worst > CONVERGED) else { break };
+        for (k, change) in step.into_iter().enumerate().filter(|(k, _)| model.has_scalar_coordinate(*k)) {
+            let joint = model.names().joint_of(k);
+            let slides = match joint.kind {
+                JointKind::Prismatic { .. } => true,
+                JointKind::Planar => k - joint.v_idx < 2,
+                _ => false,
+            };
+            let most = if slides { MAX_TRANSLATION_STEP } else { MAX_ROTATION_STEP };
+            q[model.dofs[k].q_idx as usize] += change.clamp(-most, most);
+        }
+    }
+    let (_, q, errors) = best;
+    let there = State { q: q.clone(), ..x.clone() };
+    let beyond_limits = limit_violations(model, &there).into_iter().map(|beyond| beyond.joint).collect();
+    PoseSolution { q, errors, beyond_limits }
+}
+
+/// Rows of the Jacobian, a column for each degree of freedom, errors, and the largest of positions and orientations.
+fn equations(
+    model: &Model<f64>,
+    q: &[f64],
+    targets: &[PoseTarget],
+    scratch: &mut Scratch<f64>,
+) -> (Vec<Vec<f64>>, Vec<f64>, [f64; 2]) {
+    let n = model.n_v();
+    let (mut rows, mut e, mut errors) = (Vec::new(), Vec::new(), [0.0_f64; 2]);
+    let mut all = vec![0.0; 6 * n];
+    for target in targets {
+        poses(model, q, scratch);
+        let pose = frame_pose(scratch, &target.frame);
+        jacobian(model, q, &target.frame, scratch, &mut all);
+        // the coordinates of ball and free joints stay
+        (0..6 * n).filter(|i| !model.has_scalar_coordinate(i % n)).for_each(|i| all[i] = 0.0);
+        let miss = [
+            target.rotation.map(|rotation| rotation_between(&pose.rot, &rotation)),
+            target.position.map(|position| position - pose.pos),
+        ];
+        for (part, miss) in miss.into_iter().enumerate() {
+            let Some(miss) = miss else { continue };
+            errors[1 - part] = errors[1 - part].max(miss.norm());
+            for k in 0..3 {
+                rows.push(all[(3 * part + k) * n..(3 * part + k + 1) * n].to_vec());
+                e.push(miss[k]);
+            }
+        }
+    }
+    (rows, e, errors)
+}
