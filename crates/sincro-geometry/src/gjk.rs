@@ -18,6 +18,9 @@ use crate::spatial::Vec3;
 const ENOUGH: f64 = 1e-14;
 /// Iteration limit; boxes need about 5, cylinders on their rims about 30.
 const MAX_ITERATIONS: usize = 300;
+/// Distance, relative to the size of the sets, that is rounding: they overlap. A point deep inside a set can lie on a
+/// face of the simplex, where the iteration ends.
+const OVERLAPS: f64 = 16.0 * f64::EPSILON;
 /// Gram determinants below this, by the squares of their edges, are those of simplices without extent.
 const FLAT: f64 = 1e-26;
 
@@ -69,7 +72,7 @@ pub(super) fn gjk(a: &impl Convex, b: &impl Convex) -> Separation {
     }
     let first = corner(start);
     let mut simplex = Simplex { corners: [first; 4], weights: [1.0, 0.0, 0.0, 0.0], n: 1, v: first.w };
-    let mut v = first.w;
+    let (mut v, mut largest) = (first.w, 0.0_f64);
     for _ in 0..MAX_ITERATIONS {
         let square = v.dot(v);
         if square == 0.0 {
@@ -77,6 +80,7 @@ pub(super) fn gjk(a: &impl Convex, b: &impl Convex) -> Separation {
         }
         let next = corner(v);
         let size = next.a.norm().max(next.b.norm());
+        largest = largest.max(size);
         let excess = square - v.dot(next.w);
         if excess <= ENOUGH * square || excess <= f64::EPSILON * square.sqrt() * size {
             break;
@@ -91,9 +95,12 @@ pub(super) fn gjk(a: &impl Convex, b: &impl Convex) -> Separation {
         }
         v = closer;
         simplex = nearer;
-        if v.norm() <= f64::EPSILON * size {
+        if v.norm() <= OVERLAPS * largest {
             return simplex.meeting();
         }
+    }
+    if v.norm() <= OVERLAPS * largest {
+        return simplex.meeting();
     }
     Separation { distance: v.norm(), points: simplex.points() }
 }
@@ -125,7 +132,7 @@ impl Simplex {
                 found.corners[found.n] = self.corners[k];
                 found.n += 1;
             }
-            if !(found.set_mass_properties() && found.is_sound()) {
+            if !(found.find_weights() && found.is_sound()) {
                 continue;
             }
             if found.n == 4 {
@@ -164,7 +171,7 @@ impl Simplex {
 
     /// Finds the barycentric coordinates of the point of the affine hull closest to the origin; returns true if all are
     /// positive.
-    fn set_mass_properties(&mut self) -> bool {
+    fn find_weights(&mut self) -> bool {
         if self.n == 3 {
             self.begin_with_shortest_edge();
         }
