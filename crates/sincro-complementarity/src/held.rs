@@ -170,8 +170,13 @@ impl<R: Real> Solver<R> {
 /// Returns true if `rates` differ from those of another solution of the problem.
 #[must_use]
 pub fn is_observable<R: Real>(problem: &ContactProblem<'_, R>, rates: &[R], others: &[R]) -> bool {
+    differ(problem, rates, others, OBSERVABLE)
+}
+
+/// Returns true if rates differ from others by more than a `share` of the largest rate of the problem.
+pub(crate) fn differ<R: Real>(problem: &ContactProblem<'_, R>, rates: &[R], others: &[R], share: f64) -> bool {
     let largest = problem.b.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
-    rates.iter().zip(others).any(|(x, y)| (*x - *y).lane(0).abs() > OBSERVABLE * largest)
+    rates.iter().zip(others).any(|(x, y)| (*x - *y).lane(0).abs() > share * largest)
 }
 
 fn excess<R: Real>(

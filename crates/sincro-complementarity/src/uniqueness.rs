@@ -10,7 +10,7 @@ use sincro_math::Real;
 
 use super::active_set::ContactProblem;
 use super::cone::{ContactMode, UnilateralConstraint};
-use super::held::Solution;
+use super::held::{Solution, differ};
 use super::solver::{RANK, Solver, norm, pair};
 
 /// Least difference of rates of another motion, relative to the largest rate.
@@ -89,19 +89,13 @@ impl<R: Real> Solver<R> {
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) -> bool {
-        if !is_other_motion(problem, &self.active_set.rates, &first.rates) {
+        if !differ(problem, &self.active_set.rates, &first.rates, OTHER_MOTION) {
             return false;
         }
         self.engage(problem, blocks, lambda);
         self.worst_law(problem, blocks, lambda).is_none()
-            && is_other_motion(problem, &self.active_set.rates, &first.rates)
+            && differ(problem, &self.active_set.rates, &first.rates, OTHER_MOTION)
     }
-}
-
-/// Returns true if rates differ by more than rounding and tolerances.
-fn is_other_motion<R: Real>(problem: &ContactProblem<'_, R>, rates: &[R], others: &[R]) -> bool {
-    let largest = problem.b.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
-    rates.iter().zip(others).any(|(x, y)| (*x - *y).lane(0).abs() > OTHER_MOTION * largest)
 }
 
 /// Number of starts of the search: all closed, all open, and each mode that can differ.
