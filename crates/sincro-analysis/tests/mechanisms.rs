@@ -175,21 +175,22 @@ fn slider_crank(crank: f64, turn: Turn) -> SceneFolder {
     slider_crank_in([0, 1, 2], crank, turn)
 }
 
+/// Rod of Bricard's mechanism, of 1 kg, on a hinge at its zero.
+fn bricard_rod(
+    joint: &'static str,
+    parent: &'static str,
+    position: [f64; 3],
+    axis: [f64; 3],
+    com: [f64; 3],
+    inertia: [f64; 3],
+) -> Link {
+    Link { joint, parent, kind: "revolute", position, axis, start: 0.0, mass: 1.0, com, inertia, more: "" }
+}
+
 /// Bricard's mechanism (IFToMM A04): five rods, six hinges at right angles; gravity along −y.
 fn bricard(turn: Turn) -> SceneFolder {
     let (l, t) = (1.0 / 600.0, 1.01 / 12.0);
-    let rod = |joint, parent, position, axis, com, inertia| Link {
-        joint,
-        parent,
-        kind: "revolute",
-        position,
-        axis,
-        start: 0.0,
-        mass: 1.0,
-        com,
-        inertia,
-        more: "",
-    };
+    let rod = bricard_rod;
     let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
     let links = [
         rod("j0", "", [0.0; 3], y, [0.5, 0.0, 0.0], [l, t, t]),
@@ -212,18 +213,7 @@ fn bricard(turn: Turn) -> SceneFolder {
 /// The same mechanism with the tree from the other end: what closes the ring is the first joint.
 fn bricard_reversed(turn: Turn) -> SceneFolder {
     let (l, t) = (1.0 / 600.0, 1.01 / 12.0);
-    let rod = |joint, parent, position, axis, com, inertia| Link {
-        joint,
-        parent,
-        kind: "revolute",
-        position,
-        axis,
-        start: 0.0,
-        mass: 1.0,
-        com,
-        inertia,
-        more: "",
-    };
+    let rod = bricard_rod;
     let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
     let links = [
         rod("r5", "", z, x, [0.0, -0.5, 0.0], [t, l, t]),
