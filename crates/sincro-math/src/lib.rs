@@ -9,6 +9,7 @@ pub mod expression;
 pub mod lanes;
 pub mod random;
 mod real;
+pub mod record;
 mod scalar;
 pub mod scalar_field;
 pub mod series;
