@@ -12,6 +12,7 @@ const JUDGES: &[(&str, Judge)] = &[
     ("accuracy", accuracy),
     ("campaigns", campaigns),
     ("error-bars", error_bars),
+    ("exported-c", exported_c),
     ("import", import),
     ("processors", processors),
 ];
@@ -63,6 +64,19 @@ fn error_bars(root: &Path) -> bool {
             Command::new("python3")
                 .arg(root.join("crates/sincro/tests/judges/error_bars.py"))
                 .args([root.join("target/release/sincro"), root.join("target/judges/error-bars")]),
+        )
+}
+
+/// Exports scenes as C and runs their self-tests with GCC and Clang at all levels, on aarch64 and on a Cortex-M3; needs
+/// the Debian packages that the script names.
+fn exported_c(root: &Path) -> bool {
+    crate::runs(&mut crate::cargo(&["build", "--release", "--package", "sincro"]))
+        && crate::runs(
+            Command::new("python3").arg(root.join("crates/sincro-compile/tests/judges/exported_c.py")).args([
+                root.join("target/release/sincro"),
+                root.join("scenes"),
+                root.join("target/judges/exported-c"),
+            ]),
         )
 }
 

@@ -3,13 +3,15 @@
 
 use core::fmt::Debug;
 
+use sincro_math::record::Recorded;
 use sincro_math::{Dual, Real};
 
 use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
 use crate::kind::Kind;
 use crate::unit::Unit;
 
-/// Kind of numbers on which a diagram can run: `f64` for simulation, `Dual<1>` for derivatives.
+/// Kind of numbers on which a diagram can run: `f64` for simulation, `Dual<1>` for derivatives, [`Recorded`] for
+/// compilation.
 pub trait Number: Real {
     /// Creates an instance of `template` that runs on numbers of this kind.
     fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>>;
@@ -24,6 +26,12 @@ impl Number for f64 {
 impl Number for Dual<1> {
     fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>> {
         template.on_duals()
+    }
+}
+
+impl Number for Recorded {
+    fn instance(template: &dyn DynBlock) -> Box<dyn RunningBlock<Self>> {
+        template.on_recorded()
     }
 }
 
@@ -73,6 +81,8 @@ pub trait DynBlock: Debug + Send + Sync {
     fn on_numbers(&self) -> Box<dyn RunningBlock<f64>>;
     /// Creates an instance that runs on dual numbers, for linearisation.
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>>;
+    /// Creates an instance that runs on recorded numbers, to be compiled.
+    fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>>;
     /// Copy of the block with the same parameters.
     fn boxed_clone(&self) -> Box<dyn DynBlock>;
 }
@@ -127,6 +137,9 @@ impl<B: Block> DynBlock for B {
         Box::new(Running { block: self.clone(), work: self.work() })
     }
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>> {
+        Box::new(Running { block: self.clone(), work: self.work() })
+    }
+    fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>> {
         Box::new(Running { block: self.clone(), work: self.work() })
     }
     fn boxed_clone(&self) -> Box<dyn DynBlock> {

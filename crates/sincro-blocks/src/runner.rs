@@ -173,6 +173,20 @@ impl<R: Number> Runner<R> {
         self.evaluate_range(self.program.n_early..self.instances.len(), tick, t);
     }
 
+    /// Evaluates the outputs of step `k` of the program alone, due or not, at tick `tick`, time `t` `[s]`; for
+    /// compilers.
+    pub fn evaluate_step(&mut self, k: usize, tick: u64, t: f64) {
+        self.output(k, t, f64::INFINITY, tick);
+    }
+
+    /// Computes the discrete states of step `k` of the program alone for the next tick, due or not; for compilers. The
+    /// other states, and the continuous ones, stay.
+    pub fn update_step(&mut self, k: usize, tick: u64, t: f64) {
+        self.new_memory.copy_from_slice(&self.state.memory);
+        self.update_memory(k, tick, t);
+        core::mem::swap(&mut self.state.memory, &mut self.new_memory);
+    }
+
     fn evaluate_range(&mut self, steps: core::ops::Range<usize>, tick: u64, t: f64) {
         for k in steps {
             if self.program.steps[k].rate != Rate::Constant && self.due[self.period[k]] {
@@ -222,21 +236,28 @@ impl<R: Number> Runner<R> {
             if step.rate == Rate::Constant || !self.due[self.period[k]] {
                 continue;
             }
-            let states = &mut self.state.continuous[step.states.clone()];
-            let at = At {
-                t,
-                time_event: f64::INFINITY,
-                tick,
-                node: &step.node,
-                // handed over to be set
-                states: &[],
-                memory: &self.state.memory[step.memory.clone()],
-                signals: &self.state.signals,
-                ports: &step.ports,
-            };
-            self.instances[k].update(&at, &mut self.new_memory[step.memory.clone()], states);
+            self.update_memory(k, tick, t);
         }
         core::mem::swap(&mut self.state.memory, &mut self.new_memory);
+    }
+
+    /// Writes the discrete states of step `k` for the next tick into the new memory.
+    #[inline(always)]
+    fn update_memory(&mut self, k: usize, tick: u64, t: f64) {
+        let step = &self.program.steps[k];
+        let states = &mut self.state.continuous[step.states.clone()];
+        let at = At {
+            t,
+            time_event: f64::INFINITY,
+            tick,
+            node: &step.node,
+            // handed over to be set
+            states: &[],
+            memory: &self.state.memory[step.memory.clone()],
+            signals: &self.state.signals,
+            ports: &step.ports,
+        };
+        self.instances[k].update(&at, &mut self.new_memory[step.memory.clone()], states);
     }
 
     /// Evaluates the outputs of continuous blocks between ticks, at time `t` `[s]`, with the continuous states in

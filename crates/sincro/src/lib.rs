@@ -14,6 +14,7 @@
 //! | serve a scene to clients of V-REP and CoppeliaSim | [`serve`] |
 //! | show a scene live, or a finished run, in the browser | [`view`] |
 //! | export a scene as an FMU | [`export`] |
+//! | export a scene as C | [`export_c`] |
 //! | compare two finished runs | [`compare`] |
 //! | write the linearisation of a scene | [`linearization`] |
 //! | write pictures, frames, cards of a run | [`results`] |
@@ -47,6 +48,8 @@ pub mod compare;
 mod diagnostics;
 #[cfg(feature = "adapters")]
 pub mod export;
+#[cfg(feature = "run")]
+pub mod export_c;
 pub mod linearization;
 mod load;
 pub mod results;

@@ -9,12 +9,36 @@ use crate::model::{Model, PackError};
 use crate::state::State;
 use crate::world::{MethodKind, Stop};
 
-/// Worlds in lanes, with unlimited drives only.
+/// Worlds of one structure, one in each lane of a number of type `R`, that make their steps together: what lanes and
+/// recorded numbers run. For models and methods without an [obstacle to it](super::obstacle_to_lanes); forces that
+/// depend on time see the time of the step.
+///
+/// ```
+/// use sincro_dynamics::batch::LaneWorlds;
+/// use sincro_dynamics::prelude::*;
+/// use sincro_math::record::record;
+///
+/// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+/// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+/// # let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -1.0], inertia: [0.0; 6] };
+/// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+/// # let model = builder.build()?.0;
+/// // the step of a pendulum, 1 ms of semi-implicit Euler, as a program of its angle and rate
+/// let step = record(2, 1, |x| {
+///     let mut worlds = LaneWorlds::new(&[&model], MethodKind::SemiImplicitEuler).unwrap();
+///     worlds.set_state(&x[..1], &x[1..], &[], &[]);
+///     worlds.step(0.0, 0.001);
+///     [worlds.coordinates(), worlds.velocities()].concat()
+/// })?;
+/// assert_eq!(step.evaluate(&[0.0, 2.0], 0), [0.002, 2.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
-pub(super) struct LaneWorlds<R> {
-    pub mechanism: Mechanism<R>,
-    pub y: Vec<R>,
-    pub reach_target_velocities: Vec<R>,
+pub struct LaneWorlds<R> {
+    pub(super) mechanism: Mechanism<R>,
+    pub(super) y: Vec<R>,
+    pub(super) reach_target_velocities: Vec<R>,
     method: FixedMethod<R>,
 }
 
@@ -78,6 +102,56 @@ impl<R: Real> LaneWorlds<R> {
         Ok(Self { y: vec![R::zero(); dim], reach_target_velocities, mechanism, method })
     }
 
+    /// Model of the worlds.
+    #[must_use]
+    pub fn model(&self) -> &Model<R> {
+        self.mechanism.model()
+    }
+
+    /// Sets the state of all lanes: coordinates (n_q), velocities (n_v), rotor states ([`Model::n_rotor_states`]) and
+    /// commands ([`Model::n_commands`]), in the units of [`State`].
+    ///
+    /// # Panics
+    ///
+    /// If a list has another length.
+    pub fn set_state(&mut self, q: &[R], v: &[R], rotors: &[R], commands: &[R]) {
+        let layout = self.mechanism.layout();
+        self.mechanism.set_base(q);
+        self.y[layout.displacement()].fill(R::zero());
+        self.y[layout.velocities()].copy_from_slice(v);
+        self.y[layout.rotor_states()].copy_from_slice(rotors);
+        self.mechanism.commands.copy_from_slice(commands);
+    }
+
+    /// Coordinates of all lanes (n_q) `[rad]`, `[m]`.
+    #[must_use]
+    pub fn coordinates(&self) -> &[R] {
+        self.mechanism.base()
+    }
+
+    /// Velocities of all lanes (n_v) `[rad/s]`, `[m/s]`.
+    #[must_use]
+    pub fn velocities(&self) -> &[R] {
+        &self.y[self.mechanism.layout().velocities()]
+    }
+
+    /// Rotor states of all lanes, in the order and units of [`State::rotors`].
+    #[must_use]
+    pub fn rotors(&self) -> &[R] {
+        &self.y[self.mechanism.layout().rotor_states()]
+    }
+
+    /// Accelerations (n_v) `[rad/s²]`, `[m/s²]` and rates of the rotor states at time `t` `[s]` in the present state;
+    /// locked drives do not accelerate.
+    #[must_use]
+    pub fn rates(&mut self, t: f64) -> Vec<R> {
+        let layout = self.mechanism.layout();
+        let mut slope = vec![R::zero(); layout.dim()];
+        self.mechanism.mark_locked();
+        self.mechanism.slope(t, &self.y, &mut slope);
+        [&slope[layout.velocities()], &slope[layout.rotor_states()]].concat()
+    }
+
     fn load(&mut self, worlds: &[BatchWorld]) {
         let of = |k: usize| &worlds[k.min(worlds.len() - 1)].state;
         let gather = |n: usize, f: &dyn Fn(&State<f64>) -> &[f64]| -> Vec<R> {
@@ -118,7 +192,7 @@ impl<R: Real> LaneWorlds<R> {
 
     /// Advances `worlds` from their states, which it leaves where they end.
     #[inline(always)]
-    pub fn run(&mut self, worlds: &mut [BatchWorld], settings: &BatchSettings) {
+    pub(super) fn run(&mut self, worlds: &mut [BatchWorld], settings: &BatchSettings) {
         self.load(worlds);
         let first = worlds[0].state.tick;
         self.record(worlds, settings.record_every > 0);
@@ -135,7 +209,8 @@ impl<R: Real> LaneWorlds<R> {
         self.store(worlds);
     }
 
-    /// Makes one step of length `h` `[s]` in all lanes, compiled once for each instruction set.
+    /// Makes one step of length `h` `[s]` from time `t` `[s]` in all lanes, compiled once for each instruction set. A
+    /// number type of one lane does nothing: one world alone is a [`World`](crate::world::World).
     #[inline(always)]
     pub fn step(&mut self, t: f64, h: f64) {
         // one world alone is a `World`: no copy of the step for it

@@ -20,7 +20,7 @@ use crate::model::{Model, PackError};
 use crate::signal::Signal;
 use crate::state::State;
 use crate::world::{MethodKind, Stop, World};
-use lane_worlds::LaneWorlds;
+pub use lane_worlds::LaneWorlds;
 pub use stepped::{LaneObserver, SteppedLanes};
 
 /// World of a batch: model, state, commands, and what a run of [`advance`] leaves in it.

@@ -9,6 +9,7 @@ use sincro_blocks::library::maths::{Gain, Sum};
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::unit::Unit;
 use sincro_math::Dual;
+use sincro_math::record::Recorded;
 
 use super::route::{Point, Run};
 use super::*;
@@ -65,6 +66,9 @@ impl DynBlock for Sham {
         unimplemented!("never run")
     }
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>> {
+        unimplemented!("never run")
+    }
+    fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>> {
         unimplemented!("never run")
     }
     fn boxed_clone(&self) -> Box<dyn DynBlock> {

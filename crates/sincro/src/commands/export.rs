@@ -2,6 +2,7 @@
 
 use clap::Subcommand;
 
+use super::export_c;
 #[cfg(feature = "adapters")]
 use super::export_fmu;
 use super::export_robot;
@@ -13,6 +14,8 @@ pub(crate) enum Format {
     #[cfg(feature = "adapters")]
     /// A functional mock-up unit for Simulink, Modelica tools and all others that import FMI
     Fmu(export_fmu::Arguments),
+    /// C99 without any library: plant, controller and self-test, for microcontrollers and other programs
+    C(export_c::Arguments),
     /// Unified Robot Description Format
     Urdf(export_robot::Arguments),
     /// MuJoCo's XML
@@ -27,6 +30,7 @@ pub(crate) fn run(format: &Format) -> Exit {
     match format {
         #[cfg(feature = "adapters")]
         Format::Fmu(arguments) => export_fmu::run(arguments),
+        Format::C(arguments) => export_c::run(arguments),
         Format::Urdf(arguments) => export_robot::run(arguments, Robot::Urdf),
         Format::Mjcf(arguments) => export_robot::run(arguments, Robot::Mjcf),
         Format::Sdf(arguments) => export_robot::run(arguments, Robot::Sdf),

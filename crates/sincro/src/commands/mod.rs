@@ -16,6 +16,7 @@ pub(crate) mod diff;
 pub(crate) mod draw;
 pub(crate) mod dynamics;
 pub(crate) mod export;
+pub(crate) mod export_c;
 #[cfg(feature = "adapters")]
 pub(crate) mod export_fmu;
 pub(crate) mod export_robot;

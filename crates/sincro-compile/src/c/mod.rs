@@ -1,0 +1,86 @@
+//! Programs as text in C: statements and the functions that they call.
+//!
+//! Every operation is a statement of its own, in the order of the program, so that no compiler may reassociate; only
+//! contraction to fused operations must be forbidden, which the texts do.
+
+mod support;
+
+use core::fmt::Write;
+
+use sincro_math::record::{Operation, Program, record, sin_cos_of_operations};
+
+pub(crate) use support::scalar_support;
+
+/// Number as C reads it back to the same bits.
+pub(crate) fn number(x: f64) -> String {
+    if x.is_nan() {
+        "(0.0 / 0.0)".to_owned()
+    } else if x.is_infinite() {
+        if x > 0.0 { "(1.0 / 0.0)".to_owned() } else { "(-1.0 / 0.0)".to_owned() }
+    } else if x.is_sign_negative() {
+        format!("({x:?})")
+    } else {
+        format!("{x:?}")
+    }
+}
+
+/// Statements of a program: inputs are read first, by the expression `input(k)`, operations follow, and the outputs are
+/// written last, to `output(k)`. `prefix` starts the names of functions of the support.
+pub(crate) fn statements(
+    program: &Program,
+    prefix: &str,
+    input: impl Fn(usize) -> String,
+    output: impl Fn(usize) -> String,
+) -> String {
+    let mut text = String::new();
+    let operations = program.operations();
+    let mut has_angle = vec![false; operations.len()];
+    let name = |k: u32| match operations[k as usize] {
+        Operation::Constant(x) => number(x),
+        Operation::Sin(a) => format!("s{a}"),
+        Operation::Cos(a) => format!("c{a}"),
+        _ => format!("t{k}"),
+    };
+    for (k, operation) in operations.iter().enumerate() {
+        let x: Vec<String> = operation.operands().iter().map(|&x| name(x)).collect();
+        let value = match operation {
+            Operation::Constant(_) => continue,
+            Operation::Input(i) => input(*i as usize),
+            Operation::Parameter(i) => format!("parameters[{i}]"),
+            Operation::Add(..) => format!("{} + {}", x[0], x[1]),
+            Operation::Sub(..) => format!("{} - {}", x[0], x[1]),
+            Operation::Mul(..) => format!("{} * {}", x[0], x[1]),
+            Operation::Div(..) => format!("{} / {}", x[0], x[1]),
+            Operation::Neg(_) => format!("-{}", x[0]),
+            Operation::Sqrt(_) => format!("{prefix}square_root({})", x[0]),
+            Operation::Abs(_) => format!("{prefix}absolute({})", x[0]),
+            Operation::Sin(a) | Operation::Cos(a) => {
+                if !core::mem::replace(&mut has_angle[*a as usize], true) {
+                    _ = writeln!(text, "    double s{a}, c{a};");
+                    _ = writeln!(text, "    {prefix}sine_cosine({}, &s{a}, &c{a});", x[0]);
+                }
+                continue;
+            }
+            Operation::IfLess(_) => format!("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]),
+            Operation::CopySign(..) => format!("{prefix}copy_sign({}, {})", x[0], x[1]),
+            Operation::IfOdd(_) => format!("{prefix}if_odd({}, {}, {})", x[0], x[1], x[2]),
+            Operation::FlipBy { bit, .. } => format!("{prefix}flip_by_{bit}({}, {})", x[0], x[1]),
+        };
+        _ = writeln!(text, "    const double t{k} = {value};");
+    }
+    for (k, &result) in program.outputs().iter().enumerate() {
+        _ = writeln!(text, "    {} = {};", output(k), name(result));
+    }
+    text
+}
+
+/// Statements of sine and cosine of `x` within the limit of the reduction, into `*sine` and `*cosine`.
+pub(crate) fn sine_statements(prefix: &str) -> String {
+    let program = record(1, 1, |x| {
+        let (sine, cosine) = sin_cos_of_operations(x[0]);
+        vec![sine, cosine]
+    });
+    let program = program.expect("the sine has no branch");
+    let output = |k: usize| ["*sine", "*cosine"][k].to_owned();
+    statements(&program, prefix, |_| "x".to_owned(), output)
+}

@@ -1,0 +1,173 @@
+//! Programs of a model's dynamics: step, rates, forward and inverse dynamics, Jacobians.
+
+use sincro_dynamics::aba::{self, Input};
+use sincro_dynamics::batch::{LaneWorlds, is_time_invariant, obstacle_to_lanes};
+use sincro_dynamics::ids::BodyId;
+use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::model::Model;
+use sincro_dynamics::rnea;
+use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+use sincro_dynamics::world::MethodKind;
+use sincro_math::Real;
+use sincro_math::record::{Program, Recorded, record};
+
+use crate::Obstacle;
+
+/// Checks that the dynamics of `model` can be compiled for the fixed-step method `method`.
+///
+/// # Errors
+///
+/// [`Obstacle`] with the part of the model that switches or depends on time, or with a method that has no fixed step.
+pub fn check(model: &Model<f64>, method: MethodKind) -> Result<(), Obstacle> {
+    if matches!(method, MethodKind::DormandPrince | MethodKind::Stiff) {
+        return Err(Obstacle::new("the steps of a method with error control differ in length"));
+    }
+    if let Some(part) = obstacle_to_lanes(model, method) {
+        return Err(Obstacle::new(format!("the model has {part}")));
+    }
+    if !is_time_invariant(model) {
+        return Err(Obstacle::new("a force or the wind depends on time"));
+    }
+    Ok(())
+}
+
+/// Numbers of inputs of the programs of a model's step and rates, in their order: coordinates, velocities, rotor
+/// states, commands.
+#[must_use]
+pub fn state_sizes(model: &Model<f64>) -> [usize; 4] {
+    [model.n_q(), model.n_v(), model.n_rotor_states(), model.n_commands()]
+}
+
+/// Parts of a list of inputs, of the given sizes.
+fn parts<const N: usize>(mut inputs: &[Recorded], sizes: [usize; N]) -> [&[Recorded]; N] {
+    sizes.map(|n| {
+        let (part, rest) = inputs.split_at(n);
+        inputs = rest;
+        part
+    })
+}
+
+/// Records one step of length `h` `[s]` of worlds whose models differ in numbers alone. Inputs: see [`state_sizes`];
+/// outputs: coordinates, velocities and rotor states after the step.
+///
+/// # Errors
+///
+/// [`Obstacle`]: [`check`] finds one, the models differ in more than numbers, or their step branches.
+///
+/// # Panics
+///
+/// If there is no model.
+pub fn step(models: &[&Model<f64>], method: MethodKind, h: f64) -> Result<Program, Obstacle> {
+    worlds(models, method, |worlds| {
+        worlds.step(0.0, h);
+        [worlds.coordinates(), worlds.velocities(), worlds.rotors()].concat()
+    })
+}
+
+/// Records the rates of change of one model's state: accelerations, then rates of the rotor states. Inputs: see
+/// [`state_sizes`].
+///
+/// # Errors
+///
+/// As [`step`], for a method with fixed steps that takes springs at the present state.
+pub fn rates(model: &Model<f64>) -> Result<Program, Obstacle> {
+    worlds(&[model], MethodKind::Rk4, |worlds| worlds.rates(0.0))
+}
+
+fn worlds(
+    models: &[&Model<f64>],
+    method: MethodKind,
+    act: impl FnOnce(&mut LaneWorlds<Recorded>) -> Vec<Recorded>,
+) -> Result<Program, Obstacle> {
+    models.iter().try_for_each(|model| check(model, method))?;
+    let sizes = state_sizes(models[0]);
+    let mut different = None;
+    let program = record(sizes.iter().sum(), models.len(), |inputs| {
+        let [q, v, rotors, commands] = parts(inputs, sizes);
+        match LaneWorlds::new(models, method) {
+            Ok(mut worlds) => {
+                worlds.set_state(q, v, rotors, commands);
+                act(&mut worlds)
+            }
+            Err(error) => {
+                different = Some(error);
+                Vec::new()
+            }
+        }
+    });
+    match different {
+        Some(error) => Err(Obstacle::new(error.to_string())),
+        None => Ok(program?),
+    }
+}
+
+/// Records the forward dynamics of the bare mechanism: accelerations (n_v) of coordinates (n_q), velocities (n_v) and
+/// joint torques (n_v), under gravity, without springs, dampers, motors and air; motors' armature counts.
+///
+/// # Errors
+///
+/// [`Obstacle`] if the recursion branches.
+pub fn forward_dynamics(model: &Model<f64>) -> Result<Program, Obstacle> {
+    mechanism(model, [model.n_q(), model.n_v(), model.n_v()], |model, [q, v, torque]| {
+        let diagonal: Vec<Recorded> = model.dofs().iter().map(|dof| dof.armature).collect();
+        let input = Input { q, v, torque, diagonal: &diagonal, prescribed: None, external: None, gravity: true };
+        let mut v_dot = vec![Recorded::zero(); model.n_v()];
+        aba::forward_dynamics(model, &input, &mut Scratch::new(model), &mut v_dot);
+        v_dot
+    })
+}
+
+/// Records the inverse dynamics of the bare mechanism: joint torques (n_v) of coordinates (n_q), velocities (n_v) and
+/// accelerations (n_v); the inverse of [`forward_dynamics`].
+///
+/// # Errors
+///
+/// [`Obstacle`] if the recursion branches.
+pub fn inverse_dynamics(model: &Model<f64>) -> Result<Program, Obstacle> {
+    mechanism(model, [model.n_q(), model.n_v(), model.n_v()], |model, [q, v, v_dot]| {
+        let mut torque = vec![Recorded::zero(); model.n_v()];
+        rnea::inverse_dynamics(model, q, v, v_dot, None, &mut Scratch::new(model), &mut torque);
+        for ((torque, dof), v_dot) in torque.iter_mut().zip(model.dofs()).zip(v_dot) {
+            *torque += dof.armature * *v_dot;
+        }
+        torque
+    })
+}
+
+/// Records the pose of a body's or frame's origin: position `[m]` (3), then rotation matrix (9, row by row), then its
+/// Jacobian (6 rows of n_v: angular, then linear velocity in world axes), of coordinates (n_q).
+///
+/// # Errors
+///
+/// [`Obstacle`] if the recursion branches.
+///
+/// # Panics
+///
+/// If the model has no such body.
+pub fn frame(model: &Model<f64>, frame: BodyId) -> Result<Program, Obstacle> {
+    mechanism(model, [model.n_q()], |model, [q]| {
+        let info = &model.names().frames[frame.index()];
+        let rot = Mat3(info.pose.rot.0.map(|row| row.map(Recorded::splat)));
+        let pose = Pose { rot, pos: Vec3(info.pose.pos.0.map(Recorded::splat)) };
+        let attached = Attached { link: info.link, pose };
+        let mut scratch = Scratch::new(model);
+        kinematics::poses(model, q, &mut scratch);
+        let pose = kinematics::frame_pose(&scratch, &attached);
+        let mut rows = vec![Recorded::zero(); 6 * model.n_v()];
+        kinematics::jacobian(model, q, &attached, &mut scratch, &mut rows);
+        [&pose.pos.0[..], &pose.rot.0.concat(), &rows].concat()
+    })
+}
+
+fn mechanism<const N: usize>(
+    model: &Model<f64>,
+    sizes: [usize; N],
+    act: impl FnOnce(&Model<Recorded>, [&[Recorded]; N]) -> Vec<Recorded>,
+) -> Result<Program, Obstacle> {
+    let program = record(sizes.iter().sum(), 1, |inputs| {
+        let model = Model::<Recorded>::pack(&[model]).expect("a model has its own structure");
+        act(&model, parts(inputs, sizes))
+    });
+    Ok(program?)
+}
