@@ -13,12 +13,20 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-math", &[]),
     ("sincro-complementarity", &["sincro-math"]),
     ("sincro-geometry", &["sincro-math"]),
+    ("sincro-contact", &["sincro-math", "sincro-geometry"]),
     ("sincro-integrate", &["sincro-math"]),
     ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
     (
         "sincro-dynamics",
-        &["sincro-math", "sincro-complementarity", "sincro-geometry", "sincro-integrate", "sincro-aero"],
+        &[
+            "sincro-math",
+            "sincro-complementarity",
+            "sincro-geometry",
+            "sincro-contact",
+            "sincro-integrate",
+            "sincro-aero",
+        ],
     ),
     ("sincro-blocks", &["sincro-math"]),
     ("sincro-scene", &["sincro-math", "sincro-camera", "sincro-dynamics", "sincro-blocks"]),
@@ -97,10 +105,11 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 8] = [
+const THINKING: [&str; 9] = [
     "sincro-math",
     "sincro-complementarity",
     "sincro-geometry",
+    "sincro-contact",
     "sincro-integrate",
     "sincro-camera",
     "sincro-aero",

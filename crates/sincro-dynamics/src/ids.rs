@@ -1,5 +1,7 @@
 //! Ids of the user's objects in a compiled model. The world is no object: where it may stand, the id is an [`Option`].
 
+pub use crate::contact::BodyId;
+
 /// Defines an id: an index in one list of the model, which ids of other kinds cannot be mistaken for.
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -26,28 +28,6 @@ macro_rules! id {
             }
         }
     };
-}
-
-id! {
-    /// Id of a body or frame: its index in [`Names::frames`](crate::model::Names::frames).
-    ///
-    /// ```
-    /// use sincro_dynamics::prelude::*;
-    ///
-    /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
-    /// # let mut hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
-    /// # hinge.motor = vec![Motor::new(MotorMode::Torque)];
-    /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
-    /// # let mass = MassProperties { mass: 2.0, center_of_mass: [0.0, 0.0, -0.5], inertia: [0.0; 6] };
-    /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
-    /// # let model = builder.build()?.0;
-    /// // a pendulum of 2 kg
-    /// let bob: BodyId = model.names().body_id("bob").unwrap();
-    /// let frame = model.names().body_info(bob);
-    /// assert!(frame.is_body);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    BodyId
 }
 
 id! {

@@ -6,10 +6,10 @@
 //! | module | content |
 //! |---|---|
 //! | [`spatial`], [`geometry`] | spatial algebra; shapes, distances, ray casts: the crate `sincro-geometry` |
+//! | [`contact`] | colliders, materials, broad and narrow phase, contact manifolds: the crate `sincro-contact` |
 //! | [`aero`] | rotors, drag, wind: the crate `sincro-aero` |
 //! | [`signal`], [`ids`], [`error`] | functions of time; ids; refused parameters |
 //! | [`joint`] | joints, links, passive properties of degrees of freedom |
-//! | [`contact`] | colliders, materials, broad and narrow phase, contact manifolds |
 //! | [`actuation`] | motors, drives, friction, springs, dampers |
 //! | [`model`] | the compiled tree and its builder |
 //! | [`state`], [`scratch`] | generalized coordinates and all else that changes; working memory |
@@ -30,7 +30,6 @@ pub mod actuation;
 pub mod batch;
 mod compile;
 pub mod constraint;
-pub mod contact;
 pub mod coupled;
 pub mod energy;
 pub mod ids;
@@ -48,6 +47,7 @@ pub mod stiffness;
 pub mod world;
 
 pub use sincro_aero as aero;
+pub use sincro_contact as contact;
 pub use sincro_geometry::{self as geometry, spatial};
 pub use sincro_integrate as integrate;
 pub use sincro_math::{error, signal};

@@ -3,11 +3,8 @@
 
 use sincro_math::Real;
 
-use super::{Placement, Stage, StageKind};
+use super::{Placement, Stage, StageKind, WORLD};
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
-
-/// Index of the world among links: no parent.
-pub(crate) const WORLD: u32 = u32::MAX;
 
 /// Direction of the offset between a link's origin and its parent's; products by zero are not computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -20,12 +20,13 @@ mod screw;
 
 use sincro_math::Real;
 
+pub(crate) use crate::contact::WORLD;
 pub(crate) use ball::Ball;
 pub use dof::Dof;
 pub(crate) use free::Free;
 pub use friction::Friction;
 pub use link::Link;
-pub(crate) use link::{Shift, WORLD};
+pub(crate) use link::Shift;
 pub(crate) use prismatic::Prismatic;
 pub(crate) use revolute::Revolute;
 pub(crate) use screw::Screw;

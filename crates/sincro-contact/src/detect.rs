@@ -5,17 +5,17 @@ use super::candidate::{ContactCandidate, Feature, Rim};
 use super::candidate_list::{CandidateList, SlotCandidate};
 use super::manifold::Manifolds;
 use super::{Collider, Pair, PairKind, Surface};
-use crate::geometry::Shape;
-use crate::geometry::sat::{ContactKind, FaceClipper, PointOnPlane, Polytope};
-use crate::joint::WORLD;
-use crate::spatial::{Pose, Vec3};
+use crate::WORLD;
+use sincro_geometry::Shape;
+use sincro_geometry::sat::{ContactKind, FaceClipper, PointOnPlane, Polytope};
+use sincro_geometry::spatial::{Pose, Vec3};
 
 /// Sine of the tilt below which a cylinder on its end, or a torus, is held to stand on four points of its rim.
 const STANDS: f64 = 1e-6;
 
 /// Contact detector; its memory grows to the largest manifold it has seen.
 #[derive(Clone, Debug)]
-pub(crate) struct Detector {
+pub struct Detector {
     points: Vec<(Vec<Vec3<f64>>, f64)>,
     broad_phase: BroadPhase,
     manifolds: Manifolds,
@@ -26,6 +26,8 @@ pub(crate) struct Detector {
 }
 
 impl Detector {
+    /// Makes the detector of these colliders and their [`pairs`](crate::pairs).
+    #[must_use]
     pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
         Self {
             points: colliders.iter().map(Collider::points).collect(),
@@ -37,8 +39,10 @@ impl Detector {
         }
     }
 
-    /// Finds the contact candidates of every pair whose surfaces are not farther apart than its `margin`; `velocity` as
-    /// in [`BroadPhase::find`], `former` gives a feature that a pair touched with so far, or 0.
+    /// Finds the contact candidates of every pair whose surfaces are not farther apart than its `margin`, in the order
+    /// of their slots; `poses` are those of the links in the world, `velocity` gives the velocity of a collider at a
+    /// point of the world [m/s] and its angular speed [rad/s], `former` the [`ContactCandidate::id`] of a feature that
+    /// a pair touched with so far, or 0.
     pub fn detect(
         &mut self,
         (colliders, pairs): (&[Collider], &[Pair]),
@@ -102,11 +106,15 @@ impl Detector {
     }
 
     /// Bounding sphere of surface `k`: centre in the world and radius `[m]`.
+    #[inline]
+    #[must_use]
     pub fn ball(&self, k: usize, c: &Collider, poses: &[Pose<f64>]) -> (Vec3<f64>, f64) {
         (center(c, poses), self.broad_phase.radius(k))
     }
 
     /// Returns true if the bounding spheres of the two surfaces are closer than `margin` `[m]`.
+    #[inline]
+    #[must_use]
     pub fn is_near(&self, pair: &Pair, (a, b): (&Collider, &Collider), poses: &[Pose<f64>], margin: f64) -> bool {
         are_close(self.ball(pair.a, a, poses), b, self.ball(pair.b, b, poses), margin)
     }

@@ -3,8 +3,8 @@
 //!
 //! Every smooth contact of the shapes here has this form: a sphere, the end of a capsule or a vertex against a plane, a
 //! point or a line, the rim of a disc against a plane. The signed distance g (gap function), the normal n (from b to a)
-//! and the contact point C satisfy ġ = n·(v_a(C) − v_b(C)); with ṅ and Ċ given here the acceleration level follows from
-//! the rows ([`crate::constraint`]), curvature included. Source: key `acary2008`, chapter 3.
+//! and the contact point C satisfy ġ = n·(v_a(C) − v_b(C)); with ṅ and Ċ given here the acceleration level of a
+//! constraint follows, curvature included. Source: key `acary2008`, chapter 3.
 //!
 //! | feature | signed distance g | ṅ |
 //! |---|---|---|
@@ -14,23 +14,41 @@
 
 use sincro_math::Real;
 
-use crate::joint::WORLD;
-use crate::spatial::{Motion, Pose, Vec3};
+use crate::WORLD;
+use sincro_geometry::spatial::{Motion, Pose, Vec3};
 
 /// Feature of body b that the point of body a may touch, in link axes of b.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Feature {
-    Plane { origin: Vec3<f64>, normal: Vec3<f64> },
-    Point { origin: Vec3<f64> },
-    Line { origin: Vec3<f64>, direction: Vec3<f64> },
+pub enum Feature {
+    /// Plane.
+    Plane {
+        /// Point of the plane `[m]`.
+        origin: Vec3<f64>,
+        /// Unit normal, towards body a.
+        normal: Vec3<f64>,
+    },
+    /// Point.
+    Point {
+        /// Its position `[m]`.
+        origin: Vec3<f64>,
+    },
+    /// Straight line.
+    Line {
+        /// Point of the line `[m]`.
+        origin: Vec3<f64>,
+        /// Unit vector along the line.
+        direction: Vec3<f64>,
+    },
 }
 
 /// Contact candidate: a possible point of contact between two links.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ContactCandidate {
+pub struct ContactCandidate {
+    /// Index of the link of body a, [`WORLD`] for none.
     pub a: u32,
+    /// Index of the link of body b, [`WORLD`] for none.
     pub b: u32,
-    /// In link axes of a.
+    /// Point of body a that may touch, in link axes of a `[m]`.
     pub point: Vec3<f64>,
     /// Rounding about the point (and of b's feature, added) `[m]`.
     pub radius: f64,
@@ -38,6 +56,7 @@ pub(crate) struct ContactCandidate {
     pub radius_a: f64,
     /// Disc whose rim it is, rounded by the radius; the point is then the disc's centre. Planes only.
     pub rim: Option<Rim>,
+    /// Feature of body b that it may touch.
     pub feature: Feature,
     /// Features of the surfaces that the candidate comes from, the same as long as the same ones touch; 0: not known.
     pub id: u32,
@@ -45,8 +64,8 @@ pub(crate) struct ContactCandidate {
 
 /// Disc of which the lowest point over a plane may touch it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Rim {
-    /// In link axes of a.
+pub struct Rim {
+    /// Unit vector along the axis of the disc, in link axes of a.
     pub axis: Vec3<f64>,
     /// Radius of the disc `[m]`; the rounding of its edge is the radius of the candidate.
     pub radius: f64,
@@ -54,18 +73,25 @@ pub(crate) struct Rim {
 
 /// Contact kinematics of a candidate at one instant, world axes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ContactKinematics<R> {
+pub struct ContactKinematics<R> {
+    /// Signed distance g `[m]`; negative where the bodies overlap.
     pub distance: R,
+    /// Contact point C `[m]`.
     pub point: Vec3<R>,
+    /// Unit normal n, from b to a.
     pub normal: Vec3<R>,
+    /// Velocity Ċ of the contact point `[m/s]`.
     pub point_dot: Vec3<R>,
+    /// Rate ṅ of the normal `[1/s]`.
     pub normal_dot: Vec3<R>,
 }
 
 /// Poses and twists of all links at one instant, in world axes; twists are about the world's origin.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LinkMotions<'a, R> {
+pub struct LinkMotions<'a, R> {
+    /// Pose of each link `[m]`.
     pub poses: &'a [Pose<R>],
+    /// Twist of each link [rad/s, m/s].
     pub twists: &'a [Motion<R>],
 }
 
@@ -74,12 +100,14 @@ impl<R: Real> LinkMotions<'_, R> {
         if link == WORLD { Pose::identity() } else { self.poses[link as usize] }
     }
 
-    /// Twist of a link; zero for the world.
+    /// Twist of a link [rad/s, m/s]; zero for the world.
+    #[must_use]
     pub fn twist_of(&self, link: u32) -> Motion<R> {
         if link == WORLD { Motion::zero() } else { self.twists[link as usize] }
     }
 
     /// Velocity [m/s] of the point of a link that is at `p` in the world.
+    #[must_use]
     pub fn velocity_of(&self, link: u32, p: Vec3<R>) -> Vec3<R> {
         let v = self.twist_of(link);
         v.lin + v.ang.cross(p)
@@ -87,7 +115,8 @@ impl<R: Real> LinkMotions<'_, R> {
 }
 
 impl ContactCandidate {
-    /// Contact kinematics: signed distance, contact point, normal and their rates.
+    /// Contact kinematics: signed distance, contact point, normal and their rates, at the instant of `motions`.
+    #[must_use]
     pub fn kinematics<R: Real>(&self, motions: &LinkMotions<'_, R>) -> ContactKinematics<R> {
         let (x_a, x_b) = (motions.pose_of(self.a), motions.pose_of(self.b));
         let p = x_a.point(Vec3::splat(self.point.0));
@@ -173,7 +202,8 @@ fn rim<R: Real>(
 }
 
 /// Two unit vectors across `n`, (t₁, t₂, n) right-handed; the same for the same bits of n.
-pub(crate) fn tangents<R: Real>(n: Vec3<R>) -> (Vec3<R>, Vec3<R>) {
+#[must_use]
+pub fn tangents<R: Real>(n: Vec3<R>) -> (Vec3<R>, Vec3<R>) {
     let size = |k: usize| n[k].lane(0).abs();
     let k = if size(0) <= size(1) && size(0) <= size(2) {
         0

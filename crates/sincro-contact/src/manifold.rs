@@ -11,9 +11,9 @@ use parry3d_f64::query::{
 
 use super::candidate::{ContactCandidate, Feature};
 use super::{Collider, Pair, PairKind, Surface};
-use crate::geometry::Shape;
-use crate::geometry::parry::{ParryShape, parry_pose, vec3};
-use crate::spatial::{Pose, Vec3};
+use sincro_geometry::Shape;
+use sincro_geometry::parry::{ParryShape, parry_pose, vec3};
+use sincro_geometry::spatial::{Pose, Vec3};
 
 /// A normal is across an axis if its component along it is below this.
 const ACROSS: f64 = 1e-9;

@@ -5,15 +5,15 @@
 //! A few pairs are all looked at. Source: key `ericson2004`, section 7.5.
 
 use super::{Collider, Pair, Surface};
-use crate::joint::WORLD;
-use crate::spatial::{Pose, Vec3};
+use crate::WORLD;
+use sincro_geometry::spatial::{Pose, Vec3};
 
 /// Number of pairs up to which all of them are looked at.
 const FEW: usize = 64;
 
 /// Distance up to which surfaces are looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Margin {
+pub struct Margin {
     /// Margin of any pair `[m]`.
     pub base: f64,
     /// Time over which their relative motion adds to it `[s]`; 0: it does not.
@@ -22,11 +22,14 @@ pub(crate) struct Margin {
 
 impl Margin {
     /// The same margin for every pair.
+    #[inline]
+    #[must_use]
     pub fn of(base: f64) -> Self {
         Self { base, time: 0.0 }
     }
 
     /// Margin of a pair `[m]`.
+    #[inline]
     fn of_pair(self, a: &Ball, b: &Ball) -> f64 {
         let Self { base, time } = self;
         if time > 0.0 { base + time * ((a.velocity - b.velocity).norm() + a.spin + b.spin) } else { base }
@@ -94,6 +97,7 @@ impl BroadPhase {
     }
 
     /// Margin of a pair `[m]`, as last found.
+    #[inline]
     pub fn margin(&self, pair: &Pair, margin: Margin) -> f64 {
         margin.of_pair(&self.balls[pair.a], &self.balls[pair.b])
     }
@@ -168,6 +172,7 @@ fn place(a: usize, b: usize) -> usize {
 }
 
 /// Returns true if the bounding spheres of a pair are closer than its margin.
+#[inline]
 fn is_near(balls: &[Ball], colliders: &[Collider], pair: &Pair, margin: Margin) -> bool {
     let (a, b) = (&balls[pair.a], &balls[pair.b]);
     are_close((a.center, a.radius), &colliders[pair.b], (b.center, b.radius), margin.of_pair(a, b))
@@ -175,6 +180,7 @@ fn is_near(balls: &[Ball], colliders: &[Collider], pair: &Pair, margin: Margin) 
 
 /// Returns true if the bounding spheres of two surfaces, each a centre and a radius, are closer than `margin` `[m]`; of
 /// a half-space b the surface itself counts.
+#[inline]
 pub(super) fn are_close(
     (center_a, radius_a): (Vec3<f64>, f64),
     b: &Collider,
@@ -189,6 +195,7 @@ pub(super) fn are_close(
 }
 
 /// Centre of a surface's bounding sphere, in the world.
+#[inline]
 pub(super) fn center(c: &Collider, poses: &[Pose<f64>]) -> Vec3<f64> {
     if c.link == WORLD { c.pose.pos } else { poses[c.link as usize].point(c.pose.pos) }
 }
@@ -196,8 +203,8 @@ pub(super) fn center(c: &Collider, poses: &[Pose<f64>]) -> Vec3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{Material, pairs};
-    use crate::geometry::Shape;
+    use crate::{Material, pairs};
+    use sincro_geometry::Shape;
 
     #[test]
     fn sweep_and_prune_finds_what_a_look_at_all_pairs_finds() {
@@ -216,7 +223,7 @@ mod tests {
                 collider(k, Pose::identity(), surface)
             });
             let colliders: Vec<_> = std::iter::once(plane).chain(balls).collect();
-            let pairs = pairs(&colliders, |_, _| false, |_, _| crate::contact::PairLaw::default());
+            let pairs = pairs(&colliders, |_, _| false, |_, _| crate::PairLaw::default());
             let mut point = |size: f64| Vec3(std::array::from_fn(|_| size * (number() - 0.3)));
             let poses: Vec<_> = (0..40).map(|_| Pose { pos: point(1.0), ..Pose::identity() }).collect();
             let velocities: Vec<_> = (0..40).map(|_| point(4.0)).collect();
