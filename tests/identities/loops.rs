@@ -3,6 +3,7 @@
 use sincro_dynamics::constraint::LoopJointKind;
 use sincro_dynamics::initial;
 use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::mechanism::Mechanism;
 use sincro_dynamics::model::{BodySpec, JointSpec, LoopJointSpec, MassProperties, Model, ModelBuilder, NodeId, Shape};
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_dynamics::state::State;
@@ -193,5 +194,59 @@ fn a_loop_joint_between_fixed_frames_takes_nothing_away() {
         assert_eq!((found.equations, found.dofs()), (6, usize::from(with_joint)));
         let mut world = World::builder(model).build().unwrap();
         world.step().unwrap();
+    }
+}
+
+/// `n` four-bars in a row, folded flat along x: cranks of the lengths given from pivots on the ground, each coupled to
+/// the next; units and frame as set. The sign of a crank's length is its direction.
+fn folded(pivots: &[f64], cranks: &[f64], s: Setting) -> (Model<f64>, usize) {
+    let mut m = ModelBuilder::new(s.rot.mul_vec(Vec3([0.0, 0.0, -9.81 * s.length])).0);
+    let hinge = || JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+    let along = |x: f64| Vec3([x * s.length, 0.0, 0.0]);
+    let bar = |x: f64| {
+        let mass = s.mass * x.abs();
+        let i = mass * (x * s.length) * (x * s.length) / 12.0;
+        let inertia = [0.1 * i, 0.0, 0.0, i, 0.0, i];
+        BodySpec { mass: MassProperties { mass, center_of_mass: along(0.5 * x).0, inertia } }
+    };
+    let ground = m.frame("ground", NodeId::WORLD, Pose { rot: s.rot, pos: Vec3::zero() });
+    let mut joints = Vec::new();
+    for (k, (pivot, crank)) in pivots.iter().zip(cranks).enumerate() {
+        let joint = m.joint(&format!("crank{k}"), ground, Pose::translation(along(*pivot)), hinge());
+        m.body(&format!("rod{k}"), joint, Pose::identity(), bar(*crank));
+        joints.push(joint);
+    }
+    let turn = Mat3::rotation::<0>(-1.0, 0.0);
+    for k in 1..pivots.len() {
+        let tip = along(cranks[k - 1]);
+        let joint = m.joint(&format!("coupler{k}"), joints[k - 1], Pose::translation(tip), hinge());
+        let length = pivots[k] + cranks[k] - pivots[k - 1] - cranks[k - 1];
+        m.body(&format!("bar{k}"), joint, Pose::identity(), bar(length));
+        let poses = [length, cranks[k]].map(|x| Pose { rot: turn, pos: along(x) });
+        m.loop_joint(&format!("pin{k}"), LoopJointSpec { kind: s.kind, ends: [joint, joints[k]], poses });
+    }
+    (m.build().unwrap().0, pivots.len() - 1)
+}
+
+#[test]
+fn loops_that_start_folded_flat_have_the_degrees_of_freedom_of_the_mechanism() {
+    let mut r = Random::new(23);
+    for draw in 0..14 {
+        // a row of parallelograms; a four-bar in which two lengths are as long as the other two
+        let crank = 0.5 + 0.2 * r.unit();
+        let row: Vec<f64> = (0..=1 + draw % 7).map(|k| 1.2 * f64::from(k) + 0.1 * r.unit()).collect();
+        let parallelograms = (row.clone(), vec![crank; row.len()]);
+        let [short, ground, rocker] = [0.3, 0.8, 0.5].map(|x: f64| x + 0.1 * r.unit());
+        for (pivots, cranks) in [parallelograms, (vec![0.0, ground], vec![short, rocker])] {
+            for kind in [LoopJointKind::Hinge, LoopJointKind::Point] {
+                for length in [1e-3, 1.0, 1e3] {
+                    let (model, loops) =
+                        folded(&pivots, &cranks, Setting { length, rot: turned(&mut r), kind, ..plain() });
+                    let x = State::new(&model);
+                    let independent = Mechanism::new(model, false).select_loop_rows(&x.q);
+                    assert_eq!(independent, 2 * loops, "draw {draw}, {kind:?}, {length} times the length, {pivots:?}");
+                }
+            }
+        }
     }
 }

@@ -12,8 +12,9 @@ use crate::recursions::kinematics;
 use crate::spatial::Vec3;
 use crate::state::displace;
 
-/// Nearby configurations tried.
-const TRIALS: u64 = 3;
+/// Nearby configurations that are looked at, and the number of directions in which they are sought at most.
+const TRIALS: usize = 3;
+const MAX_DIRECTIONS: u64 = 12;
 
 /// Size of the move to one: of angles `[rad]`, and of distances relative to the mechanism's extent.
 const MOVE: f64 = 0.02;
@@ -43,13 +44,17 @@ impl Mechanism<f64> {
         self.constraints.as_deref_mut().expect("checked").use_all_rows();
         let (mut best, mut found): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
         let (mut sizes, mut squares) = (Vec::new(), Vec::new());
-        for trial in 0..=TRIALS {
+        let mut looked_at = 0;
+        for direction in 0..=MAX_DIRECTIONS {
             self.base.copy_from_slice(q);
             self.unlock_joints();
-            if trial > 0 && !self.move_along_loops(trial, extent) {
-                continue;
+            let moved = (direction > 0).then(|| self.move_along_loops(direction, extent));
+            if moved.as_ref().is_some_and(Option::is_none) {
+                // nothing moves, in no direction
+                break;
             }
-            if self.close_loops(extent) {
+            if self.close_loops(extent, moved.flatten().map(|by| (q, by))) {
+                looked_at += usize::from(direction > 0);
                 self.find_rows(INDEPENDENT, &mut found);
                 if found.len() > best.len() {
                     core::mem::swap(&mut best, &mut found);
@@ -57,6 +62,9 @@ impl Mechanism<f64> {
                     sizes.clone_from(&c.row_sizes);
                     squares.clone_from(&c.row_squares);
                 }
+            }
+            if looked_at == TRIALS {
+                break;
             }
         }
         if best.is_empty() {
@@ -112,8 +120,10 @@ impl Mechanism<f64> {
         change
     }
 
-    /// Closes the loops from the chart's origin; returns false if they stay open.
-    fn close_loops(&mut self, extent: f64) -> bool {
+    /// Closes the loops from the chart's origin; returns false if they stay open. `moved`: from those coordinates by
+    /// that displacement, whose size is kept. Near a singular position, where branches cross, the nearest
+    /// configuration that closes the loops may be that position itself, step by step by half the distance.
+    fn close_loops(&mut self, extent: f64, mut moved: Option<(&[f64], Vec<f64>)>) -> bool {
         let (mut kept, mut last) = (Vec::new(), f64::INFINITY);
         for _ in 0..MAX_ITERATIONS {
             self.find_rows(INDEPENDENT_OPEN, &mut kept);
@@ -125,14 +135,24 @@ impl Mechanism<f64> {
             }
             last = worst;
             let change = self.change_by(&kept, None);
+            if let Some((from, by)) = &mut moved {
+                by.iter_mut().zip(&change).for_each(|(by, change)| *by += *change);
+                let largest = self.size_of_move(by, extent);
+                if largest < 0.5 * MOVE {
+                    by.iter_mut().for_each(|by| *by *= MOVE / largest);
+                    self.base.copy_from_slice(from);
+                    self.displace_base(by);
+                    continue;
+                }
+            }
             self.displace_base(&change);
         }
         false
     }
 
-    /// Moves the chart's origin a little along the loops, in a direction that depends on `seed`; returns false if
-    /// nothing can move.
-    fn move_along_loops(&mut self, seed: u64, extent: f64) -> bool {
+    /// Moves the chart's origin a little along the loops, in a direction that depends on `seed`; returns the
+    /// displacement, none if nothing can move.
+    fn move_along_loops(&mut self, seed: u64, extent: f64) -> Option<Vec<f64>> {
         let mut kept = Vec::new();
         self.find_rows(INDEPENDENT_OPEN, &mut kept);
         let mut random = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -144,17 +164,20 @@ impl Mechanism<f64> {
             })
             .collect();
         let change = self.change_by(&kept, Some(&v));
-        let mut largest = 0.0_f64;
-        for k in 0..v.len() {
-            v[k] += change[k];
-            largest = largest.max(v[k].abs() / if self.model.is_translation(k) { extent } else { 1.0 });
-        }
+        v.iter_mut().zip(&change).for_each(|(v, change)| *v += *change);
+        let largest = self.size_of_move(&v, extent);
         if largest.is_nan() || largest <= 1e-6 {
-            return false;
+            return None;
         }
         v.iter_mut().for_each(|v| *v *= MOVE / largest);
         self.displace_base(&v);
-        true
+        Some(v)
+    }
+
+    /// Largest angle of a displacement `[rad]`, or distance relative to the mechanism's extent.
+    fn size_of_move(&self, v: &[f64], extent: f64) -> f64 {
+        let size = |(k, v): (usize, &f64)| v.abs() / if self.model.is_translation(k) { extent } else { 1.0 };
+        v.iter().enumerate().map(size).fold(0.0, f64::max)
     }
 
     fn displace_base(&mut self, change: &[f64]) {
