@@ -44,6 +44,11 @@ pub trait CoupledSystem<R: Real> {
     /// Writes the diagonal of −∂f/∂z at the instant of the last [`CoupledSystem::slope`] `[1/s]`, one entry for each
     /// state, 0 where unknown; implicit methods evaluate these terms at the new state.
     fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]);
+
+    /// Returns false if it has no states and never writes a command: then it is asked for neither.
+    fn acts(&self) -> bool {
+        true
+    }
 }
 
 impl<R: Real> CoupledSystem<R> for &mut (dyn CoupledSystem<R> + '_) {
@@ -75,6 +80,10 @@ impl<R: Real> CoupledSystem<R> for &mut (dyn CoupledSystem<R> + '_) {
 
     fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]) {
         (**self).negated_jacobian_diagonal(negated_jacobian_diagonal);
+    }
+
+    fn acts(&self) -> bool {
+        (**self).acts()
     }
 }
 
@@ -123,6 +132,10 @@ impl<R: Real> CoupledSystem<R> for NoCoupling {
     #[inline(always)]
     fn slope(&mut self, _: &mut StateView<'_, R>, _: MechanismResponse<'_, R>, _: &[R], _: &mut [R]) {}
     fn negated_jacobian_diagonal(&mut self, _: &mut [R]) {}
+    #[inline(always)]
+    fn acts(&self) -> bool {
+        false
+    }
 }
 
 /// State view of a mechanism at the coordinates last placed and the velocities in `y`.
@@ -178,6 +191,9 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
 
     #[inline(always)]
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        if !self.system.acts() {
+            return self.mechanism.slope(t, y, slope);
+        }
         let (own, z) = y.split_at(self.mechanism.dim());
         let (own_slope, z_slope) = slope.split_at_mut(own.len());
         self.mechanism.set_coordinates(own);
@@ -188,6 +204,9 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
 
     #[inline(always)]
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+        if !self.system.acts() {
+            return self.mechanism.implicit_slope(t, h, implicit, y, slope);
+        }
         let (own, z) = y.split_at(self.mechanism.dim());
         let (own_slope, z_slope) = slope.split_at_mut(own.len());
         self.mechanism.set_coordinates(own);

@@ -90,6 +90,13 @@ impl Layout {
         2 * self.n_v + 2 + motor.index()
     }
 
+    /// Returns true if elements have states.
+    #[inline(always)]
+    #[must_use]
+    pub fn has_element_states(self) -> bool {
+        self.n_rotor_states > 0
+    }
+
     /// States of elements: of rotors, then of windings.
     #[inline(always)]
     #[must_use]

@@ -60,6 +60,11 @@ pub struct Mechanism<R> {
     /// State of each drive, in the order of [`Model::drives`]: 0 locked, +1 or −1 saturated upwards or downwards.
     pub drives: Vec<R>,
     layout: Layout,
+    /// True if joints have elements besides linear springs, dampers, motors and drives: the lists of others, of which
+    /// most models have none, are asked for once, not in each evaluation.
+    has_special: bool,
+    /// True if elements of the model may act on links, asked for once too.
+    has_external_elements: bool,
     /// q₀ of the chart.
     pub(crate) base: Vec<R>,
     pub(crate) q: Vec<R>,
@@ -109,6 +114,8 @@ impl<R: Real> Mechanism<R> {
             commands: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
             layout: Layout::new(&model, tracks_totals),
+            has_special: model.has_special_joint_elements(),
+            has_external_elements: model.has_external(),
             base: vec![R::zero(); model.n_q()],
             q: vec![R::zero(); model.n_q()],
             torque: zero.clone(),
@@ -285,6 +292,7 @@ impl<R: Real> Mechanism<R> {
             elements: rotors,
             loads: &self.loads,
             implicit,
+            has_special: self.has_special,
         };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
         let external = if self.has_external() {
@@ -369,7 +377,7 @@ impl<R: Real> Mechanism<R> {
     /// Returns true if external forces act on links now.
     #[inline(always)]
     fn has_external(&self) -> bool {
-        self.model.has_external() || !self.external_forces.is_empty()
+        self.has_external_elements || !self.external_forces.is_empty()
     }
 
     /// Adds an external force, to those on the same point of the same link if there are any.
@@ -448,6 +456,17 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
+    /// Rates of the states of elements for the accelerations in `slope`, over a linearly implicit step of length `h`
+    /// `[s]` (0: now).
+    #[inline(always)]
+    fn element_rates(&self, y: &[R], h: f64, slope: &mut [R]) {
+        if self.layout.has_element_states() {
+            let states = self.layout.rotor_states();
+            self.rotor_rates(&y[states.clone()], h, &mut slope[states]);
+            self.current_rates(y, h, slope);
+        }
+    }
+
     /// Rates of the states of rotors `x`, over a linearly implicit step of length `h` (0: now).
     #[inline(always)]
     fn rotor_rates(&self, x: &[R], h: f64, rates: &mut [R]) {
@@ -487,32 +506,36 @@ impl<R: Real> Mechanism<R> {
             work += dof.torque * v[k];
             dissipation += damper::dissipation(dof, v[k]);
         }
-        for spring in &self.model.nonlinear_springs {
-            let dof = &self.model.dofs[spring.dof];
-            let v = v[spring.dof];
-            dissipation -= spring.torques(dof, self.q[dof.q_idx as usize], v).1 * v;
+        if self.has_special {
+            for spring in &self.model.nonlinear_springs {
+                let dof = &self.model.dofs[spring.dof];
+                let v = v[spring.dof];
+                dissipation -= spring.torques(dof, self.q[dof.q_idx as usize], v).1 * v;
+            }
+            for gear in &self.model.elastic_gears {
+                dissipation += gear.dissipation(gear.error(&self.q, v_at).0, gear.rate(v));
+            }
+            for applied in &self.model.applied {
+                work += applied.torque::<R>(t) * v[applied.dof];
+            }
         }
-        for gear in &self.model.elastic_gears {
-            dissipation += gear.dissipation(gear.error(&self.q, v_at).0, gear.rate(v));
+        for (link, wrench) in self.scratch.links.iter().zip(&self.external) {
+            work += link.v.dot(wrench);
         }
-        for applied in &self.model.applied {
-            work += applied.torque::<R>(t) * v[applied.dof];
-        }
-        for (i, link) in self.scratch.links.iter().enumerate().take(self.external.len()) {
-            work += link.v.dot(&self.external[i]);
-        }
-        // what comes out of a potential is no work
-        work -= self.field_power;
-        if !self.model.drags.is_empty() {
-            // drag's power is in `work` already: what it takes as heat, and what the wind does, add up to it
-            work += self.air_dissipation;
-            dissipation += self.air_dissipation;
-        }
-        if !self.model.spring_dampers.is_empty() {
-            let (of_actuators, heat) =
-                self.lines.power(&self.model, &self.commands, (steps.0.lane(0) != 0.0).then_some(v));
-            work += of_actuators;
-            dissipation += heat;
+        if self.has_external_elements {
+            // what comes out of a potential is no work
+            work -= self.field_power;
+            if !self.model.drags.is_empty() {
+                // drag's power is in `work` already: what it takes as heat, and what the wind does, add up to it
+                work += self.air_dissipation;
+                dissipation += self.air_dissipation;
+            }
+            if !self.model.spring_dampers.is_empty() {
+                let (of_actuators, heat) =
+                    self.lines.power(&self.model, &self.commands, (steps.0.lane(0) != 0.0).then_some(v));
+                work += of_actuators;
+                dissipation += heat;
+            }
         }
         self.find_motor_torques((v_at, elements), v, steps);
         for (i, drive) in self.model.params.drives.iter().enumerate() {
@@ -524,13 +547,15 @@ impl<R: Real> Mechanism<R> {
             work += self.motor_torque[i] * v[motor.dof];
             rates[2 + i] = self.motor_torque[i];
         }
-        for winding in self.model.active_windings() {
-            let (i, k) = (winding.motor, winding.dof);
-            let v_end = v[k] + v[k] - v_at[k];
-            let power = winding.power(winding.state_in(elements), (v_end, v[k]), self.commands[i], steps.0);
-            // the work of its torque is in the sum already
-            work += power.electrical - self.motor_torque[i] * v[k];
-            dissipation += power.heat;
+        if self.has_special {
+            for winding in self.model.active_windings() {
+                let (i, k) = (winding.motor, winding.dof);
+                let v_end = v[k] + v[k] - v_at[k];
+                let power = winding.power(winding.state_in(elements), (v_end, v[k]), self.commands[i], steps.0);
+                // the work of its torque is in the sum already
+                work += power.electrical - self.motor_torque[i] * v[k];
+                dissipation += power.heat;
+            }
         }
         if R::IS_SCALAR
             && let Some(constraints) = &self.constraints
@@ -559,11 +584,13 @@ impl<R: Real> Mechanism<R> {
             let q = self.model.dofs[motor.dof].coordinate_in(&self.q);
             self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], steps).0;
         }
-        for winding in self.model.active_windings() {
-            let (i, k) = (winding.motor, winding.dof);
-            let v_end = mean[k] + mean[k] - v[k];
-            let current = winding.current_after(winding.state_in(elements), v_end, self.commands[i], steps.0);
-            self.motor_torque[i] = winding.torque_per_ampere() * current;
+        if self.has_special {
+            for winding in self.model.active_windings() {
+                let (i, k) = (winding.motor, winding.dof);
+                let v_end = mean[k] + mean[k] - v[k];
+                let current = winding.current_after(winding.state_in(elements), v_end, self.commands[i], steps.0);
+                self.motor_torque[i] = winding.torque_per_ampere() * current;
+            }
         }
         for d in 0..self.model.params.drives.len() {
             let drive = self.model.params.drives[d];

@@ -34,8 +34,7 @@ impl<R: Real> Mechanism<R> {
         if self.layout.tracks_totals() {
             self.total_rates(t, (v, rotors), v, (R::zero(), R::zero()), &mut rest[n..]);
         }
-        self.rotor_rates(rotors, 0.0, &mut slope[self.layout.rotor_states()]);
-        self.current_rates(y, 0.0, slope);
+        self.element_rates(y, 0.0, slope);
         if let Some(v) = projected {
             self.singular.v = v;
         }
@@ -72,8 +71,7 @@ impl<R: Real> Mechanism<R> {
             self.total_rates(t, (v, rotors), &over, (step, of_springs), &mut rest[n..]);
         }
         self.step_velocity = over;
-        self.rotor_rates(rotors, h, &mut slope[self.layout.rotor_states()]);
-        self.current_rates(y, h, slope);
+        self.element_rates(y, h, slope);
         if let Some(v) = projected {
             self.singular.v = v;
         }

@@ -22,6 +22,9 @@ pub(crate) struct TorqueInput<'a, R> {
     pub loads: &'a [R],
     /// Step of a linearly implicit method, and which terms it takes at the new state; none: all at this one.
     pub implicit: Option<(f64, Implicit)>,
+    /// False if the joints have linear springs, dampers, motors and drives alone: the lists of all other elements are
+    /// empty and need not be looked at.
+    pub has_special: bool,
 }
 
 /// Sums the torques of all joint elements into `torque` and the diagonal (armature and implicit terms) into `diagonal`.
@@ -43,6 +46,36 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
         let k = model.links[link].v_idx as usize;
         spring::add_torques(&model.links[link], &model.dofs[k..], (at.q, &at.v[k..]), steps.1, &mut torque[k..]);
     }
+    if at.has_special {
+        special_torques(model, at, steps, torque, diagonal);
+    }
+    for (motor, &command) in model.params.motors.iter().zip(at.commands) {
+        let k = motor.dof;
+        let q = model.dofs[k].coordinate_in(at.q);
+        let (tau, implicit) = motor.torque(q, at.v[k], command, steps);
+        torque[k] += tau;
+        diagonal[k] += implicit;
+    }
+    if at.has_special {
+        winding_torques(model, at, steps, torque, diagonal);
+    }
+    for (drive, &saturation) in model.params.drives.iter().zip(at.drives) {
+        // a locked drive (0) gives the reaction of its constraint; a saturated one its limit
+        if let Some(limit) = model.saturated_torque(drive, at.v[drive.dof], at.loads[drive.dof]) {
+            torque[drive.dof] += saturation * limit;
+        }
+    }
+}
+
+/// Adds the torques of nonlinear springs, elastic gears and functions of time.
+#[inline(always)]
+fn special_torques<R: Real>(
+    model: &Model<R>,
+    at: &TorqueInput<'_, R>,
+    steps: (R, R),
+    torque: &mut [R],
+    diagonal: &mut [R],
+) {
     for spring in &model.nonlinear_springs {
         let (k, dof) = (spring.dof, &model.dofs[spring.dof]);
         let (tau, implicit) = spring.implicit_torque(dof, at.q[dof.q_idx as usize], at.v[k], steps);
@@ -60,23 +93,21 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     for applied in &model.applied {
         torque[applied.dof] += applied.torque(at.t);
     }
-    for (motor, &command) in model.params.motors.iter().zip(at.commands) {
-        let k = motor.dof;
-        let q = model.dofs[k].coordinate_in(at.q);
-        let (tau, implicit) = motor.torque(q, at.v[k], command, steps);
-        torque[k] += tau;
-        diagonal[k] += implicit;
-    }
+}
+
+/// Adds the torques of windings whose motors take a voltage.
+#[inline(always)]
+fn winding_torques<R: Real>(
+    model: &Model<R>,
+    at: &TorqueInput<'_, R>,
+    steps: (R, R),
+    torque: &mut [R],
+    diagonal: &mut [R],
+) {
     for winding in model.active_windings() {
         let (k, state, command) = (winding.dof, winding.state_in(at.elements), at.commands[winding.motor]);
-        let (tau, implicit) = winding.torque(state, v[k], command, steps.0);
+        let (tau, implicit) = winding.torque(state, at.v[k], command, steps.0);
         torque[k] += tau;
         diagonal[k] += implicit;
-    }
-    for (drive, &saturation) in model.params.drives.iter().zip(at.drives) {
-        // a locked drive (0) gives the reaction of its constraint; a saturated one its limit
-        if let Some(limit) = model.saturated_torque(drive, at.v[drive.dof], at.loads[drive.dof]) {
-            torque[drive.dof] += saturation * limit;
-        }
     }
 }

@@ -292,6 +292,12 @@ impl<R: Real> Model<R> {
         !self.wrenches.is_empty() || self.feels_air() || self.has_lines() || self.gravity_field.is_some()
     }
 
+    /// Returns true if joints have nonlinear springs, elastic gears, torques that are functions of time, or windings.
+    pub(crate) fn has_special_joint_elements(&self) -> bool {
+        let has_laws = !self.nonlinear_springs.is_empty() || !self.elastic_gears.is_empty();
+        has_laws || !self.applied.is_empty() || !self.windings.is_empty()
+    }
+
     /// Drives: joints with Coulomb friction, then motors in velocity and position mode, then locked force sensors.
     /// Indices of drives count them.
     #[must_use]

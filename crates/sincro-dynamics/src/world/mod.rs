@@ -454,7 +454,9 @@ impl World {
         system.set_time_event(f64::INFINITY);
         self.count_particles(h);
         self.load(system);
-        self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
+        if system.acts() {
+            self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
+        }
         self.latch_target_velocities();
         let reached = if let Method::SemiImplicitEuler = self.method {
             let h = h / f64::from(self.substeps);
@@ -464,7 +466,9 @@ impl World {
             self.sub_steps(t, h, system)
         };
         self.mechanism.store(&self.y, &mut self.state);
-        system.states().copy_from_slice(&self.y[self.mechanism.dim()..]);
+        if system.acts() {
+            system.states().copy_from_slice(&self.y[self.mechanism.dim()..]);
+        }
         reached?;
         self.state.tick += 1;
         self.settled_at = Some(self.state.tick);
