@@ -15,6 +15,12 @@ impl Mechanism<f64> {
         !self.drives.is_empty() && self.has_closed()
     }
 
+    /// Returns true if limited drives are constraints of one problem at velocity level: with closed contacts, or with
+    /// loop joints and gears, beside which locked drives may be redundant, so that pivoting need not end.
+    pub(crate) fn couples_step_drives(&self) -> bool {
+        self.couples_drives() || (!self.drives.is_empty() && self.model.params.constraints.n_bilateral() > 0)
+    }
+
     /// Marks locked drives for evaluations with their modes: with closed contacts, limited ones are constraints of the
     /// same problem, the others prescribed degrees of freedom.
     pub(crate) fn mark_modes(&mut self) {

@@ -282,11 +282,11 @@ impl World {
     }
 
     /// Decides the modes over a step at velocity level by trial steps: each limited drive either ends at its target
-    /// velocity or is saturated; with closed contacts they are decided together. `step` makes a trial step of length
-    /// `h` with the present modes.
+    /// velocity or is saturated; with closed contacts or loops they are decided together. `step` makes a trial step of
+    /// length `h` with the present modes.
     pub(super) fn solve_step_modes(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
         self.collect_all_limited();
-        if self.mechanism.couples_drives() {
+        if self.mechanism.couples_step_drives() {
             self.solve_coupled_step_modes(h, step);
             return;
         }
