@@ -20,16 +20,19 @@ use crate::Obstacle;
 ///
 /// [`Obstacle`] with the part of the model that switches or depends on time, or with a method that has no fixed step.
 pub fn check(model: &Model<f64>, method: MethodKind) -> Result<(), Obstacle> {
-    if matches!(method, MethodKind::DormandPrince | MethodKind::Stiff) {
-        return Err(Obstacle::new("the steps of a method with error control differ in length"));
-    }
-    if let Some(part) = obstacle_to_lanes(model, method) {
-        return Err(Obstacle::new(format!("the model has {part}")));
-    }
+    let unless = |part: Option<&str>| match part {
+        Some(part) => Err(Obstacle::new(format!("the model has {part}"))),
+        None => Ok(()),
+    };
+    // what no other method would mend comes first
+    unless(obstacle_to_lanes(model, MethodKind::Rk4))?;
     if !is_time_invariant(model) {
         return Err(Obstacle::new("a force or the wind depends on time"));
     }
-    Ok(())
+    if matches!(method, MethodKind::DormandPrince | MethodKind::Stiff) {
+        return Err(Obstacle::new("the steps of a method with error control differ in length"));
+    }
+    unless(obstacle_to_lanes(model, method))
 }
 
 /// Numbers of inputs of the programs of a model's step and rates, in their order: coordinates, velocities, rotor

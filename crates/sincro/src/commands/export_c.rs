@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use sincro::export_c::export_c;
+use sincro::export_c::{Obstacle, export_c};
 use sincro::{load, scene_name};
 
 use super::robot_file::SceneSource;
@@ -60,7 +60,8 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     for (part, why) in &exported.missing {
         say!("  {part:<36} not exported: {why}");
     }
-    if exported.missing.iter().any(|(part, _)| *part == "step") && exported.parts.iter().all(|(p, _)| *p != "step") {
+    let has_error_control = |why: &Obstacle| why.to_string().contains("error control");
+    if exported.missing.iter().any(|(part, why)| *part == "step" && has_error_control(why)) {
         say!("help: a step of fixed length is exported with `--set integrator=rk4` (or semi-implicit-euler)");
     }
     let steps = match exported.n_test_steps {
