@@ -55,6 +55,14 @@ pub struct ByTick {
     pub later: Program,
 }
 
+impl ByTick {
+    /// Program of tick `tick`.
+    #[must_use]
+    pub fn at(&self, tick: u64) -> &Program {
+        self.first.as_ref().filter(|_| tick == 0).unwrap_or(&self.later)
+    }
+}
+
 /// Ticks, in samples of a block, at which it is recorded: the first, some near it, and some without pattern.
 const SAMPLES: [u64; 8] = [0, 1, 2, 3, 10, 1_237, 100_003, 7_654_321];
 

@@ -3,14 +3,14 @@
 use sincro_dynamics::aba::{self, Input};
 use sincro_dynamics::batch::{LaneWorlds, is_time_invariant, obstacle_to_lanes};
 use sincro_dynamics::ids::BodyId;
-use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea;
 use sincro_dynamics::scratch::Scratch;
-use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 use sincro_dynamics::world::MethodKind;
 use sincro_math::Real;
 use sincro_math::record::{Program, Recorded, record};
+use sincro_scene::record::probe;
 
 use crate::Obstacle;
 
@@ -43,7 +43,7 @@ pub fn state_sizes(model: &Model<f64>) -> [usize; 4] {
 }
 
 /// Parts of a list of inputs, of the given sizes.
-fn parts<const N: usize>(mut inputs: &[Recorded], sizes: [usize; N]) -> [&[Recorded]; N] {
+pub(crate) fn parts<R, const N: usize>(mut inputs: &[R], sizes: [usize; N]) -> [&[R]; N] {
     sizes.map(|n| {
         let (part, rest) = inputs.split_at(n);
         inputs = rest;
@@ -112,13 +112,7 @@ fn worlds(
 ///
 /// [`Obstacle`] if the recursion branches.
 pub fn forward_dynamics(model: &Model<f64>) -> Result<Program, Obstacle> {
-    mechanism(model, [model.n_q(), model.n_v(), model.n_v()], |model, [q, v, torque]| {
-        let diagonal: Vec<Recorded> = model.dofs().iter().map(|dof| dof.armature).collect();
-        let input = Input { q, v, torque, diagonal: &diagonal, prescribed: None, external: None, gravity: true };
-        let mut v_dot = vec![Recorded::zero(); model.n_v()];
-        aba::forward_dynamics(model, &input, &mut Scratch::new(model), &mut v_dot);
-        v_dot
-    })
+    mechanism(model, model.n_q() + 2 * model.n_v(), bare_forward_dynamics)
 }
 
 /// Records the inverse dynamics of the bare mechanism: joint torques (n_v) of coordinates (n_q), velocities (n_v) and
@@ -128,14 +122,7 @@ pub fn forward_dynamics(model: &Model<f64>) -> Result<Program, Obstacle> {
 ///
 /// [`Obstacle`] if the recursion branches.
 pub fn inverse_dynamics(model: &Model<f64>) -> Result<Program, Obstacle> {
-    mechanism(model, [model.n_q(), model.n_v(), model.n_v()], |model, [q, v, v_dot]| {
-        let mut torque = vec![Recorded::zero(); model.n_v()];
-        rnea::inverse_dynamics(model, q, v, v_dot, None, &mut Scratch::new(model), &mut torque);
-        for ((torque, dof), v_dot) in torque.iter_mut().zip(model.dofs()).zip(v_dot) {
-            *torque += dof.armature * *v_dot;
-        }
-        torque
-    })
+    mechanism(model, model.n_q() + 2 * model.n_v(), bare_inverse_dynamics)
 }
 
 /// Records the pose of a body's or frame's origin: position `[m]` (3), then rotation matrix (9, row by row), then its
@@ -149,28 +136,50 @@ pub fn inverse_dynamics(model: &Model<f64>) -> Result<Program, Obstacle> {
 ///
 /// If the model has no such body.
 pub fn frame(model: &Model<f64>, frame: BodyId) -> Result<Program, Obstacle> {
-    mechanism(model, [model.n_q()], |model, [q]| {
-        let info = &model.names().frames[frame.index()];
-        let rot = Mat3(info.pose.rot.0.map(|row| row.map(Recorded::splat)));
-        let pose = Pose { rot, pos: Vec3(info.pose.pos.0.map(Recorded::splat)) };
-        let attached = Attached { link: info.link, pose };
-        let mut scratch = Scratch::new(model);
-        kinematics::poses(model, q, &mut scratch);
-        let pose = kinematics::frame_pose(&scratch, &attached);
-        let mut rows = vec![Recorded::zero(); 6 * model.n_v()];
-        kinematics::jacobian(model, q, &attached, &mut scratch, &mut rows);
-        [&pose.pos.0[..], &pose.rot.0.concat(), &rows].concat()
-    })
+    mechanism(model, model.n_q(), |model, q| pose_and_jacobian(model, q, frame))
 }
 
-fn mechanism<const N: usize>(
+/// Algorithm of [`forward_dynamics`], on any kind of number.
+pub(crate) fn bare_forward_dynamics<R: Real>(model: &Model<R>, inputs: &[R]) -> Vec<R> {
+    let [q, v, torque] = parts(inputs, [model.n_q(), model.n_v(), model.n_v()]);
+    let diagonal: Vec<R> = model.dofs().iter().map(|dof| dof.armature).collect();
+    let input = Input { q, v, torque, diagonal: &diagonal, prescribed: None, external: None, gravity: true };
+    let mut v_dot = vec![R::zero(); model.n_v()];
+    aba::forward_dynamics(model, &input, &mut Scratch::new(model), &mut v_dot);
+    v_dot
+}
+
+/// Algorithm of [`inverse_dynamics`], on any kind of number.
+pub(crate) fn bare_inverse_dynamics<R: Real>(model: &Model<R>, inputs: &[R]) -> Vec<R> {
+    let [q, v, v_dot] = parts(inputs, [model.n_q(), model.n_v(), model.n_v()]);
+    let mut torque = vec![R::zero(); model.n_v()];
+    rnea::inverse_dynamics(model, q, v, v_dot, None, &mut Scratch::new(model), &mut torque);
+    for ((torque, dof), v_dot) in torque.iter_mut().zip(model.dofs()).zip(v_dot) {
+        *torque += dof.armature * *v_dot;
+    }
+    torque
+}
+
+/// Algorithm of [`frame`], on any kind of number.
+pub(crate) fn pose_and_jacobian<R: Real>(model: &Model<R>, q: &[R], frame: BodyId) -> Vec<R> {
+    let attached = probe::attached(model, frame.index());
+    let mut scratch = Scratch::new(model);
+    kinematics::poses(model, q, &mut scratch);
+    let pose = kinematics::frame_pose(&scratch, &attached);
+    let mut rows = vec![R::zero(); 6 * model.n_v()];
+    kinematics::jacobian(model, q, &attached, &mut scratch, &mut rows);
+    [&pose.pos.0[..], &pose.rot.0.concat(), &rows].concat()
+}
+
+/// Records `algorithm` on `model` and `n_inputs` numbers.
+pub(crate) fn mechanism(
     model: &Model<f64>,
-    sizes: [usize; N],
-    act: impl FnOnce(&Model<Recorded>, [&[Recorded]; N]) -> Vec<Recorded>,
+    n_inputs: usize,
+    algorithm: impl FnOnce(&Model<Recorded>, &[Recorded]) -> Vec<Recorded>,
 ) -> Result<Program, Obstacle> {
-    let program = record(sizes.iter().sum(), 1, |inputs| {
+    let program = record(n_inputs, 1, |inputs| {
         let model = Model::<Recorded>::pack(&[model]).expect("a model has its own structure");
-        act(&model, parts(inputs, sizes))
+        algorithm(&model, inputs)
     });
     Ok(program?)
 }

@@ -3,18 +3,16 @@
 use std::sync::Arc;
 
 use sincro_blocks::program::Rate;
-use sincro_dynamics::aba::{self, Input};
 use sincro_dynamics::ids::BodyId;
 use sincro_dynamics::integrate::System;
-use sincro_dynamics::kinematics::{self, Attached};
+use sincro_dynamics::kinematics;
 use sincro_dynamics::mechanism::Mechanism;
 use sincro_dynamics::model::Model;
-use sincro_dynamics::rnea;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::state::State;
 use sincro_math::Real;
 use sincro_math::random::splitmix64;
-use sincro_math::record::{Program, Recorded, record};
+use sincro_math::record::{Program, Recorded};
 use sincro_math::signal::Signal;
 use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
 use sincro_scene::record::Probe;
@@ -257,13 +255,6 @@ pub(super) fn is_due(rate: Rate, tick: u64) -> bool {
     }
 }
 
-impl ByTick {
-    /// Program of a tick.
-    pub(super) fn at(&self, tick: u64) -> &Program {
-        self.first.as_ref().filter(|_| tick == 0).unwrap_or(&self.later)
-    }
-}
-
 /// Inputs of sample `k` for a function of `n` numbers: coordinates that are quaternions are not normalised, which no
 /// function asks for.
 pub(super) fn sample(k: u64, n: usize) -> Vec<f64> {
@@ -298,9 +289,7 @@ fn rates(model: &Model<f64>) -> Result<Function, Obstacle> {
         outputs: vec![("acceleration", n_v), ("element_rate", n_rotors)],
         program: compared(program, |x| {
             let mut mechanism = Mechanism::new(model.clone(), false);
-            let (q, rest) = x.split_at(n_q);
-            let (v, rest) = rest.split_at(n_v);
-            let (rotors, commands) = rest.split_at(n_rotors);
+            let [q, v, rotors, commands] = plant::parts(x, plant::state_sizes(model));
             let owned = |x: &[f64]| x.to_vec();
             let state = State {
                 q: owned(q),
@@ -321,15 +310,7 @@ fn rates(model: &Model<f64>) -> Result<Function, Obstacle> {
 
 fn forward_dynamics(model: &Model<f64>) -> Result<Function, Obstacle> {
     let (n_q, n_v) = (model.n_q(), model.n_v());
-    let program = compared(plant::forward_dynamics(model)?, |x| {
-        let (q, rest) = x.split_at(n_q);
-        let (v, torque) = rest.split_at(n_v);
-        let diagonal: Vec<f64> = model.dofs().iter().map(|dof| dof.armature).collect();
-        let input = Input { q, v, torque, diagonal: &diagonal, prescribed: None, external: None, gravity: true };
-        let mut v_dot = vec![0.0; n_v];
-        aba::forward_dynamics(model, &input, &mut Scratch::new(model), &mut v_dot);
-        v_dot
-    })?;
+    let program = compared(plant::forward_dynamics(model)?, |x| plant::bare_forward_dynamics(model, x))?;
     Ok(Function {
         kind: "forward dynamics",
         name: "forward_dynamics".into(),
@@ -363,16 +344,7 @@ fn forward_dynamics_partials(model: &Model<f64>) -> Result<Function, Obstacle> {
 
 fn inverse_dynamics(model: &Model<f64>) -> Result<Function, Obstacle> {
     let (n_q, n_v) = (model.n_q(), model.n_v());
-    let program = compared(plant::inverse_dynamics(model)?, |x| {
-        let (q, rest) = x.split_at(n_q);
-        let (v, v_dot) = rest.split_at(n_v);
-        let mut torque = vec![0.0; n_v];
-        rnea::inverse_dynamics(model, q, v, v_dot, None, &mut Scratch::new(model), &mut torque);
-        for ((torque, dof), v_dot) in torque.iter_mut().zip(model.dofs()).zip(v_dot) {
-            *torque += dof.armature * v_dot;
-        }
-        torque
-    })?;
+    let program = compared(plant::inverse_dynamics(model)?, |x| plant::bare_inverse_dynamics(model, x))?;
     Ok(Function {
         kind: "inverse dynamics",
         name: "inverse_dynamics".into(),
@@ -386,15 +358,7 @@ fn inverse_dynamics(model: &Model<f64>) -> Result<Function, Obstacle> {
 fn frame_function(model: &Model<f64>, frame: BodyId, name: &str) -> Result<Function, Obstacle> {
     let n_v = model.n_v();
     let info = &model.names().frames[frame.index()];
-    let attached = Attached { link: info.link, pose: info.pose };
-    let program = compared(plant::frame(model, frame)?, |q| {
-        let mut scratch = Scratch::new(model);
-        kinematics::poses(model, q, &mut scratch);
-        let pose = kinematics::frame_pose(&scratch, &attached);
-        let mut rows = vec![0.0; 6 * n_v];
-        kinematics::jacobian(model, q, &attached, &mut scratch, &mut rows);
-        [&pose.pos.0[..], &pose.rot.0.concat(), &rows].concat()
-    })?;
+    let program = compared(plant::frame(model, frame)?, |q| plant::pose_and_jacobian(model, q, frame))?;
     Ok(Function {
         kind: "frames",
         name: format!("frame_{name}"),
@@ -421,14 +385,11 @@ fn measure(model: &Model<f64>, wiring: &Arc<Wiring>) -> Result<(Vec<usize>, Prog
     }
     let sizes = plant::state_sizes(model);
     let mut unknown = false;
-    let program = record(sizes.iter().sum(), 1, |inputs| {
-        let model = Model::<Recorded>::pack(&[model]).expect("a model has its own structure");
-        let (q, rest) = inputs.split_at(sizes[0]);
-        let (v, rest) = rest.split_at(sizes[1]);
-        let (rotors, commands) = rest.split_at(sizes[2]);
-        let mut scratch = Scratch::new(&model);
-        kinematics::motions(&model, q, v, &vec![Recorded::zero(); sizes[1]], &mut scratch);
-        let view = View { t: 0.0, model: &model, q, v, rotors, commands, scratch: &scratch };
+    let program = plant::mechanism(model, sizes.iter().sum(), |model, inputs| {
+        let [q, v, rotors, commands] = plant::parts(inputs, sizes);
+        let mut scratch = Scratch::new(model);
+        kinematics::motions(model, q, v, &vec![Recorded::zero(); sizes[1]], &mut scratch);
+        let view = View { t: 0.0, model, q, v, rotors, commands, scratch: &scratch };
         let value = |probe| probe::of_state(&view, probe);
         readings
             .iter()
