@@ -42,14 +42,20 @@ pub(super) struct Balance<R> {
 /// of the bracket. Usual are five; the limit is there for what is not a number and for roots of 1e-30 of the bracket.
 const MAX_ITERATIONS: usize = 128;
 
+/// Step of Newton's method, as a part of w, after which the polishing step, which squares what is left, is the last.
+const LAST_STEP: f64 = 1e-8;
+
 /// f′ below this part of the velocities in it counts as zero: at a double root rounding leaves √ε = 1.5e-8 of it.
 const FLAT: f64 = 1e-8;
+
+/// Smallest number above zero.
+const SMALLEST: f64 = f64::from_bits(1);
 
 impl<R: Real> Balance<R> {
     /// The inflow w `[m/s]`.
     #[inline(always)]
     pub fn inflow(&self) -> R {
-        let w = R::from_lanes(|k| self.lane(k).largest_root());
+        let w = if R::IS_SCALAR { R::from_lanes(|k| self.lane(k).largest_root()) } else { self.largest_roots() };
         let (f, slope) = self.residual(w);
         // the slope without derivatives: they would only multiply what is left of f
         let slope = R::from_lanes(|k| slope.lane(k));
@@ -67,6 +73,46 @@ impl<R: Real> Balance<R> {
         // at w = h = 0 the quotient is taken as 0
         let slope = through_disc + induced * (w / through_disc.max(R::splat(f64::MIN_POSITIVE))) + self.relief;
         (f, slope)
+    }
+
+    /// The largest root of f in each lane, with the bits of [`Balance::largest_root`]: the lanes whose root is above
+    /// max(v, 0), as in flight, are searched together, the others one by one.
+    #[inline(always)]
+    fn largest_roots(&self) -> R {
+        let zero = R::zero();
+        let above = self.climb.max(zero);
+        let at_above = self.residual(above).0;
+        // infinite where a lane's search is under way
+        let mut pending = at_above.if_less(zero, R::splat(f64::INFINITY), zero);
+        let b = self.climb - self.relief;
+        let root = (b * b + R::splat(4.0) * self.supply).max(zero).sqrt();
+        let axial = b.if_less(zero, R::splat(2.0) * self.supply / (root - b), R::splat(0.5) * (b + root));
+        let (mut low, mut high) = (above, axial.max(above));
+        let mut w = high;
+        let (mut last, mut before_last) = (high - low, high - low);
+        for _ in 0..MAX_ITERATIONS {
+            if pending.is_finite() {
+                break;
+            }
+            let (f, slope) = self.residual(w);
+            high = zero.if_less(f, w, high);
+            low = zero.if_less(f, low, w);
+            let middle = low + R::splat(0.5) * (high - low);
+            let newton = w - f / slope;
+            let is_short = (newton - w).abs().if_less(R::splat(0.5) * before_last, newton, middle);
+            let next = low.if_less(newton, newton.if_less(high, is_short, middle), middle);
+            let step = (next - w).abs();
+            let moves = low.if_less(next, next.if_less(high, pending, zero), zero);
+            let moves = f.abs().if_less(R::splat(SMALLEST), zero, moves);
+            pending = (R::splat(LAST_STEP) * w.abs()).if_less(step, moves, zero);
+            w = zero.if_less(moves, next, w);
+            (before_last, last) = (last, step);
+        }
+        let is_above = at_above.if_less(zero, zero, R::splat(f64::INFINITY)).is_finite();
+        if is_above {
+            return w;
+        }
+        R::from_lanes(|k| if at_above.lane(k) < 0.0 { w.lane(k) } else { self.lane(k).largest_root() })
     }
 
     #[inline(always)]
@@ -148,8 +194,11 @@ impl Balance<f64> {
             let is_good = newton > low && newton < high && (newton - w).abs() < 0.5 * before_last;
             let next = if is_good { newton } else { low + 0.5 * (high - low) };
             let step = (next - w).abs();
-            if f == 0.0 || step <= f64::EPSILON * w.abs() || next == low || next == high {
+            if f == 0.0 || next == low || next == high {
                 return w;
+            }
+            if step <= LAST_STEP * w.abs() {
+                return next;
             }
             (before_last, last, w) = (last, step, next);
         }
@@ -197,6 +246,37 @@ mod tests {
                         assert!(w >= below - 1e-7 && w <= above + 1e-7, "{b:?}: {w} not in [{below}, {above}]");
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_find_the_bits_of_the_search_alone() {
+        use sincro_math::Lanes;
+        use sincro_math::random::splitmix64;
+        let mut drawn = 0;
+        let mut draw = |low: f64, high: f64| {
+            drawn += 1;
+            low + (high - low) * (splitmix64(7, drawn) >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        // flight, hover at rest, windmill states, and lanes of all of them
+        for round in 0..4000 {
+            let mut one = || match (round % 4, draw(0.0, 1.0)) {
+                (0, _) => [draw(-2.0, 2.0), draw(0.0, 9.0), draw(0.1, 3.0), draw(1.0, 60.0)],
+                (1, _) => [0.0, 0.0, draw(0.0, 3.0), draw(0.0, 60.0)],
+                (_, x) if x < 0.1 => [draw(-9.0, 9.0), 0.0, 0.0, draw(-9.0, 9.0)],
+                (_, x) if x < 0.15 => [f64::NAN, 1.0, 1.0, 1.0],
+                (_, x) if x < 0.2 => [1e200, 1e300, 1.0, 1e300],
+                _ => [draw(-20.0, 20.0), draw(0.0, 30.0), draw(0.0, 9.0), draw(-60.0, 60.0)],
+            };
+            let all: [[f64; 4]; 8] = core::array::from_fn(|_| one());
+            let of = |i: usize| Lanes::<8>::from_lanes(|k| all[k][i]);
+            let balance = Balance { climb: of(0), in_plane_squared: of(1), relief: of(2), supply: of(3) };
+            let together = balance.inflow();
+            for (k, [climb, in_plane_squared, relief, supply]) in all.into_iter().enumerate() {
+                let alone = Balance { climb, in_plane_squared, relief, supply }.inflow();
+                let found = together.lane(k);
+                assert!(found.to_bits() == alone.to_bits() || found.is_nan() && alone.is_nan(), "{:?}", all[k]);
             }
         }
     }
