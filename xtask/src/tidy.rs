@@ -31,7 +31,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-blocks", &["sincro-math"]),
     ("sincro-scene", &["sincro-math", "sincro-camera", "sincro-dynamics", "sincro-blocks"]),
     ("sincro-compile", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
-    ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
+    ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-compile"]),
     ("sincro-analysis", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
     ("sincro-coppelia", &["sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
     (

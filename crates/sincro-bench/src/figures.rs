@@ -2,6 +2,7 @@
 
 use sincro_dynamics::world::MethodKind;
 use sincro_scene::scene::Scene;
+use sincro_sim::rollout::Compile;
 use sincro_sim::run::method_word;
 
 use super::clock::{Meter, Sample, Subject, median, processors_had};
@@ -14,7 +15,7 @@ use super::{Options, accuracy, complain};
 /// Turns of ours and of the peer's in a comparison.
 const ROUNDS: usize = 5;
 /// Robots whose batches are measured.
-const BATCHES: [&str; 3] = ["alexandros", "arm2", "chain10"];
+const BATCHES: [&str; 5] = ["alexandros", "arm2", "quad", "panda", "chain10"];
 
 /// Kinds of figures, to choose among.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -105,9 +106,14 @@ fn timed(kind: FigureKind, model: &str, threads: usize) -> Vec<Timed> {
         }
         FigureKind::Batch if BATCHES.contains(&model) => {
             let request = |threads: usize| ("mujoco", format!("batch {model} euler 0.005 {threads} {WORLDS}"));
-            let mut figures = vec![Timed::new("batch", &[request(1)], |scene, _| subjects::batch(scene, 1))];
+            let mut figures = vec![
+                Timed::new("batch", &[request(1)], |scene, _| subjects::batch(scene, 1, Compile::IfPossible)),
+                Timed::new("batch not compiled", &[request(1)], |scene, _| subjects::batch(scene, 1, Compile::Never)),
+            ];
             if threads > 1 {
-                let several = Timed::new("batch, several threads", &[request(threads)], subjects::batch);
+                let several = Timed::new("batch, several threads", &[request(threads)], |scene, threads| {
+                    subjects::batch(scene, threads, Compile::IfPossible)
+                });
                 figures.push(Timed { on_wall: true, ..several });
             }
             figures
@@ -405,7 +411,7 @@ fn in_turn(meter: &mut Meter, peer: &mut Peer, request: &str, share: f64, on_wal
 /// takes away. The remark says how many processors two threads were given: with one of them busy elsewhere no gain can
 /// be seen.
 fn thread_gain(scene: &Scene, seconds: f64) -> (f64, String) {
-    let [mut one, mut two] = [1, 2].map(|threads| Meter::new(subjects::batch(scene, threads)));
+    let [mut one, mut two] = [1, 2].map(|threads| Meter::new(subjects::batch(scene, threads, Compile::IfPossible)));
     let (share, mut most) = (seconds / ROUNDS as f64, 0.0_f64);
     for _ in 0..ROUNDS {
         one.round(share);

@@ -17,7 +17,7 @@ use sincro_dynamics::{aba, rnea};
 use sincro_scene::camera::{Lens, NO_PIECE, Optics};
 use sincro_scene::experiment::{ErrorBar, Experiment, Integrator};
 use sincro_scene::scene::{Camera, ObjectKind, Scene};
-use sincro_sim::rollout::rollout;
+use sincro_sim::rollout::{Compile, Rollout, StepsBy};
 use sincro_sim::run::choose_method;
 
 use super::clock::Subject;
@@ -249,28 +249,44 @@ pub(super) fn rates(scene: &Scene) -> Subject {
     })
 }
 
-/// A simulated second of many worlds, per world and step.
-pub(super) fn batch(scene: &Scene, threads: usize) -> Subject {
+/// A simulated second of many worlds, per world and step; steps compiled or by the recursions.
+pub(super) fn batch(scene: &Scene, threads: usize, compile: Compile) -> Subject {
     let world = BatchWorld::new((*scene.model).clone(), scene.initial.clone());
-    let mut worlds = vec![world; WORLDS];
     let start = scene.initial.clone();
-    let mut run = move |h: f64| -> bool {
-        for world in &mut worlds {
-            restore(&mut world.state, &start);
-            world.stop = None;
-        }
+    let prepared = move |h: f64| {
         let settings =
             BatchSettings { method: MethodKind::SemiImplicitEuler, h, n_steps: STEPS_A_SECOND, record_every: 0 };
-        rollout(&mut worlds, &settings, threads).expect("the worlds are copies of one");
-        worlds[0].stop.is_none() && worlds[0].state.v.iter().all(|v| v.abs() < 1e6)
+        Rollout::new(vec![world.clone(); WORLDS], settings, compile)
+    };
+    let run = move |rollout: &mut Rollout| -> bool {
+        (0..WORLDS).for_each(|k| rollout.restart(k, &start));
+        rollout.advance(threads).expect("the worlds are copies of one");
+        let first = &rollout.worlds()[0];
+        first.stop.is_none() && first.state.v.iter().all(|v| v.abs() < 1e6)
     };
     let mut h = STEP;
-    while !run(h) && h > 1e-6 {
+    let mut rollout = prepared(h);
+    while !run(&mut rollout) && h > 1e-6 {
         h /= 10.0;
+        rollout = prepared(h);
     }
-    let note = if h < STEP { format!("diverges at 5 ms, timed at {} ms", h * 1e3) } else { String::new() };
+    let mut notes = Vec::new();
+    if h < STEP {
+        notes.push(format!("diverges at 5 ms, timed at {} ms", h * 1e3));
+    }
+    match rollout.steps_by() {
+        StepsBy::Compiled { elapsed, is_cached: false } => {
+            notes.push(format!("compiled in {:.2} s", elapsed.as_secs_f64()));
+        }
+        StepsBy::Compiled { is_cached: true, .. } => notes.push("compiled before".to_owned()),
+        StepsBy::Recursions { reason } if compile == Compile::IfPossible => {
+            notes.push(format!("not compiled: {reason}"));
+        }
+        StepsBy::Recursions { .. } => {}
+    }
+    let note = notes.join("; ");
     let call = move || {
-        black_box(run(h));
+        black_box(run(&mut rollout));
     };
     Subject::new(call).with_units(WORLDS as f64 * f64::from(STEPS_A_SECOND)).with_note(note)
 }

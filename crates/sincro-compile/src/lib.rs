@@ -2,6 +2,7 @@
 
 mod c;
 pub mod diagram;
+pub mod native;
 pub mod plant;
 pub mod scene;
 
@@ -14,7 +15,9 @@ use sincro_math::record::Unrecordable;
 pub struct Obstacle(String);
 
 impl Obstacle {
-    pub(crate) fn new(reason: impl Into<String>) -> Self {
+    /// Reason in words that continue "it cannot be compiled: ".
+    #[must_use]
+    pub fn new(reason: impl Into<String>) -> Self {
         Self(reason.into())
     }
 }

@@ -55,6 +55,20 @@ pub trait Real:
     /// bundles panic for a `k` beyond the last lane.
     fn lane(self, k: usize) -> f64;
 
+    /// Bundle of the first [`LANES`](Self::LANES) numbers of `row`; panics if there are fewer.
+    #[inline(always)]
+    fn from_row(row: &[f64]) -> Self {
+        Self::from_lanes(|k| row[k])
+    }
+
+    /// Writes all lanes to the first numbers of `row`; panics if there are fewer.
+    #[inline(always)]
+    fn to_row(self, row: &mut [f64]) {
+        for (k, x) in row[..Self::LANES].iter_mut().enumerate() {
+            *x = self.lane(k);
+        }
+    }
+
     /// Square root, in the root of the unit; NaN below zero. On dual numbers the derivative is infinite at zero.
     fn sqrt(self) -> Self;
 

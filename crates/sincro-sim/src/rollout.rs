@@ -1,13 +1,249 @@
-//! Many worlds of one structure at once: lanes within a processor, threads across them.
+//! Many worlds of one structure at once: lanes within a processor, threads across them, steps compiled where that pays.
 //!
-//! The result does not depend on the number of threads: each world has the bits it would have alone.
+//! The result does not depend on the number of threads, nor on what is compiled: each world has the bits it would have
+//! alone.
 
-use sincro_dynamics::batch::{self, BatchSettings, BatchWorld};
-use sincro_dynamics::model::PackError;
+use std::sync::Arc;
+use std::time::Duration;
+
+use sincro_compile::native::{self, NativeProgram};
+use sincro_compile::{Obstacle, plant};
+use sincro_dynamics::batch::{self, BatchSettings, BatchWorld, CompiledStep};
+use sincro_dynamics::model::{Model, PackError};
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::MethodKind;
+use sincro_math::record::Program;
+
+/// Steps of worlds times their degrees of freedom from which a compilation pays: it takes a few tenths of a second, and
+/// saves about 5 ns each.
+const WORTH_COMPILING: f64 = 1e8;
+
+/// Largest number of worlds that may differ in their models for a compiled step: every number of the step that differs
+/// is kept for each.
+const MAX_DIFFERENT: usize = 1 << 14;
+
+/// Choice of the way in which a batch makes its steps; the results are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Compile {
+    /// Compiled if that can be done and pays.
+    #[default]
+    IfItPays,
+    /// Compiled if that can be done.
+    IfPossible,
+    /// By the recursions.
+    Never,
+}
+
+/// Way in which a batch makes its steps.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StepsBy {
+    /// A program compiled by the system's C compiler.
+    Compiled {
+        /// Time for compiling, loading and comparing it.
+        elapsed: Duration,
+        /// True if it was in the cache.
+        is_cached: bool,
+    },
+    /// The recursions.
+    Recursions {
+        /// Reason why they are not compiled, in words that continue "it is not compiled: ".
+        reason: String,
+    },
+}
+
+/// Worlds of one structure that are advanced together, time and again; they may differ in every number of their models.
+#[derive(Debug)]
+pub struct Rollout {
+    worlds: Vec<BatchWorld>,
+    settings: BatchSettings,
+    compiled: Option<(Arc<NativeProgram>, Program)>,
+    steps_by: StepsBy,
+}
+
+/// Compiled step of one bundle, with the numbers of its worlds.
+#[derive(Debug)]
+pub(crate) struct BundleStep {
+    program: Arc<NativeProgram>,
+    parameters: Vec<f64>,
+}
+
+impl CompiledStep for BundleStep {
+    fn step(&self, rows: &mut [f64]) -> bool {
+        self.program.evaluate_in_place(rows, &self.parameters)
+    }
+}
+
+/// Compiles the step of `models` for lanes, with the program it was made from.
+pub(crate) fn compile_step(
+    models: &[&Model<f64>],
+    method: MethodKind,
+    h: f64,
+) -> Result<(native::Native, Program), Obstacle> {
+    let program = plant::step(models, method, h)?.with_folded_parameters();
+    let native = native::compile(&[&program])?;
+    Ok((native, program))
+}
+
+impl BundleStep {
+    /// Step of the worlds from number `first` on.
+    pub(crate) fn new(native: &Arc<NativeProgram>, program: &Program, first: usize) -> Self {
+        let parameters = native::rows_of_parameters(program, first, native.width());
+        Self { program: Arc::clone(native), parameters }
+    }
+}
+
+impl Rollout {
+    /// Prepares worlds, whose models must have the same structure, for steps by `settings`.
+    ///
+    /// ```
+    /// use sincro_dynamics::batch::{BatchSettings, BatchWorld};
+    /// use sincro_dynamics::prelude::*;
+    /// use sincro_sim::rollout::{Compile, Rollout};
+    ///
+    /// # let mut builder = ModelBuilder::new([0.0, 0.0, -9.81]);
+    /// # let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+    /// # let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+    /// # let mass = MassProperties { mass: 1.0, center_of_mass: [0.0, 0.0, -1.0], inertia: [0.0; 6] };
+    /// # builder.body("bob", hinge, Pose::identity(), BodySpec { mass });
+    /// # let model = builder.build()?.0;
+    /// let worlds = vec![BatchWorld::new(model.clone(), State::new(&model)); 64];
+    /// let settings =
+    ///     BatchSettings { method: MethodKind::SemiImplicitEuler, h: 0.001, n_steps: 1000, record_every: 0 };
+    /// let mut rollout = Rollout::new(worlds, settings, Compile::IfItPays);
+    /// for episode in 0..3 {
+    ///     for k in 0..64 {
+    ///         let start = State { q: vec![0.01 * k as f64], v: vec![episode as f64], ..State::new(&model) };
+    ///         rollout.restart(k, &start);
+    ///     }
+    ///     rollout.advance(0)?;
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn new(worlds: Vec<BatchWorld>, settings: BatchSettings, compile: Compile) -> Self {
+        let (compiled, steps_by) = match Self::compiled(&worlds, &settings, compile) {
+            Ok((mut native, program)) => {
+                let step = Arc::new(native.programs.remove(0));
+                let steps_by = StepsBy::Compiled { elapsed: native.elapsed, is_cached: native.is_cached };
+                (Some((step, program)), steps_by)
+            }
+            Err(obstacle) => (None, StepsBy::Recursions { reason: obstacle.to_string() }),
+        };
+        Self { worlds, settings, compiled, steps_by }
+    }
+
+    fn compiled(
+        worlds: &[BatchWorld],
+        settings: &BatchSettings,
+        compile: Compile,
+    ) -> Result<(native::Native, Program), Obstacle> {
+        let Some(first) = worlds.first() else { return Err(Obstacle::new("there is no world")) };
+        let work = worlds.len() as f64 * f64::from(settings.n_steps) * first.model.n_v() as f64;
+        if compile == Compile::Never {
+            return Err(Obstacle::new("that is not wanted"));
+        }
+        if compile == Compile::IfItPays && work < WORTH_COMPILING {
+            return Err(Obstacle::new("it would take longer than the steps"));
+        }
+        if worlds.len() < sincro_math::lanes::width() {
+            return Err(Obstacle::new("there are fewer worlds than lanes"));
+        }
+        // worlds of one model need no numbers of their own
+        let is_same = worlds.iter().all(|world| world.model.is_same(&first.model));
+        if !is_same && worlds.len() > MAX_DIFFERENT {
+            return Err(Obstacle::new(format!("there are more than {MAX_DIFFERENT} worlds with numbers of their own")));
+        }
+        let models: Vec<&Model<f64>> =
+            worlds.iter().map(|world| &world.model).take(if is_same { 1 } else { worlds.len() }).collect();
+        compile_step(&models, settings.method, settings.h)
+    }
+
+    /// Way in which the steps are made.
+    #[must_use]
+    pub fn steps_by(&self) -> &StepsBy {
+        &self.steps_by
+    }
+
+    /// The worlds.
+    #[must_use]
+    pub fn worlds(&self) -> &[BatchWorld] {
+        &self.worlds
+    }
+
+    /// The worlds, after the last advance.
+    #[must_use]
+    pub fn into_worlds(self) -> Vec<BatchWorld> {
+        self.worlds
+    }
+
+    /// Puts world `k` into a state, as if it had not run: without a reason to stop, with an empty record.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such world.
+    pub fn restart(&mut self, k: usize, state: &State<f64>) {
+        let world = &mut self.worlds[k];
+        world.state.clone_from(state);
+        world.stop = None;
+        world.record.clear();
+    }
+
+    /// Sets the commands of world `k` for every step; see [`BatchWorld::commands`].
+    ///
+    /// # Panics
+    ///
+    /// If there is no such world.
+    pub fn set_commands(&mut self, k: usize, commands: Vec<f64>) {
+        self.worlds[k].commands = commands;
+    }
+
+    /// Advances all worlds by [`BatchSettings::n_steps`] steps on `threads` threads (0: one per processor).
+    ///
+    /// # Errors
+    ///
+    /// [`PackError`] if the worlds differ in more than their numbers.
+    pub fn advance(&mut self, threads: usize) -> Result<(), PackError> {
+        let compiled = self.compiled.as_ref();
+        advance(&mut self.worlds, &self.settings, compiled, threads)
+    }
+}
+
+fn advance(
+    worlds: &mut [BatchWorld],
+    settings: &BatchSettings,
+    compiled: Option<&(Arc<NativeProgram>, Program)>,
+    threads: usize,
+) -> Result<(), PackError> {
+    let available = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = if threads == 0 { available } else { threads };
+    let width = sincro_math::lanes::width();
+    // whole bundles to each thread, so that lanes are full wherever they can be
+    let bundles = worlds.len().div_ceil(width);
+    let share = bundles.div_ceil(threads).max(1) * width;
+    let of_part = |part: &mut [BatchWorld], first: usize| match compiled {
+        None => batch::advance(part, settings),
+        Some((step, program)) => {
+            let of_bundle = |k: usize| -> Arc<dyn CompiledStep> { Arc::new(BundleStep::new(step, program, first + k)) };
+            batch::advance_compiled(part, settings, Some(&of_bundle))
+        }
+    };
+    if share >= worlds.len() {
+        return of_part(worlds, 0);
+    }
+    std::thread::scope(|scope| {
+        let of_part = &of_part;
+        let parts: Vec<_> = worlds
+            .chunks_mut(share)
+            .enumerate()
+            .map(|(k, part)| scope.spawn(move || of_part(part, k * share)))
+            .collect();
+        parts.into_iter().try_for_each(|part| part.join().expect("a batch does not panic"))
+    })
+}
 
 /// Advances all worlds by [`BatchSettings::n_steps`] steps, several in SIMD lanes and on `threads` threads (0: one per
-/// processor). Each world's [`BatchWorld::record`] and final state are filled in; they do not depend on the number of
-/// threads.
+/// processor), compiled if that pays: a [`Rollout`] used once. Each world's [`BatchWorld::record`] and final state are
+/// filled in; they do not depend on the number of threads.
 ///
 /// ```
 /// use sincro_dynamics::batch::{BatchSettings, BatchWorld};
@@ -41,18 +277,7 @@ use sincro_dynamics::model::PackError;
 ///
 /// [`PackError`] if the worlds differ in more than their numbers: they must have the same structure.
 pub fn rollout(worlds: &mut [BatchWorld], settings: &BatchSettings, threads: usize) -> Result<(), PackError> {
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = if threads == 0 { available } else { threads };
-    let width = sincro_math::lanes::width();
-    // whole bundles to each thread, so that lanes are full wherever they can be
-    let bundles = worlds.len().div_ceil(width);
-    let share = bundles.div_ceil(threads).max(1) * width;
-    if share >= worlds.len() {
-        return batch::advance(worlds, settings);
-    }
-    std::thread::scope(|scope| {
-        let parts: Vec<_> =
-            worlds.chunks_mut(share).map(|part| scope.spawn(move || batch::advance(part, settings))).collect();
-        parts.into_iter().try_for_each(|part| part.join().expect("a batch does not panic"))
-    })
+    let compiled = Rollout::compiled(worlds, settings, Compile::IfItPays).ok();
+    let compiled = compiled.map(|(mut native, program)| (Arc::new(native.programs.remove(0)), program));
+    advance(worlds, settings, compiled.as_ref(), threads)
 }

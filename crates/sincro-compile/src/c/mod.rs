@@ -3,13 +3,63 @@
 //! Every operation is a statement of its own, in the order of the program, so that no compiler may reassociate; only
 //! contraction to fused operations must be forbidden, which the texts do.
 
+mod lanes;
 mod support;
 
 use core::fmt::Write;
 
 use sincro_math::record::{Operation, Program, record, sin_cos_of_operations};
 
+pub(crate) use lanes::lane_support;
 pub(crate) use support::scalar_support;
+
+/// Kind of C that statements are written in; `prefix` starts the names of the functions of its support.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Dialect<'a> {
+    /// C99 on `double`; see [`scalar_support`].
+    Double { prefix: &'a str },
+    /// The GNU dialect on vectors, one world in each lane; see [`lane_support`].
+    Lanes,
+}
+
+impl Dialect<'_> {
+    fn prefix(&self) -> &str {
+        match self {
+            Self::Double { prefix } => prefix,
+            Self::Lanes => "",
+        }
+    }
+
+    /// Type of a number.
+    fn number_type(&self) -> &'static str {
+        match self {
+            Self::Double { .. } => "double",
+            Self::Lanes => "lanes",
+        }
+    }
+
+    fn constant(&self, x: f64) -> String {
+        match self {
+            Self::Double { .. } => number(x),
+            Self::Lanes => format!("ALL({})", number(x)),
+        }
+    }
+
+    fn parameter(&self, i: u32) -> String {
+        match self {
+            Self::Double { .. } => format!("parameters[{i}]"),
+            Self::Lanes => format!("AT(parameters, {i})"),
+        }
+    }
+
+    /// Selection by [`Operation::IfLess`].
+    fn if_less(&self, x: &[String]) -> String {
+        match self {
+            Self::Double { .. } => format!("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]),
+            Self::Lanes => format!("if_less({})", x.join(", ")),
+        }
+    }
+}
 
 /// Number as C reads it back to the same bits.
 pub(crate) fn number(x: f64) -> String {
@@ -25,18 +75,18 @@ pub(crate) fn number(x: f64) -> String {
 }
 
 /// Statements of a program: inputs are read first, by the expression `input(k)`, operations follow, and the outputs are
-/// written last, to `output(k)`. `prefix` starts the names of functions of the support.
+/// written last, to `output(k)`.
 pub(crate) fn statements(
     program: &Program,
-    prefix: &str,
+    dialect: Dialect<'_>,
     input: impl Fn(usize) -> String,
     output: impl Fn(usize) -> String,
 ) -> String {
-    let mut text = String::new();
+    let (mut text, prefix) = (String::new(), dialect.prefix());
     let operations = program.operations();
     let mut has_angle = vec![false; operations.len()];
     let name = |k: u32| match operations[k as usize] {
-        Operation::Constant(x) => number(x),
+        Operation::Constant(x) => dialect.constant(x),
         Operation::Sin(a) => format!("s{a}"),
         Operation::Cos(a) => format!("c{a}"),
         _ => format!("t{k}"),
@@ -46,7 +96,7 @@ pub(crate) fn statements(
         let value = match operation {
             Operation::Constant(_) => continue,
             Operation::Input(i) => input(*i as usize),
-            Operation::Parameter(i) => format!("parameters[{i}]"),
+            Operation::Parameter(i) => dialect.parameter(*i),
             Operation::Add(..) => format!("{} + {}", x[0], x[1]),
             Operation::Sub(..) => format!("{} - {}", x[0], x[1]),
             Operation::Mul(..) => format!("{} * {}", x[0], x[1]),
@@ -56,17 +106,20 @@ pub(crate) fn statements(
             Operation::Abs(_) => format!("{prefix}absolute({})", x[0]),
             Operation::Sin(a) | Operation::Cos(a) => {
                 if !core::mem::replace(&mut has_angle[*a as usize], true) {
-                    _ = writeln!(text, "    double s{a}, c{a};");
+                    _ = writeln!(text, "    {} s{a}, c{a};", dialect.number_type());
                     _ = writeln!(text, "    {prefix}sine_cosine({}, &s{a}, &c{a});", x[0]);
+                    if matches!(dialect, Dialect::Lanes) {
+                        _ = writeln!(text, "    angles += absolute({});", x[0]);
+                    }
                 }
                 continue;
             }
-            Operation::IfLess(_) => format!("{} < {} ? {} : {}", x[0], x[1], x[2], x[3]),
+            Operation::IfLess(_) => dialect.if_less(&x),
             Operation::CopySign(..) => format!("{prefix}copy_sign({}, {})", x[0], x[1]),
             Operation::IfOdd(_) => format!("{prefix}if_odd({}, {}, {})", x[0], x[1], x[2]),
             Operation::FlipBy { bit, .. } => format!("{prefix}flip_by_{bit}({}, {})", x[0], x[1]),
         };
-        _ = writeln!(text, "    const double t{k} = {value};");
+        _ = writeln!(text, "    const {} t{k} = {value};", dialect.number_type());
     }
     for (k, &result) in program.outputs().iter().enumerate() {
         _ = writeln!(text, "    {} = {};", output(k), name(result));
@@ -75,12 +128,12 @@ pub(crate) fn statements(
 }
 
 /// Statements of sine and cosine of `x` within the limit of the reduction, into `*sine` and `*cosine`.
-pub(crate) fn sine_statements(prefix: &str) -> String {
+fn sine_statements(dialect: Dialect<'_>) -> String {
     let program = record(1, 1, |x| {
         let (sine, cosine) = sin_cos_of_operations(x[0]);
         vec![sine, cosine]
     });
     let program = program.expect("the sine has no branch");
     let output = |k: usize| ["*sine", "*cosine"][k].to_owned();
-    statements(&program, prefix, |_| "x".to_owned(), output)
+    statements(&program, dialect, |_| "x".to_owned(), output)
 }

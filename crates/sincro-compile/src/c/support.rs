@@ -2,7 +2,7 @@
 
 use sincro_math::elementary::REDUCTION_LIMIT;
 
-use super::{number, sine_statements};
+use super::{Dialect, number, sine_statements};
 
 /// Support for `double`, free of the C library: functions whose names start with `prefix`, as far as they are needed
 /// for absolute values, square roots and sines.
@@ -98,7 +98,7 @@ static double {prefix}square_root(double x) {{
 
 fn sine_support(prefix: &str) -> String {
     let limit = number(REDUCTION_LIMIT);
-    let sine = sine_statements(prefix);
+    let sine = sine_statements(Dialect::Double { prefix });
     format!(
         r"
 static double {prefix}copy_sign(double x, double sign) {{

@@ -9,7 +9,7 @@ use sincro_math::record::{Operation, Program};
 use super::Request;
 use super::names::{self, Named, comment_text, identifiers};
 use super::parts::{Function, Parts};
-use crate::c::{number, scalar_support, statements};
+use crate::c::{Dialect, number, scalar_support, statements};
 use crate::diagram::{ByTick, CompiledBlock, CompiledDiagram, Computed};
 
 /// Fields of the plant's structure in C, with their numbers; those without any are left out.
@@ -190,6 +190,7 @@ fn element(arrays: &[(String, usize)], mut k: usize) -> String {
 pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
     let name = request.name;
     let prefix = format!("{name}_");
+    let dialect = Dialect::Double { prefix: &prefix };
     let mut text = format!(
         "/* {} See {name}.h.\n   Every operation is rounded by itself: contraction to fused operations must be off. */\n#include <stdint.h>\n#include \"{name}.h\"\n\n#if defined(__clang__)\n#pragma STDC FP_CONTRACT OFF\n#elif defined(__GNUC__)\n#pragma GCC optimize (\"fp-contract=off\")\n#else\n#pragma STDC FP_CONTRACT OFF\n#endif\n#if defined(__FAST_MATH__)\n#error \"-ffast-math changes results: compile without it\"\n#endif\n\n",
         comment_text(request.title),
@@ -212,7 +213,7 @@ pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
         }
         _ = writeln!(text, "}}\n\nvoid {name}_plant_step({name}_plant *plant) {{");
         let at = |k: usize| element(&of_plant, k);
-        text += &statements(step, &prefix, at, at);
+        text += &statements(step, dialect, at, at);
         text += "}\n";
     }
     for function in &parts.functions {
@@ -224,7 +225,7 @@ pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
         let program = &function.program;
         text += &unused(&inputs, program);
         let (from, to) = (|k| element(&inputs, k), |k| element(&outputs, k));
-        text += &statements(program, &prefix, from, to);
+        text += &statements(program, dialect, from, to);
         text += "}\n";
     }
     if let (Some(of_scene), Some(controller)) = (request.diagram, &parts.controller) {
@@ -240,7 +241,7 @@ pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
             }
             let at = |k: usize| element(&of_plant, k);
             let to = |k: usize| format!("controller->signals[{}]", signals[k]);
-            text += &statements(program, &prefix, at, to);
+            text += &statements(program, dialect, at, to);
             _ = writeln!(
                 text,
                 "}}\n\nvoid {name}_command(const {name}_controller *controller, {name}_plant *plant) {{"
@@ -309,7 +310,7 @@ fn controller_source(name: &str, prefix: &str, diagram: &Diagram, controller: &C
         Some(k) => format!("memory[{k}]"),
     };
     let body = |by_tick: &ByTick, to: &dyn Fn(usize) -> String| -> String {
-        let of = |program| indented(&statements(program, prefix, input, to));
+        let of = |program| indented(&statements(program, Dialect::Double { prefix }, input, to));
         match &by_tick.first {
             None => of(&by_tick.later),
             Some(first) => format!(

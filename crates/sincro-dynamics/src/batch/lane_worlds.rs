@@ -1,8 +1,10 @@
 //! Worlds of one structure in the lanes of one number type, and their step.
 
+use std::sync::Arc;
+
 use sincro_math::{Real, Task};
 
-use super::{BatchSettings, BatchWorld};
+use super::{BatchSettings, BatchWorld, CompiledStep};
 use crate::integrate::{Control, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::Mechanism;
 use crate::model::{Model, PackError};
@@ -40,6 +42,9 @@ pub struct LaneWorlds<R> {
     pub(super) y: Vec<R>,
     pub(super) reach_target_velocities: Vec<R>,
     method: FixedMethod<R>,
+    compiled: Option<Arc<dyn CompiledStep>>,
+    /// State and commands as the compiled step has them.
+    rows: Vec<f64>,
 }
 
 /// A fixed-step method with its working memory.
@@ -99,7 +104,15 @@ impl<R: Real> LaneWorlds<R> {
             MethodKind::DormandPrince | MethodKind::Stiff => panic!("lanes have a fixed step"),
         };
         let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
-        Ok(Self { y: vec![R::zero(); dim], reach_target_velocities, mechanism, method })
+        let (compiled, rows) = (None, Vec::new());
+        Ok(Self { y: vec![R::zero(); dim], reach_target_velocities, mechanism, method, compiled, rows })
+    }
+
+    /// Lets a compiled step make the steps from now on, wherever it can.
+    pub(super) fn compile_in(&mut self, compiled: Arc<dyn CompiledStep>) {
+        let model = self.mechanism.model();
+        let n = model.n_q() + model.n_v() + model.n_rotor_states() + model.n_commands();
+        (self.compiled, self.rows) = (Some(compiled), vec![0.0; n * R::LANES]);
     }
 
     /// Model of the worlds.
@@ -214,9 +227,30 @@ impl<R: Real> LaneWorlds<R> {
     #[inline(always)]
     pub fn step(&mut self, t: f64, h: f64) {
         // one world alone is a `World`: no copy of the step for it
-        if !R::IS_SCALAR {
+        if !R::IS_SCALAR && !self.compiled_step() {
             R::run_hot(Step { worlds: self, t, h });
         }
+    }
+
+    /// Makes a step by the compiled program; false if there is none, or it does not know this state.
+    #[inline(always)]
+    fn compiled_step(&mut self) -> bool {
+        let Some(compiled) = &self.compiled else { return false };
+        let layout = self.mechanism.layout();
+        let (velocities, rotors) = (layout.velocities(), layout.rotor_states());
+        let mut rows = self.rows.chunks_exact_mut(R::LANES);
+        write_rows(self.mechanism.base(), &mut rows);
+        write_rows(&self.y[velocities.clone()], &mut rows);
+        write_rows(&self.y[rotors.clone()], &mut rows);
+        write_rows(&self.mechanism.commands, &mut rows);
+        if !compiled.step(&mut self.rows) {
+            return false;
+        }
+        let mut rows = self.rows.chunks_exact(R::LANES);
+        read_rows(self.mechanism.base_mut(), &mut rows);
+        read_rows(&mut self.y[velocities], &mut rows);
+        read_rows(&mut self.y[rotors], &mut rows);
+        true
     }
 
     fn command(&mut self, worlds: &[BatchWorld], k: usize) {
@@ -300,5 +334,19 @@ impl<R: Real> LaneWorlds<R> {
             world.record.extend(self.mechanism.base().iter().map(|q| q.lane(k)));
             world.record.extend(self.y[layout.velocities()].iter().map(|v| v.lane(k)));
         }
+    }
+}
+
+#[inline(always)]
+fn write_rows<R: Real>(from: &[R], rows: &mut core::slice::ChunksExactMut<'_, f64>) {
+    for x in from {
+        x.to_row(rows.next().expect("a row each"));
+    }
+}
+
+#[inline(always)]
+fn read_rows<R: Real>(to: &mut [R], rows: &mut core::slice::ChunksExact<'_, f64>) {
+    for x in to {
+        *x = R::from_row(rows.next().expect("a row each"));
     }
 }

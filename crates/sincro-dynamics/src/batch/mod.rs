@@ -10,6 +10,9 @@
 mod lane_worlds;
 mod stepped;
 
+use core::fmt;
+use std::sync::Arc;
+
 use sincro_math::Real;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
@@ -61,6 +64,16 @@ pub struct BatchSettings {
     pub record_every: u32,
 }
 
+/// Step of the worlds of a bundle that was compiled for them, with the bits of [`LaneWorlds::step`].
+pub trait CompiledStep: fmt::Debug + Send + Sync {
+    /// Makes one step: `rows` has a row of lanes for each coordinate, velocity, rotor state and command, in this order.
+    /// Returns false, with `rows` as they were, where the program does not have the step's bits.
+    fn step(&self, rows: &mut [f64]) -> bool;
+}
+
+/// Compiled step of the bundle whose first world is the one given.
+pub type StepOfBundle<'a> = &'a (dyn Fn(usize) -> Arc<dyn CompiledStep> + Sync);
+
 /// Advances worlds by `n_steps` steps, as many at a time as the processor has lanes ([`sincro_math::lanes::width`]),
 /// with the same results as one by one. Worlds that lanes cannot take run alone.
 ///
@@ -91,12 +104,30 @@ pub struct BatchSettings {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn advance(worlds: &mut [BatchWorld], settings: &BatchSettings) -> Result<(), PackError> {
+    advance_compiled(worlds, settings, None)
+}
+
+/// As [`advance`], with the steps of bundles that lanes take made by compiled programs.
+///
+/// # Errors
+///
+/// As [`advance`].
+///
+/// # Panics
+///
+/// As [`advance`].
+pub fn advance_compiled(
+    worlds: &mut [BatchWorld],
+    settings: &BatchSettings,
+    compiled: Option<StepOfBundle<'_>>,
+) -> Result<(), PackError> {
     let fixed = matches!(settings.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
     assert!(fixed, "a batch has a fixed step");
     let width = sincro_math::lanes::width();
-    for bundle in worlds.chunks_mut(width) {
+    for (k, bundle) in worlds.chunks_mut(width).enumerate() {
         if bundle.iter().all(|w| suits_lanes(w, settings)) {
-            dispatch_lanes(Bundle { worlds: bundle, settings })?;
+            let compiled = compiled.map(|of| of(k * width));
+            dispatch_lanes(Bundle { worlds: bundle, settings, compiled })?;
         } else {
             bundle.iter_mut().for_each(|w| advance_alone(w, settings));
         }
@@ -174,6 +205,7 @@ fn record(into: &mut Vec<f64>, q: &[f64], v: &[f64], due: bool) {
 struct Bundle<'a> {
     worlds: &'a mut [BatchWorld],
     settings: &'a BatchSettings,
+    compiled: Option<Arc<dyn CompiledStep>>,
 }
 
 impl LaneVisitor for Bundle<'_> {
@@ -181,13 +213,15 @@ impl LaneVisitor for Bundle<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) -> Self::Output {
-        let Self { worlds, settings } = self;
+        let Self { worlds, settings, compiled } = self;
         if R::IS_SCALAR {
             worlds.iter_mut().for_each(|w| advance_alone(w, settings));
             return Ok(());
         }
         let models: Vec<&Model<f64>> = worlds.iter().map(|w| &w.model).collect();
-        LaneWorlds::<R>::new(&models, settings.method)?.run(worlds, settings);
+        let mut lanes = LaneWorlds::<R>::new(&models, settings.method)?;
+        compiled.into_iter().for_each(|compiled| lanes.compile_in(compiled));
+        lanes.run(worlds, settings);
         Ok(())
     }
 }

@@ -2,12 +2,13 @@
 
 use core::any::Any;
 use core::fmt;
+use std::sync::Arc;
 
 use sincro_math::Real;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
 use super::lane_worlds::LaneWorlds;
-use super::obstacle_to_lanes;
+use super::{CompiledStep, obstacle_to_lanes};
 use crate::coupled::StateView;
 use crate::kinematics;
 use crate::model::{Model, PackError};
@@ -54,6 +55,11 @@ impl SteppedLanes {
         assert!(sincro_math::lanes::width() > 1, "one world alone is a `World`");
         assert!(models.iter().all(|model| obstacle_to_lanes(model, kind).is_none()), "lanes advance these models");
         Ok(Self { worlds: dispatch_lanes(New { models, kind })? })
+    }
+
+    /// Lets a compiled step, made for the same models, method and length of step, make the steps from now on.
+    pub fn compile_in(&mut self, compiled: Arc<dyn CompiledStep>) {
+        dispatch_lanes(CompileIn { lanes: self, compiled });
     }
 
     /// Sets the state of lane `lane`, 0 to the number of lanes − 1 (others: no effect): coordinates (n_q), velocities
@@ -103,6 +109,20 @@ impl LaneVisitor for New<'_> {
     #[inline(always)]
     fn visit<R: Real>(self) -> Self::Output {
         Ok(Box::new(LaneWorlds::<R>::new(self.models, self.kind)?))
+    }
+}
+
+struct CompileIn<'a> {
+    lanes: &'a mut SteppedLanes,
+    compiled: Arc<dyn CompiledStep>,
+}
+
+impl LaneVisitor for CompileIn<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        self.lanes.worlds::<R>().compile_in(self.compiled);
     }
 }
 

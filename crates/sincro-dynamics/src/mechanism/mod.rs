@@ -219,6 +219,10 @@ impl<R: Real> Mechanism<R> {
         &self.base
     }
 
+    pub(crate) fn base_mut(&mut self) -> &mut [R] {
+        &mut self.base
+    }
+
     /// Sets the chart's origin; y is not changed.
     pub(crate) fn set_base(&mut self, q: &[R]) {
         self.base.copy_from_slice(q);

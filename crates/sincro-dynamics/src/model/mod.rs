@@ -103,6 +103,12 @@ impl<R: Real> Model<R> {
         &self.params
     }
 
+    /// Returns true if `other` is a copy of this model with the same parameters.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.structure, &other.structure) && self.params == other.params
+    }
+
     /// Replaces the parameters by those of a model of the same structure.
     ///
     /// # Panics

@@ -175,6 +175,18 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn from_row(row: &[f64]) -> Self {
+                // SAFETY: the slice has as many numbers
+                Self(unsafe { $load(row[..$n].as_ptr()) })
+            }
+
+            #[inline(always)]
+            fn to_row(self, row: &mut [f64]) {
+                // SAFETY: the slice has room for as many numbers
+                unsafe { $store(row[..$n].as_mut_ptr(), self.0) }
+            }
+
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 Self(unsafe { $sqrt(self.0) })
             }

@@ -239,6 +239,51 @@ impl Program {
         self.outputs.iter().map(|&x| values[x as usize]).collect()
     }
 
+    /// The same program with each operation on constants and parameters alone done once for every lane: its results are
+    /// parameters.
+    ///
+    /// ```
+    /// use sincro_math::Real;
+    /// use sincro_math::record::{Recorded, record};
+    ///
+    /// let masses = [1.0, 4.0];
+    /// let program = record(1, 2, |x| vec![x[0] / Recorded::from_lanes(|lane| masses[lane]).sqrt()]).unwrap();
+    /// let folded = program.with_folded_parameters();
+    /// assert_eq!((program.n_computed(), folded.n_computed()), (2, 1));
+    /// assert_eq!(folded.evaluate(&[6.0], 1), [3.0]);
+    /// ```
+    #[must_use]
+    pub fn with_folded_parameters(&self) -> Self {
+        let n_lanes = self.parameters.first().map_or(1, Vec::len);
+        // values in the lanes, of what no input decides
+        let mut known: Vec<Option<Vec<f64>>> = Vec::with_capacity(self.operations.len());
+        let (mut operations, mut parameters) = (Vec::with_capacity(self.operations.len()), Vec::new());
+        for operation in &self.operations {
+            let values = match operation {
+                Operation::Input(_) => None,
+                Operation::Constant(x) => Some(vec![*x; n_lanes]),
+                Operation::Parameter(k) => Some(self.parameters[*k as usize].clone()),
+                other => {
+                    let operands: Option<Vec<&Vec<f64>>> =
+                        other.operands().iter().map(|&x| known[x as usize].as_ref()).collect();
+                    operands.map(|x| {
+                        let of_lane = |lane: usize| x.iter().map(|x| x[lane]).collect::<Vec<f64>>();
+                        (0..n_lanes).map(|lane| other.apply(&of_lane(lane))).collect()
+                    })
+                }
+            };
+            operations.push(match &values {
+                Some(values) if !matches!(operation, Operation::Constant(_)) => {
+                    parameters.push(values.clone());
+                    Operation::Parameter(parameters.len() as u32 - 1)
+                }
+                _ => *operation,
+            });
+            known.push(values);
+        }
+        Self::new(operations, self.outputs.clone(), self.n_inputs, parameters)
+    }
+
     /// Program of the same inputs with the partial derivatives of the outputs after them: of all outputs by the first
     /// input of `by`, then by the second, and so on (forward-mode differentiation). A selection has the derivative of
     /// what it selects, an absolute value at zero that from above.

@@ -87,6 +87,8 @@ struct Recorder {
     n_lanes: usize,
     /// Values of each parameter in the lanes.
     parameters: Vec<Vec<f64>>,
+    /// Index of each parameter that is there, by the bits of its values.
+    known_parameters: BTreeMap<Vec<u64>, u32>,
     failure: Option<&'static str>,
 }
 
@@ -115,12 +117,13 @@ pub(super) fn from_lanes(mut f: impl FnMut(usize) -> f64) -> Recorded {
         if same {
             return recorder.push(Operation::Constant(values[0]));
         }
-        let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
-        let k = recorder.parameters.iter().position(|known| bits(known) == bits(&values)).unwrap_or_else(|| {
+        let bits: Vec<u64> = values.iter().map(|x| x.to_bits()).collect();
+        let next = recorder.parameters.len() as u32;
+        let k = *recorder.known_parameters.entry(bits).or_insert(next);
+        if k == next {
             recorder.parameters.push(values);
-            recorder.parameters.len() - 1
-        });
-        recorder.push(Operation::Parameter(k as u32))
+        }
+        recorder.push(Operation::Parameter(k))
     }))
 }
 
@@ -135,6 +138,7 @@ impl Recorder {
             known: BTreeMap::new(),
             n_lanes: n_lanes.max(1),
             parameters: Vec::new(),
+            known_parameters: BTreeMap::new(),
             failure: None,
         };
         assert_eq!(new.add(Operation::Constant(0.0)), ZERO);

@@ -1,0 +1,77 @@
+//! Functions that the statements on lanes call: vectors of the GNU dialect of C, which gcc and clang have.
+
+use super::{Dialect, sine_statements};
+
+/// Support for `lanes`, vectors of `width` numbers: selections by comparison and by bits, square root, sine and cosine.
+///
+/// Statements may use the macros `ALL(x)`, a number in all lanes, and `AT(array, k)`, row `k` of an array of rows of
+/// `width` numbers. Sines are right for angles within the limit of their reduction: the caller looks at them, by the
+/// sum of their magnitudes in `angles`.
+pub(crate) fn lane_support(width: usize) -> String {
+    let bytes = 8 * width;
+    let all = |x: &str| vec![x; width].join(", ");
+    let (all_of_x, all_of_bits) = (all("(x)"), all("(x)"));
+    let root = match width {
+        4 | 8 if cfg!(target_arch = "x86_64") => {
+            "    lanes root;\n    __asm__(\"vsqrtpd %1, %0\" : \"=v\"(root) : \"v\"(x));\n    return root;\n".to_owned()
+        }
+        _ => format!("    int k;\n    for (k = 0; k < {width}; k++) x[k] = __builtin_sqrt(x[k]);\n    return x;\n"),
+    };
+    let sine = sine_statements(Dialect::Lanes);
+    format!(
+        r#"typedef double lanes __attribute__((vector_size({bytes})));
+typedef double row __attribute__((vector_size({bytes}), aligned(8), may_alias));
+typedef unsigned long long bits __attribute__((vector_size({bytes})));
+
+#define ALL(x) ((lanes){{{all_of_x}}})
+#define BITS(x) ((bits){{{all_of_bits}}})
+#define AT(array, k) (*(row *)((array) + {width} * (k)))
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE lanes selected(bits mask, lanes a, lanes b) {{
+    return (lanes)((mask & (bits)a) | (~mask & (bits)b));
+}}
+
+INLINE lanes if_less(lanes a, lanes b, lanes then, lanes otherwise) {{
+    return selected((bits)(a < b), then, otherwise);
+}}
+
+INLINE lanes absolute(lanes x) {{
+    return (lanes)((bits)x & BITS(0x7fffffffffffffffull));
+}}
+
+INLINE lanes square_root(lanes x) {{
+{root}}}
+
+INLINE lanes copy_sign(lanes x, lanes sign) {{
+    const bits mask = BITS(0x8000000000000000ull);
+    return (lanes)(((bits)x & ~mask) | ((bits)sign & mask));
+}}
+
+INLINE lanes if_odd(lanes n, lanes odd, lanes even) {{
+    return selected(BITS(0) - ((bits)n & BITS(1)), odd, even);
+}}
+
+INLINE lanes flip_by_0(lanes x, lanes n) {{
+    return (lanes)((bits)x ^ ((bits)n << 63));
+}}
+
+INLINE lanes flip_by_1(lanes x, lanes n) {{
+    return (lanes)((bits)x ^ (((bits)n << 62) & BITS(0x8000000000000000ull)));
+}}
+
+/* Sine and cosine of x [rad] below the limit of the reduction. */
+INLINE void sine_cosine(lanes x, lanes *sine, lanes *cosine) {{
+{sine}}}
+
+/* True if all lanes are below a limit; false for those that are no numbers. */
+INLINE int all_below(lanes x, double limit) {{
+    const bits below = (bits)(x < ALL(limit));
+    unsigned long long all = below[0];
+    int k;
+    for (k = 1; k < {width}; k++) all &= below[k];
+    return all != 0;
+}}
+"#
+    )
+}

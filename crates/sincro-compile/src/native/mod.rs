@@ -1,0 +1,202 @@
+//! Programs compiled for the lanes of this processor by the system's C compiler, and loaded.
+//!
+//! A library is made once and kept in a cache (`$XDG_CACHE_HOME/sincro/compiled`, else `~/.cache/sincro/compiled`) by
+//! the hash of its text and the compiler's options; two processes may make the same one at once. Whatever comes from
+//! compiler or cache is compared with [`Program::evaluate`] bit by bit before it is used. The compiler is `CC`, or
+//! `cc`; the environment variable `SINCRO_COMPILE=off` forbids it.
+//!
+//! What is not compiled here is run by the recursions themselves, with the same bits: compiled programs are faster,
+//! and nothing else.
+
+mod cache;
+mod compiler;
+mod library;
+mod text;
+
+use core::fmt;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use sincro_math::random::splitmix64;
+use sincro_math::record::Program;
+
+use crate::Obstacle;
+use library::{Function, LoadedLibrary};
+
+/// Largest number of operations of the programs of one library: compilers take more than their number's time.
+const MAX_OPERATIONS: usize = 40_000;
+
+/// Rounds of the comparison with the programs, each with other random inputs in every lane.
+const ROUNDS: u64 = 4;
+
+/// Program that runs on all lanes of the processor at once, with the bits of [`Program::evaluate`] in each.
+#[derive(Clone)]
+pub struct NativeProgram {
+    library: Arc<LoadedLibrary>,
+    function: Function,
+    n_inputs: usize,
+    n_parameters: usize,
+    n_outputs: usize,
+    width: usize,
+}
+
+impl fmt::Debug for NativeProgram {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("NativeProgram").field("n_inputs", &self.n_inputs).finish_non_exhaustive()
+    }
+}
+
+/// Programs that were compiled together.
+#[derive(Clone, Debug)]
+pub struct Native {
+    /// The programs, in the order in which they were given.
+    pub programs: Vec<NativeProgram>,
+    /// Time for compiling, loading and comparing.
+    pub elapsed: Duration,
+    /// True if the library was in the cache.
+    pub is_cached: bool,
+}
+
+/// Compiles programs for the lanes of this processor ([`sincro_math::lanes::width`]).
+///
+/// # Errors
+///
+/// [`Obstacle`]: the processor has one lane, the programs are too long, there is no compiler or cache, or what the
+/// compiler made differs from the programs by a bit.
+///
+/// ```
+/// use sincro_math::Real;
+/// use sincro_math::record::record;
+///
+/// let program = record(2, 1, |x| vec![x[0] * x[1].sin_cos().0]).unwrap();
+/// if let Ok(native) = sincro_compile::native::compile(&[&program]) {
+///     let width = sincro_math::lanes::width();
+///     let inputs: Vec<f64> = (0..2 * width).map(|k| 0.1 * k as f64).collect(); // row by row
+///     let mut outputs = vec![0.0; width];
+///     assert!(native.programs[0].evaluate(&inputs, &[], &mut outputs));
+///     assert_eq!(outputs[1], program.evaluate(&[inputs[1], inputs[width + 1]], 0)[0]);
+/// }
+/// ```
+pub fn compile(programs: &[&Program]) -> Result<Native, Obstacle> {
+    let start = Instant::now();
+    if std::env::var_os("SINCRO_COMPILE").is_some_and(|value| value == "off") {
+        return Err(Obstacle::new("SINCRO_COMPILE=off forbids it"));
+    }
+    let width = sincro_math::lanes::width();
+    if width == 1 {
+        return Err(Obstacle::new("this processor has neither AVX2 nor AVX-512"));
+    }
+    let n_operations: usize = programs.iter().map(|program| program.operations().len()).sum();
+    if n_operations > MAX_OPERATIONS {
+        let words = format!("it has {n_operations} operations, more than {MAX_OPERATIONS}");
+        return Err(Obstacle::new(words));
+    }
+    let text = text::library(programs, width);
+    let options = compiler::options();
+    let folder = cache::folder()?;
+    let path = folder.join(cache::name(&text, &options));
+    let of_cache = if path.exists() { load(&path, programs, width).ok() } else { None };
+    let is_cached = of_cache.is_some();
+    let programs = match of_cache {
+        Some(programs) => programs,
+        None => {
+            let made = cache::temporary(&folder);
+            let loaded = compiler::run(&text, &options, made.path()).and_then(|()| load(made.path(), programs, width));
+            let loaded = loaded.map_err(Obstacle::new)?;
+            cache::publish(made, &path);
+            loaded
+        }
+    };
+    Ok(Native { programs, elapsed: start.elapsed(), is_cached })
+}
+
+/// Loads a library and compares it with the programs.
+fn load(path: &std::path::Path, programs: &[&Program], width: usize) -> Result<Vec<NativeProgram>, String> {
+    let library = Arc::new(LoadedLibrary::open(path)?);
+    let of = |(k, program): (usize, &&Program)| {
+        let new = NativeProgram {
+            function: library.function(&text::function_name(k))?,
+            library: Arc::clone(&library),
+            n_inputs: program.n_inputs(),
+            n_parameters: program.parameters().len(),
+            n_outputs: program.outputs().len(),
+            width,
+        };
+        new.compare(program)?;
+        Ok(new)
+    };
+    programs.iter().enumerate().map(of).collect()
+}
+
+impl NativeProgram {
+    /// Number of lanes: the length of the rows of inputs and outputs.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Evaluates the program in all lanes: `inputs`, `parameters` and `outputs` have one row of [`width`](Self::width)
+    /// numbers for each of the program's. Returns false, with `outputs` as they were, where the program does not have
+    /// the bits of its algorithm: for angles of 1e6 rad and more and for inputs of 1e100 and more.
+    ///
+    /// # Panics
+    ///
+    /// If an array has another length.
+    #[inline]
+    pub fn evaluate(&self, inputs: &[f64], parameters: &[f64], outputs: &mut [f64]) -> bool {
+        assert_eq!(inputs.len(), self.n_inputs * self.width, "one row an input");
+        assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
+        assert_eq!(outputs.len(), self.n_outputs * self.width, "one row an output");
+        self.library.call(self.function, inputs.as_ptr(), parameters, outputs.as_mut_ptr())
+    }
+
+    /// As [`evaluate`](Self::evaluate), with the outputs in place of the first inputs.
+    ///
+    /// # Panics
+    ///
+    /// If an array has another length, or there are more outputs than inputs.
+    #[inline]
+    pub fn evaluate_in_place(&self, rows: &mut [f64], parameters: &[f64]) -> bool {
+        assert_eq!(rows.len(), self.n_inputs * self.width, "one row an input");
+        assert!(self.n_outputs <= self.n_inputs, "outputs take the place of inputs");
+        assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
+        let rows = rows.as_mut_ptr();
+        self.library.call(self.function, rows.cast_const(), parameters, rows)
+    }
+
+    /// Compares the outputs with the program's, for random inputs of many sizes.
+    fn compare(&self, program: &Program) -> Result<(), String> {
+        let width = self.width;
+        let mut outputs = vec![0.0; self.n_outputs * width];
+        // a parameter has a value for each world: those of the first lanes
+        let parameters = rows_of_parameters(program, 0, width);
+        for round in 0..ROUNDS {
+            let draw = |k: u64| {
+                let bits = splitmix64(round, k);
+                let size = [1.0, 1e-3, 30.0, 1.0][(bits % 4) as usize];
+                size * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+            };
+            let inputs: Vec<f64> = (0..(self.n_inputs * width) as u64).map(draw).collect();
+            if !self.evaluate(&inputs, &parameters, &mut outputs) {
+                continue;
+            }
+            for lane in 0..width {
+                let of_lane: Vec<f64> = inputs.iter().skip(lane).step_by(width).copied().collect();
+                let wanted = program.evaluate(&of_lane, lane);
+                let found = outputs.iter().skip(lane).step_by(width);
+                if found.zip(&wanted).any(|(a, b)| a.to_bits() != b.to_bits() && !(a.is_nan() && b.is_nan())) {
+                    return Err("what the compiler made differs from the program by a bit".to_owned());
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Rows of the parameters of `width` worlds from world `first` on; where there are fewer, the last one is repeated.
+#[must_use]
+pub fn rows_of_parameters(program: &Program, first: usize, width: usize) -> Vec<f64> {
+    let of =
+        |values: &Vec<f64>| -> Vec<f64> { (first..first + width).map(|k| values[k.min(values.len() - 1)]).collect() };
+    program.parameters().iter().flat_map(of).collect()
+}
