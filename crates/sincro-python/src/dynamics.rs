@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use sincro::Diagnostics;
 use sincro_analysis::dynamics::{EquationTerms, EvaluationPoint, equation_terms};
 use sincro_analysis::linear::Axis;
-use sincro_analysis::linearize::{self, Linearization, Request, TrimRequest, operating_point};
+use sincro_analysis::linearize::{self, Linearization, Request, TrimRequest, open_loops, operating_point};
 use sincro_dynamics::aba::{Input, forward_dynamics};
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
@@ -115,6 +115,34 @@ fn about(loaded: &Loaded, mut at: LockStep, request: &LinearRequest) -> Result<L
     let analysis = Analysis::of(format!("{}, linearised", loaded.experiment.title), &found.system);
     let text = sincro::linearization::json(&analysis, Some(&found.reduction));
     Ok((text, [found.state, found.input, found.output, found.rate], found.notes))
+}
+
+/// JSON of the scene with its sampled controller, from one period of all sample times to the next, with the margins of
+/// the loops that are opened at some signals; about where a fresh run is at a time.
+pub fn sampled_at(loaded: &Loaded, t: f64, equilibrium: bool, loops: &[String]) -> Result<String, Diagnostics> {
+    sampled_about(loaded, operating_point(loaded, t)?, equilibrium, loops)
+}
+
+/// The same about where a run is now.
+pub fn sampled(loaded: &Loaded, at: &LockStep, equilibrium: bool, loops: &[String]) -> Result<String, Diagnostics> {
+    let mut at = at.fork().lockstep;
+    at.latch();
+    sampled_about(loaded, at, equilibrium, loops)
+}
+
+fn sampled_about(
+    loaded: &Loaded,
+    mut at: LockStep,
+    equilibrium: bool,
+    loops: &[String],
+) -> Result<String, Diagnostics> {
+    if equilibrium {
+        at = linearize::trim(loaded, &at, &TrimRequest::default())?.at;
+    }
+    let loops = open_loops(loaded, &at, &located("loops", loops))?;
+    let found = linearize::linearize_sampled(loaded, &at)?;
+    let title = format!("{}, sampled loop", loaded.experiment.title);
+    Ok(sincro::linearization::json(&Analysis::of(title, &found.system).with_loops(&loops), None))
 }
 
 /// Request of a trim.

@@ -550,6 +550,27 @@ impl Model {
         found.map_err(|found| errors::scene(py, &found))
     }
 
+    /// JSON of the sampled loop (`sincro linearize --sampled --json`), which is opened at the signals `loops` in turn.
+    #[pyo3(signature = (at, equilibrium, loops))]
+    fn _linearize_sampled(
+        &self,
+        py: Python<'_>,
+        at: Option<f64>,
+        equilibrium: bool,
+        loops: Vec<String>,
+    ) -> PyResult<String> {
+        let found = match at {
+            Some(t) => {
+                self.refuse_closed(py)?;
+                foreground::contained(py, || dynamics::sampled_at(&self.loaded, t, equilibrium, &loops))?
+            }
+            None => {
+                self.with_live(py, |live| Ok(dynamics::sampled(&self.loaded, &live.lockstep, equilibrium, &loops)))?
+            }
+        };
+        found.map_err(|found| errors::scene(py, &found))
+    }
+
     /// JSON of an equilibrium (`sincro trim --json`); its state becomes that of the run under way if `go` is true.
     #[pyo3(signature = (free, want, closed_loop, go))]
     fn _trim(

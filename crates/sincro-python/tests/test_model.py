@@ -1,5 +1,9 @@
 """The run under way, the equations of motion, linear analysis, exceptions."""
 
+import json
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -98,6 +102,38 @@ def test_linearize_trim_and_lqr():
     assert C.shape[1] == 4 and D.shape[1] == 1
     rest = model.trim()
     assert rest.largest_rate < 1e-9
+
+
+def test_margins_are_those_of_the_command_line():
+    scene, signal = "scenes/two-dof-position", "speed[0]"
+    command = [sys.executable, "-m", "sincro", "linearize", scene, "--sampled", "--loop", signal, "--json"]
+    told = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    system = sincro.load(scene).linearize(at=0.0, sampled=True, loops=[signal])
+    assert system.report == told and system.sample_time == 0.005
+    (loop,) = system.loops.values()
+    # an integrator sampled with gain: |L| = k·h/|z − 1| is 1 a little above k = 2 rad/s, a quarter turn from −1
+    assert loop.phase_margin.omega == pytest.approx(2.0, rel=1e-3)
+    assert loop.phase_margin.value == pytest.approx(90.0, abs=1.0) and loop.gain_margin is None
+    assert loop.omega.shape == loop.magnitude_db.shape == loop.phase_deg.shape
+    assert loop.modulus_margin.value < 1.0 and system.loops[signal].samples_per_period == 1
+    fresh = sincro.load(scene).linearize(sampled=True, loops=[signal])
+    assert fresh.loops[signal].phase_margin == loop.phase_margin
+
+
+def test_margins_of_a_channel():
+    # a motor that has its commanded speed at once is an integrator
+    system = sincro.load("scenes/motor-step").linearize(at=0.0)
+    margin = system.margins().phase_margin
+    assert margin.omega == pytest.approx(1.0) and margin.value == pytest.approx(90.0)
+    assert system.margins("/motor.command", "/motor.position").modulus_margin is None
+    with pytest.raises(sincro.UnknownNameError, match="no input"):
+        system.margins("/nothing", system.outputs[0])
+    with pytest.raises(sincro.ArgumentError, match="sampled=True"):
+        sincro.load("scenes/spring-dynamic").linearize(loops=["x"])
+    with pytest.raises(sincro.ArgumentError, match="as a whole"):
+        sincro.load("scenes/spring-dynamic").linearize(sampled=True, outputs=["/shoulder.position"])
+    with pytest.raises(sincro.SceneError, match="no signal `speed`"):
+        sincro.load("scenes/two-dof-position").linearize(at=0.0, sampled=True, loops=["speed"])
 
 
 def test_a_function_controls_in_lock_step_as_the_diagram_does():

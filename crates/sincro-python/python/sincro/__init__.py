@@ -23,7 +23,7 @@ from ._errors import (
     StoppedError,
     UnknownNameError,
 )
-from ._linear import Equilibrium, LinearSystem
+from ._linear import Equilibrium, LinearSystem, Margin, Margins
 from ._model import Model, State
 from ._model import toml_value as _toml_value
 from ._result import Result, Signal
@@ -38,6 +38,8 @@ __all__ = [
     "Equilibrium",
     "InternalError",
     "LinearSystem",
+    "Margin",
+    "Margins",
     "Model",
     "Result",
     "Scene",

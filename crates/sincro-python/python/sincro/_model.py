@@ -150,7 +150,9 @@ class Model(_sincro.Model):
 
     # ---- linear analysis
 
-    def linearize(self, at=None, *, equilibrium=False, inputs=(), outputs=(), closed_loop=False) -> LinearSystem:
+    def linearize(
+        self, at=None, *, equilibrium=False, inputs=(), outputs=(), closed_loop=False, sampled=False, loops=()
+    ) -> LinearSystem:
         """Linearises the scene, exactly, by dual numbers.
 
         ``at``: time in s to which a fresh run goes first; None: where the run under way is. ``equilibrium``: find one near
@@ -158,12 +160,27 @@ class Model(_sincro.Model):
         unless given. ``outputs``: signals; all coordinates unless given. ``closed_loop``: with the continuous blocks of the
         diagram in the loop.
 
+        ``sampled``: the scene with its sampled diagram, from one period of all sample times to the next, by central
+        differences. ``loops``: signals of the diagram at which it is opened, each in turn; ``system.loops[signal]`` then
+        has the :class:`sincro.Margins`.
+
         >>> import sincro
         >>> system = sincro.load("scenes/spring-dynamic").linearize(at=0.0)
         >>> system.A.shape, system.stability
         ((2, 2), 'stable')
+        >>> system = sincro.load("scenes/two-dof-position").linearize(at=0.0, sampled=True, loops=["speed[0]"])
+        >>> system.loops["speed[0]"]
+        <sincro.Margins speed[0]: no gain margin, phase margin 89.1° at 2 rad/s, modulus margin 0.986>
         """
-        return LinearSystem(*self._linearize(at, equilibrium, list(inputs), list(outputs), closed_loop))
+        if isinstance(loops, str):
+            raise ArgumentError(f"`loops` is a list of names: write [{loops!r}]")
+        if loops and not sampled:
+            raise ArgumentError("loops are opened in the sampled system: sampled=True")
+        if not sampled:
+            return LinearSystem(*self._linearize(at, equilibrium, list(inputs), list(outputs), closed_loop))
+        if inputs or outputs or closed_loop:
+            raise ArgumentError("the sampled system is the scene as a whole: without inputs, outputs and closed_loop")
+        return LinearSystem(self._linearize_sampled(at, equilibrium, list(loops)), None, [])
 
     def trim(self, *, free=(), want=None, closed_loop=False, go=False) -> Equilibrium:
         """Finds an equilibrium near where the run under way is.
