@@ -46,6 +46,60 @@ def test_gymnasium_has_nothing_to_say(name):
     assert env.render().shape == (360, 480, 3) and env.render().std() > 1
 
 
+@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("mode", list(AutoresetMode))
+def test_worlds_are_what_gymnasium_makes_of_single_ones(name, mode):
+    n = 4
+    ours = sincro.gym.make_vec(scene(name), n, autoreset=mode)
+    single = [lambda: sincro.gym.make(scene(name))] * n
+    theirs = gymnasium.vector.SyncVectorEnv(single, autoreset_mode=mode)
+    for space in ("single_observation_space", "single_action_space", "observation_space", "action_space"):
+        assert getattr(ours, space) == getattr(theirs, space)
+    seen = [envs.reset(seed=21)[0] for envs in (ours, theirs)]
+    assert np.array_equal(*seen) and ours.observation_space.contains(seen[0])
+    alive, before = np.ones(n, dtype=bool), seen[0]
+    for action in actions_for(ours, 150):
+        kept = before.copy()
+        (a, rewards, *ends, info), (b, their_rewards, *their_ends, their_info) = (envs.step(action) for envs in (ours, theirs))
+        # what was returned before is not written to
+        assert np.array_equal(before, kept)
+        before = a
+        assert a.dtype == b.dtype and rewards.dtype == their_rewards.dtype and ends[0].dtype == their_ends[0].dtype
+        over = ends[0] | ends[1]
+        for x, y in zip((rewards, *ends), (their_rewards, *their_ends), strict=True):
+            assert x.shape == (n,) and np.array_equal(x[alive], y[alive])
+        if mode is AutoresetMode.SAME_STEP:
+            for k in np.flatnonzero(over & alive):
+                assert info["_final_obs"][k] and their_info["_final_obs"][k]
+                assert np.array_equal(info["final_obs"][k], their_info["final_obs"][k])
+        else:
+            assert np.array_equal(a[alive], b[alive])
+        # only the first episodes are the same: gymnasium begins the next ones without a seed
+        alive &= ~over
+        if not alive.any() or (mode is AutoresetMode.DISABLED and over.any()):
+            break
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_wrappers_of_gymnasium_work(name):
+    from gymnasium.wrappers import vector as wrappers
+
+    short = (scene(name), 3, {"task.time_limit": 1.0})
+    envs = wrappers.DictInfoToList(wrappers.RecordEpisodeStatistics(sincro.gym.make_vec(*short, autoreset="SameStep")))
+    envs.reset(seed=0)
+    ended = []
+    for action in actions_for(envs, 60):
+        _, _, terminated, truncated, infos = envs.step(action)
+        for k in np.flatnonzero(terminated | truncated):
+            assert infos[k]["final_obs"].shape == envs.single_observation_space.shape
+            ended.append(infos[k]["episode"]["l"])
+    assert len(ended) >= 3 and max(ended) <= 50
+    normal = wrappers.NormalizeReward(wrappers.NormalizeObservation(sincro.gym.make_vec(*short)))
+    normal.reset(seed=0)
+    seen = np.array([normal.step(action)[0] for action in actions_for(normal, 60)])
+    assert np.isfinite(seen).all() and seen.dtype.kind == "f"
+
+
 def test_pictures_are_the_right_way_up():
     env = sincro.gym.make(scene("cart-pole-balance"), render_mode="rgb_array")
     env.reset(seed=0)
@@ -145,6 +199,34 @@ def test_cart_pole_has_the_episodes_of_gymnasium():
             last = result[0]
         lengths.append(pair)
     assert all(a == b for a, b in lengths), lengths
+
+
+def test_arrays_of_cart_poles_have_the_episodes_of_gymnasium():
+    n = 300
+    ours = sincro.gym.make_vec(scene("cart-pole-balance"), n)
+    theirs = gymnasium.make_vec("CartPole-v1", n, "vector_entry_point").unwrapped
+    theirs.kinematics_integrator = "semi-implicit euler"
+    observations, _ = ours.reset(seed=8)
+    theirs.reset(seed=0)
+    theirs.state = observations.T.copy()
+    generator = np.random.default_rng(2)
+    # the worlds do not hear of each other, so roundings grow by exp(4 t) and more: episodes of up to 5 s are compared
+    steps = 250
+    results, seen = [], observations
+    for _ in range(steps):
+        x, v, q, w = seen.T
+        noise = 0.4 * generator.standard_normal(n)
+        action = (q + 0.5 * w + 0.05 * x + 0.1 * v + noise > 0).astype(np.int64)
+        stepped = [envs.step(action) for envs in (ours, theirs)]
+        results.append([np.stack(parts[1:4]) for parts in stepped])
+        seen = stepped[0][0]
+    rewards, terminated, truncated = np.array(results).transpose(2, 1, 0, 3)
+    lengths = [np.where(t.any(0), t.argmax(0) + 1, steps + 1) for t in terminated > 0]
+    # the first episode of each world: after it, each draws a start of its own
+    during = np.arange(steps)[:, None] < lengths[0]
+    assert np.array_equal(*lengths) and not truncated.any()
+    assert np.array_equal(*(rewards * during).sum(1))
+    assert np.unique(lengths[0]).size > 50 and np.median(lengths[0]) > 50
 
 
 def test_randomised_parameters_are_drawn_by_episode(tmp_path):

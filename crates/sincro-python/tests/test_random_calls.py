@@ -1,6 +1,7 @@
 """Random calls by hypothesis: every one returns or raises an exception of ours; none ends the process."""
 
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ hypothesis = pytest.importorskip("hypothesis")
 from hypothesis import HealthCheck, given, settings  # noqa: E402
 from hypothesis import strategies as st  # noqa: E402
 
-# calls in each of the two tests; 10⁵ in all are made with SINCRO_RANDOM_CALLS=50000
+# calls in each of the five tests; 10⁵ in all are made with SINCRO_RANDOM_CALLS=20000
 CALLS = int(os.environ.get("SINCRO_RANDOM_CALLS", "1500"))
 PER_EXAMPLE = 25
 QUIET = dict(deadline=None, suppress_health_check=list(HealthCheck), database=None, derandomize=True)
@@ -47,6 +48,7 @@ CALLABLE = {
     "jacobian": (names, arrays),
     "restore": (anything,),
     "linearize": (st.sampled_from([None, 0.0, -1.0, np.nan, "x"]),),
+    "_linearize_sampled": (st.sampled_from([None, 0.0, -1.0, np.nan, "x"]), st.just(False), st.lists(names, max_size=2)),
     "controller": (anything,),
     "reset": (),
     "release": (),
@@ -81,47 +83,94 @@ MODEL = None
 
 @pytest.fixture(autouse=True, scope="module")
 def a_model():
-    from pathlib import Path
-
     global MODEL
-    MODEL = sincro.load(Path(__file__).resolve().parents[3] / "scenes/cart-pole-lqr")
+    MODEL = sincro.load(scene("cart-pole-lqr"))
     yield
     MODEL = None
 
 
+TASKS = ["cart-pole-balance", "quadrotor-hover"]
+seeds = st.one_of(st.none(), st.integers(-2, 5), st.lists(st.integers(0, 9), max_size=4), numbers)
+
+
+def scene(name):
+    return Path(__file__).resolve().parents[3] / "scenes" / name
+
+
+def refused():
+    gymnasium = pytest.importorskip("gymnasium")
+    return (*EXPECTED, gymnasium.error.Error)
+
+
+def sequence_of(names, arguments):
+    call = st.tuples(st.sampled_from(names), arguments, seeds)
+    return st.lists(call, min_size=PER_EXAMPLE, max_size=PER_EXAMPLE)
+
+
+def actions_of(n):
+    """Actions for n worlds, right ones among them."""
+    choices = st.lists(st.integers(-1, 2), min_size=n, max_size=n)
+    forces = st.lists(st.lists(st.floats(-1, 1), min_size=4, max_size=4), min_size=n, max_size=n)
+    return st.one_of(arrays, choices, forces)
+
+
+@pytest.mark.parametrize("name", TASKS)
 @settings(max_examples=max(1, CALLS // PER_EXAMPLE), **QUIET)
-@given(
-    st.lists(
-        st.tuples(
-            st.sampled_from(["step", "reset"]),
-            st.one_of(arrays, st.lists(st.integers(-1, 2), min_size=3, max_size=3)),
-            st.one_of(st.none(), st.integers(-2, 5), st.lists(st.integers(0, 9), max_size=4), numbers),
-        ),
-        min_size=PER_EXAMPLE,
-        max_size=PER_EXAMPLE,
-    ),
-    st.sampled_from(["NextStep", "SameStep", "Disabled"]),
-)
-def test_worlds_survive_random_calls(sequence, mode):
+@given(sequence_of(["step", "step", "reset"], actions_of(3)), st.sampled_from(["NextStep", "SameStep", "Disabled"]))
+def test_worlds_survive_random_calls(name, sequence, mode):
     pytest.importorskip("gymnasium")
     import sincro.gym
 
-    from pathlib import Path
-
-    scene = Path(__file__).resolve().parents[3] / "scenes/cart-pole-balance"
-    envs = sincro.gym.make_vec(scene, 3, autoreset=mode, threads=1)
-    for name, argument, seed in sequence:
+    envs = sincro.gym.make_vec(scene(name), 3, autoreset=mode, threads=1)
+    shape = envs.observation_space.shape
+    for call, argument, seed in sequence:
         try:
-            if name == "step":
+            if call == "step":
                 observations, rewards, *_ = envs.step(argument)
-                assert observations.shape == (3, 4) and np.isfinite(observations).all() and np.isfinite(rewards).all()
+                assert observations.shape == shape and np.isfinite(observations).all() and np.isfinite(rewards).all()
             else:
                 envs.reset(seed=seed, options={"reset_mask": argument} if isinstance(argument, np.ndarray) else None)
-        except (*EXPECTED, gymnasium_error()) as error:
-            assert not isinstance(error, sincro.InternalError), (name, argument, error)
+        except refused() as error:
+            assert not isinstance(error, sincro.InternalError), (call, argument, error)
 
 
-def gymnasium_error():
-    import gymnasium
+@pytest.mark.parametrize("name", TASKS)
+@settings(max_examples=max(1, CALLS // PER_EXAMPLE), **QUIET)
+@given(sequence_of(["step", "step", "step", "reset", "render", "close"], st.one_of(actions_of(1), st.integers(0, 1))))
+def test_single_worlds_survive_random_calls(name, sequence):
+    pytest.importorskip("gymnasium")
+    import sincro.gym
 
-    return gymnasium.error.Error
+    env = sincro.gym.make(scene(name))
+    for call, argument, seed in sequence:
+        try:
+            if call == "step":
+                observation, reward, terminated, truncated, _ = env.step(argument)
+                assert env.observation_space.contains(observation) and np.isfinite(reward)
+                assert isinstance(terminated, bool) and isinstance(truncated, bool)
+            elif call == "reset":
+                env.reset(seed=seed)
+            else:
+                getattr(env, call)()
+        except refused() as error:
+            assert not isinstance(error, sincro.InternalError), (call, argument, error)
+
+
+@settings(max_examples=100, **QUIET)
+@given(anything, anything, st.one_of(st.none(), anything), st.one_of(anything, st.sampled_from([0, -1, 2])))
+def test_environments_are_made_or_refused(count, settings_given, mode, threads):
+    pytest.importorskip("gymnasium")
+    import sincro.gym
+
+    if isinstance(count, int) and count > 5:
+        return
+    keywords = {} if mode is None else {"autoreset": mode}
+    for make in (
+        lambda: sincro.gym.make_vec(scene(TASKS[0]), count, settings_given, threads=threads, **keywords),
+        lambda: sincro.gym.make(scene(TASKS[0]), settings_given, render_mode=mode, camera=count),
+        lambda: sincro.gym.make(settings_given),
+    ):
+        try:
+            make()
+        except (*refused(), AttributeError, OSError) as error:
+            assert not isinstance(error, sincro.InternalError), error
