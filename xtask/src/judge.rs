@@ -14,6 +14,7 @@ const JUDGES: &[(&str, Judge)] = &[
     ("error-bars", error_bars),
     ("exported-c", exported_c),
     ("import", import),
+    ("learning", learning),
     ("processors", processors),
 ];
 
@@ -97,6 +98,35 @@ fn import(root: &Path) -> bool {
                 .args([program.as_path(), work.as_path()])
                 .args(["urdf", "sdf", "mjcf", "bullet", "--markdown"])
                 .arg(root.join("docs/import.md")),
+        )
+}
+
+/// Trains policies for tasks in the box by PPO of stable-baselines3, and writes the learning curves that the notebook
+/// shows; needs some gigabytes for PyTorch.
+fn learning(root: &Path) -> bool {
+    let work = root.join("target/judges/learning");
+    let (venv, wheels) = (work.join("venv"), work.join("wheels"));
+    let python = venv.join("bin/python");
+    let pip = |arguments: &[&str]| {
+        let mut command = Command::new(&python);
+        command.args(["-m", "pip", "install", "-q"]).args(arguments);
+        command
+    };
+    crate::runs(Command::new("python3").args(["-m", "venv"]).arg(&venv))
+        && crate::runs(&mut pip(&["maturin==1.16.0", "gymnasium==1.4.0", "stable-baselines3==2.9.2"]))
+        && crate::runs(
+            Command::new(venv.join("bin/maturin"))
+                .args(["build", "--release", "--manifest-path"])
+                .arg(root.join("crates/sincro-python/Cargo.toml"))
+                .arg("--out")
+                .arg(&wheels),
+        )
+        && crate::runs(pip(&["--no-index", "--no-deps", "--force-reinstall", "sincro", "--find-links"]).arg(&wheels))
+        && crate::runs(
+            Command::new(&python)
+                .arg(root.join("crates/sincro-python/tests/judges/learning.py"))
+                .arg(root.join("docs/notebooks/learning-to-hover.csv"))
+                .current_dir(root),
         )
 }
 

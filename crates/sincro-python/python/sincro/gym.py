@@ -21,7 +21,7 @@ from . import _sincro
 from . import load as _load
 from ._errors import ArgumentError
 
-__all__ = ["SceneEnv", "SceneVectorEnv", "make", "make_vec"]
+__all__ = ["SceneEnv", "SceneVectorEnv", "make", "make_vec", "sb3_vec_env"]
 
 _MODES = {
     AutoresetMode.NEXT_STEP: "next-step",
@@ -58,6 +58,21 @@ def make_vec(scene, num_envs, settings=None, *, autoreset=AutoresetMode.NEXT_STE
     (8, 4)
     """
     return SceneVectorEnv(scene, num_envs, settings, autoreset=autoreset, threads=threads, **experiment)
+
+
+def sb3_vec_env(envs):
+    """Worlds of a task, made by ``make_vec(…, autoreset="SameStep")``, as a ``VecEnv`` of stable-baselines3.
+
+    What an episode saw last is ``infos[k]["terminal_observation"]``, its end by the time limit
+    ``infos[k]["TimeLimit.truncated"]``, as that library expects.
+    """
+    if not isinstance(envs, SceneVectorEnv) or envs.autoreset_mode is not AutoresetMode.SAME_STEP:
+        raise ArgumentError('stable-baselines3 resets in the same step: give make_vec(…, autoreset="SameStep")')
+    try:
+        from ._sb3 import Sb3VecEnv
+    except ImportError as missing:
+        raise ImportError("this needs stable-baselines3: pip install stable-baselines3") from missing
+    return Sb3VecEnv(envs)
 
 
 class _Actions:
