@@ -45,6 +45,7 @@ function check()
   s = sincro_start(scene, {}, 'reads', {'/shoulder.position', '/shoulder/elbow.position'}, 'writes', {'/shoulder', '/shoulder/elbow'});
   fails(@() sincro_step(s, 1), 'sincro:argument', '2 `writes`');
   fails(@() sincro_step(s, [1, NaN]), 'sincro:argument', '/shoulder/elbow');
+  fails(@() sincro_step(s, [0, 0], 0.5), 'sincro:argument', 'whole number');
   fails(@() s.call('sim.getJointPosition', int32(12345)), 'sincro:refused', '12345');
   q = s.y;
   for k = 1:1200

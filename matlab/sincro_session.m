@@ -58,6 +58,9 @@ classdef sincro_session < handle
 
     function [y, t] = step(s, u, n)
       % Commands, n steps, measurements: what `sincro_step` does.
+      if ~isnumeric(n) || ~isscalar(n) || n < 1 || n ~= round(n)
+        error('sincro:argument', 'the number of steps is a whole number from 1 on');
+      end
       if ~isempty(u)
         if ~isnumeric(u) || numel(u) ~= numel(s.writes)
           error('sincro:argument', 'u has %d numbers; there is one for each of the %d `writes`', numel(u), numel(s.writes));
@@ -88,6 +91,13 @@ classdef sincro_session < handle
         r = sincro_read(place);
         if s.is_temporary, r.folder = ''; end
       end
+      s.finish();
+    end
+  end
+
+  methods
+    function delete(s)
+      % The server ends with the object.
       s.finish();
     end
   end
@@ -166,7 +176,10 @@ classdef sincro_session < handle
       if ~isempty(options.step), parts = [parts, {'--simulation-step', sincro_value(options.step)}]; end
       log = [tempname() '.log'];
       forget = onCleanup(@() delete(log));
-      [~, text] = system([sincro_command(parts) ' > ' log ' 2>&1 & echo $!']);
+      % a second process ends the server should this program end without `sincro_stop`
+      if exist('OCTAVE_VERSION', 'builtin'), own = getpid(); else, own = feature('getpid'); end
+      watch = sprintf('(while kill -0 %d && kill -0 $p; do sleep 1; done; kill $p) > /dev/null 2>&1 & echo $p', own);
+      [~, text] = system([sincro_command(parts) ' > ' log ' 2>&1 & p=$!; ' watch]);
       s.process = strtrim(text);
       port = [];
       for look = 1:600
