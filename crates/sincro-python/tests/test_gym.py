@@ -255,6 +255,14 @@ def test_wrong_actions_are_refused(action):
         env.step(action)
 
 
+@pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.DISABLED])
+def test_stable_baselines_takes_worlds_that_reset_in_the_same_step(mode):
+    with pytest.raises(sincro.ArgumentError, match="SameStep"):
+        sincro.gym.sb3_vec_env(sincro.gym.make_vec(scene("acrobot"), 2, autoreset=mode))
+    with pytest.raises(sincro.ArgumentError, match="make_vec"):
+        sincro.gym.sb3_vec_env(sincro.gym.make(scene("acrobot")))
+
+
 @pytest.mark.parametrize("action", [2, -1, 0.5, np.array([0, 1]), None])
 def test_wrong_choices_are_refused(action):
     env = sincro.gym.make(scene("cart-pole-balance"))
