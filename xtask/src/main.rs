@@ -4,7 +4,8 @@
 //! - `tidy`: the checks of `check` that need no compiler: tree, arrows, words, manifests.
 //! - `bless`: rewrites generated files (schemas, trace hashes) after a change that is meant.
 //! - `dist`: builds the program and the library of FMUs as they are given away (profile `dist`), packs them as
-//!   `.tar.gz` and `.deb`; fails if one is too large.
+//!   `.tar.gz` and `.deb`; fails if one is too large. `--glibc 2.28`: for systems with that glibc or a newer one (needs
+//!   `cargo-zigbuild`).
 //! - `judge NAME`: compares with other programs and public files, and writes the page of it.
 //! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
@@ -27,17 +28,28 @@ fn main() -> ExitCode {
         Some("check") => check(),
         Some("bless") => bless(),
         Some("tidy") => exit(tidy::check(&root())),
-        Some("dist") => {
-            let packages = ["build", "--profile", "dist", "--package", "sincro", "--package", "sincro-fmi"];
-            exit(runs(&mut cargo(&packages)) && dist::size_holds(&root()) && dist::pack(&root()))
-        }
+        Some("dist") => exit(dist()),
         Some("judge") => exit(judge::run(&root(), std::env::args().nth(2).as_deref())),
         Some("api-sample") => exit(sample::print(&root())),
         _ => {
-            eprintln!("usage: cargo xtask check | tidy | bless | dist | judge NAME | api-sample");
+            eprintln!("usage: cargo xtask check | tidy | bless | dist [--glibc VERSION] | judge NAME | api-sample");
             ExitCode::from(2)
         }
     }
+}
+
+fn dist() -> bool {
+    let arguments: Vec<String> = std::env::args().skip(2).collect();
+    let request = match dist::Request::read(&arguments) {
+        Ok(request) => request,
+        Err(message) => {
+            eprintln!("{message}");
+            return false;
+        }
+    };
+    let build: Vec<String> = request.build();
+    let build: Vec<&str> = build.iter().map(String::as_str).collect();
+    runs(&mut cargo(&build)) && request.holds(&root()) && dist::pack(&root(), &request)
 }
 
 /// The workspace's folder.
