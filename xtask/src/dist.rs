@@ -14,7 +14,7 @@ const MAX_BYTES: u64 = 25_000_000;
 /// Bound on the size of the library in every FMU `[bytes]`: 15 MB, less than 6 MB when packed.
 const MAX_LIBRARY_BYTES: u64 = 15_000_000;
 
-/// What `dist` is asked for: the oldest version of glibc that the packages must run with, such as `2.28`; that of this
+/// Request of `dist`: the oldest version of glibc that the packages must run with, such as `2.28`; that of this
 /// machine if none is given.
 #[derive(Clone, Debug, Default)]
 pub struct Request {

@@ -200,6 +200,47 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
         f64::INFINITY
     }
 
+    /// Number of zero-crossing functions of a block with events of its own that are located within a step, 0 if it has
+    /// time events alone; `None` for blocks without events, the default. Such a block is evaluated between ticks.
+    fn zero_crossing_count(&self) -> Option<usize> {
+        None
+    }
+
+    /// Computes the zero-crossing functions into `values`, as many as [`Block::zero_crossing_count`]: above zero where
+    /// an event has happened since the last [`Block::handle_events`], below zero where it has not; continuous in time
+    /// between events. All inputs are known.
+    fn zero_crossings<R: Real>(&self, _at: &At<'_, R>, _work: &mut Self::Work<R>, _values: &mut [R]) {}
+
+    /// Instant of the next time event that the block itself has scheduled `[s]`, from its discrete states; infinite if
+    /// there is none, the default.
+    fn scheduled_event<R: Real>(&self, _memory: &[R]) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Handles the events that have happened at this instant: time events that are due, zero crossings, jumps of
+    /// inputs. Changes discrete states (`memory`) and continuous ones (`states`); `at.memory` and `at.states` are
+    /// empty. Called at every tick before [`Block::output`], the first of the run included, where only inputs with
+    /// direct feedthrough may be read, and after every accepted step of the integrator (`is_step_end`). Returns true if
+    /// there was an event.
+    fn handle_events<R: Real>(
+        &self,
+        _at: &At<'_, R>,
+        _work: &mut Self::Work<R>,
+        _state: (&mut [R], &mut [R]),
+        _is_step_end: bool,
+    ) -> bool {
+        false
+    }
+
+    /// State that the block keeps outside of the diagram, as bytes for a snapshot, such as that of a foreign library;
+    /// `None` if it keeps none there, the default, or cannot save it. `memory` are its discrete states.
+    fn save_outside<R: Real>(&self, _work: &Self::Work<R>, _memory: &[R]) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Takes back the state of [`Block::save_outside`], to go on from the discrete states that were saved with it.
+    fn restore_outside<R: Real>(&self, _work: &mut Self::Work<R>, _saved: Option<&[u8]>, _memory: &[R]) {}
+
     /// Highest frequency `[Hz]` in the outputs of a source up to time `until` `[s]`, for choosing step sizes; 0 for
     /// blocks that are no source. `is_sampled`: it is evaluated at ticks only. Jumps and corners that are located as
     /// time events count as 0.

@@ -69,6 +69,9 @@ pub trait DynBlock: Debug + Send + Sync {
     /// First instant after time `t` at which the outputs jump because of time alone `[s]`; see
     /// [`Block::next_time_event`].
     fn next_time_event(&self, t: f64) -> f64;
+    /// Number of zero-crossing functions, `None` for blocks without events of their own; see
+    /// [`Block::zero_crossing_count`].
+    fn zero_crossing_count(&self) -> Option<usize>;
     /// Highest frequency of a source up to time `until` `[s]`, in `[Hz]`; see [`Block::highest_frequency`].
     fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64;
     /// Remark for the report at the end of a run, from the discrete states `memory`; see [`Block::notice`].
@@ -121,6 +124,9 @@ impl<B: Block> DynBlock for B {
     fn next_time_event(&self, t: f64) -> f64 {
         Block::next_time_event(self, t)
     }
+    fn zero_crossing_count(&self) -> Option<usize> {
+        Block::zero_crossing_count(self)
+    }
     fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
         Block::highest_frequency(self, until, is_sampled)
     }
@@ -160,6 +166,16 @@ pub trait RunningBlock<R>: Debug + Send + Sync {
     fn neg_jacobian_diagonal(&self, at: &At<'_, R>, diagonal: &mut [R]);
     /// Computes the discrete states of the next tick into `memory`; see [`Block::update`].
     fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]);
+    /// Computes the zero-crossing functions; see [`Block::zero_crossings`].
+    fn zero_crossings(&mut self, at: &At<'_, R>, values: &mut [R]);
+    /// Next time event that the block has scheduled `[s]`; see [`Block::scheduled_event`].
+    fn scheduled_event(&self, memory: &[R]) -> f64;
+    /// Handles the events of this instant, with discrete and continuous states; see [`Block::handle_events`].
+    fn handle_events(&mut self, at: &At<'_, R>, state: (&mut [R], &mut [R]), is_step_end: bool) -> bool;
+    /// State that is kept outside of the diagram; see [`Block::save_outside`].
+    fn save_outside(&self, memory: &[R]) -> Option<Vec<u8>>;
+    /// Takes it back; see [`Block::restore_outside`].
+    fn restore_outside(&mut self, saved: Option<&[u8]>, memory: &[R]);
     /// Copy of the instance with its buffers.
     fn boxed_clone(&self) -> Box<dyn RunningBlock<R>>;
 }
@@ -191,6 +207,21 @@ impl<B: Block, R: Real> RunningBlock<R> for Running<B, R> {
     }
     fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]) {
         self.block.update(at, &mut self.work, memory, states);
+    }
+    fn zero_crossings(&mut self, at: &At<'_, R>, values: &mut [R]) {
+        self.block.zero_crossings(at, &mut self.work, values);
+    }
+    fn scheduled_event(&self, memory: &[R]) -> f64 {
+        self.block.scheduled_event(memory)
+    }
+    fn handle_events(&mut self, at: &At<'_, R>, state: (&mut [R], &mut [R]), is_step_end: bool) -> bool {
+        self.block.handle_events(at, &mut self.work, state, is_step_end)
+    }
+    fn save_outside(&self, memory: &[R]) -> Option<Vec<u8>> {
+        self.block.save_outside(&self.work, memory)
+    }
+    fn restore_outside(&mut self, saved: Option<&[u8]>, memory: &[R]) {
+        self.block.restore_outside(&mut self.work, saved, memory);
     }
     fn boxed_clone(&self) -> Box<dyn RunningBlock<R>> {
         Box::new(self.clone())

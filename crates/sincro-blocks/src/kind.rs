@@ -158,6 +158,8 @@ pub enum ValueKind {
     Texts,
     /// Table of names with numbers or formulas.
     Names,
+    /// Table of names with numbers or lists of numbers.
+    NumberLists,
     /// One of the listed words.
     Choice(&'static [&'static str]),
     /// Name of a file in the folder of the scene.

@@ -258,10 +258,11 @@ impl Program {
         minor.fold(f64::INFINITY, |first, step| first.min(step.template.next_time_event(t)))
     }
 
-    /// Returns true if anything changes between ticks: a continuous state or a continuous command.
+    /// Returns true if anything changes between ticks: a continuous state, a continuous command, an event of a block.
     #[must_use]
     pub fn is_continuous(&self) -> bool {
-        self.n_states > 0 || self.commands.iter().any(|c| c.is_continuous)
+        let has_events = self.steps.iter().any(|step| step.template.zero_crossing_count().is_some());
+        has_events || self.n_states > 0 || self.commands.iter().any(|c| c.is_continuous)
     }
 }
 

@@ -507,6 +507,34 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Reads a table of names with finite numbers, each one or a list (of lists, row by row), in the order of the file
+    /// (empty after a fault, NaN for a wrong number).
+    pub fn named_lists(&mut self, key: &str) -> Vec<(String, Vec<f64>)> {
+        match self.value(key) {
+            Some(Value::Table(table)) => table
+                .iter()
+                .map(|(name, x)| {
+                    let mut flat = Vec::new();
+                    self.flatten(x, &[key, name], &mut flat);
+                    (name.clone(), flat)
+                })
+                .collect(),
+            Some(_) => {
+                self.fault(key, format!("`{key}` is not a table"), "write { name = number, list = [1, 2], … }");
+                Vec::new()
+            }
+            None => Vec::new(),
+        }
+    }
+
+    fn flatten(&mut self, value: &Value, path: &[&str], flat: &mut Vec<f64>) {
+        match value {
+            Value::List(list) => list.iter().for_each(|x| self.flatten(x, path, flat)),
+            Value::Flag(flag) => flat.push(f64::from(u8::from(*flag))),
+            _ => flat.push(self.numeric(value, path)),
+        }
+    }
+
     /// Reads a table of names with formulas as texts, in the order of the file (empty after a fault).
     pub fn named_texts(&mut self, key: &str) -> Vec<(String, String)> {
         match self.value(key) {
@@ -679,7 +707,7 @@ fn default_value(text: &str, takes: ValueKind) -> Value {
     match takes {
         ValueKind::Flag => Value::Flag(text == "true"),
         ValueKind::Texts | ValueKind::Matrix if text == "[]" => Value::List(Vec::new()),
-        ValueKind::Names => Value::Table(Vec::new()),
+        ValueKind::Names | ValueKind::NumberLists => Value::Table(Vec::new()),
         ValueKind::Text | ValueKind::Choice(_) | ValueKind::File => Value::Text(text.to_owned()),
         _ if text == "[]" => Value::List(Vec::new()),
         _ => text.parse().map_or_else(|_| Value::Text(text.to_owned()), Value::Number),

@@ -27,6 +27,9 @@ pub struct State<R> {
     pub continuous: Vec<R>,
     /// Discrete states of all blocks, each in its own unit (`Program::n_memory`).
     pub memory: Vec<R>,
+    /// States that blocks keep elsewhere ([`Block::save_outside`](crate::block::Block::save_outside)), as bytes with
+    /// the index of the step: filled by [`Runner::save`], empty in a run.
+    pub outside: Vec<(usize, Vec<u8>)>,
 }
 
 /// Signal at which a loop is opened for analysis: all that reads it sees another value than its block gives.
@@ -85,6 +88,8 @@ pub struct Runner<R: Number> {
     minor_late: Vec<usize>,
     with_states: Vec<usize>,
     with_memory: Vec<usize>,
+    /// Steps that have events of their own.
+    with_events: Vec<usize>,
 }
 
 impl<R: Number> Runner<R> {
@@ -96,6 +101,7 @@ impl<R: Number> Runner<R> {
             signals: zeros(program.n_signals),
             continuous: zeros(program.n_states),
             memory: zeros(program.n_memory),
+            outside: Vec::new(),
         };
         let instances = program.steps.iter().map(|step| R::instance(step.template.as_ref())).collect();
         let period = |step: &Step| program.periods.iter().position(|p| *p == step.node.every).unwrap_or(0);
@@ -110,6 +116,7 @@ impl<R: Number> Runner<R> {
             minor_late: those(&|s| s.is_minor).into_iter().filter(|k| *k >= program.n_early).collect(),
             with_states: those(&|s| !s.states.is_empty()),
             with_memory: those(&|s| !s.memory.is_empty() || !s.states.is_empty()),
+            with_events: those(&|s| s.template.zero_crossing_count().is_some()),
             state,
             opening: None,
             instances,
@@ -155,10 +162,32 @@ impl<R: Number> Runner<R> {
         self.evaluate_range(0..self.program.n_early, tick, t);
     }
 
-    /// Continues from a `state` as it was after the evaluation of tick `tick` (counted in base steps from 0).
+    /// Continues from a `state` of [`Runner::save`], as it was after the evaluation of tick `tick` (counted in base
+    /// steps from 0).
     pub fn resume(&mut self, state: State<R>, tick: u64) {
         self.state = state;
+        let outside = core::mem::take(&mut self.state.outside);
+        for (k, (step, instance)) in self.program.steps.iter().zip(&mut self.instances).enumerate() {
+            let saved = outside.iter().find(|(of, _)| *of == k).map(|(_, bytes)| bytes.as_slice());
+            instance.restore_outside(saved, &self.state.memory[step.memory.clone()]);
+        }
         self.find_due(tick);
+    }
+
+    /// Returns the state, with what blocks keep elsewhere, for [`Runner::resume`].
+    #[must_use]
+    pub fn save(&self) -> State<R> {
+        State { outside: self.save_outside(), ..self.state.clone() }
+    }
+
+    /// States that blocks keep elsewhere, as [`State::outside`] has them.
+    #[must_use]
+    pub fn save_outside(&self) -> Vec<(usize, Vec<u8>)> {
+        let save = |k: usize| {
+            let memory = &self.state.memory[self.program.steps[k].memory.clone()];
+            Some((k, self.instances[k].save_outside(memory)?))
+        };
+        (0..self.instances.len()).filter_map(save).collect()
     }
 
     fn find_due(&mut self, tick: u64) {
@@ -190,6 +219,9 @@ impl<R: Number> Runner<R> {
     fn evaluate_range(&mut self, steps: core::ops::Range<usize>, tick: u64, t: f64) {
         for k in steps {
             if self.program.steps[k].rate != Rate::Constant && self.due[self.period[k]] {
+                if self.with_events.contains(&k) {
+                    self.handle_events_of(k, tick, t, false);
+                }
                 self.output(k, t, f64::INFINITY, tick);
                 self.replace_opened(k);
             }
@@ -310,6 +342,77 @@ impl<R: Number> Runner<R> {
         self.with_each_state(tick, t, f64::INFINITY, |instance, at, states| {
             instance.neg_jacobian_diagonal(at, &mut diagonal[states])
         });
+    }
+
+    /// Returns the number of zero-crossing functions of all blocks; `None` if no block has events of its own.
+    #[must_use]
+    pub fn zero_crossing_count(&self) -> Option<usize> {
+        let count = |k: &usize| self.program.steps[*k].template.zero_crossing_count().unwrap_or(0);
+        (!self.with_events.is_empty()).then(|| self.with_events.iter().map(count).sum())
+    }
+
+    /// Computes the zero-crossing functions of all blocks at time `t` `[s]` from the signals as they now are; see
+    /// [`crate::block::Block::zero_crossings`]. `values` has [`Runner::zero_crossing_count`] entries, `tick` is the
+    /// last tick.
+    pub fn zero_crossings(&mut self, tick: u64, t: f64, values: &mut [R]) {
+        let mut start = 0;
+        for i in 0..self.with_events.len() {
+            let k = self.with_events[i];
+            let step = &self.program.steps[k];
+            let end = start + step.template.zero_crossing_count().unwrap_or(0);
+            let at = At {
+                t,
+                time_event: f64::INFINITY,
+                tick,
+                node: &step.node,
+                states: &self.state.continuous[step.states.clone()],
+                memory: &self.state.memory[step.memory.clone()],
+                signals: &self.state.signals,
+                ports: &step.ports,
+            };
+            self.instances[k].zero_crossings(&at, &mut values[start..end]);
+            start = end;
+        }
+    }
+
+    /// Instant of the first time event that blocks have scheduled themselves `[s]`; infinite if there is none.
+    #[must_use]
+    pub fn scheduled_event(&self) -> f64 {
+        let of_step = |k: &usize| {
+            let memory = &self.state.memory[self.program.steps[*k].memory.clone()];
+            self.instances[*k].scheduled_event(memory)
+        };
+        self.with_events.iter().map(of_step).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Handles the events of all blocks after an accepted step of the integrator that ended at time `t` `[s]`, from the
+    /// signals as they now are. Returns true if there was one: discrete and continuous states may then have changed,
+    /// and signals follow with the next evaluation.
+    pub fn handle_events(&mut self, tick: u64, t: f64) -> bool {
+        let mut happened = false;
+        for i in 0..self.with_events.len() {
+            happened |= self.handle_events_of(self.with_events[i], tick, t, true);
+        }
+        happened
+    }
+
+    fn handle_events_of(&mut self, k: usize, tick: u64, t: f64, is_step_end: bool) -> bool {
+        let step = &self.program.steps[k];
+        // before the tick is evaluated, only what stands to the left is known
+        let known = if is_step_end { self.state.signals.len() } else { step.out.start };
+        let at = At {
+            t,
+            time_event: f64::INFINITY,
+            tick,
+            node: &step.node,
+            states: &[],
+            memory: &[],
+            signals: &self.state.signals[..known],
+            ports: &step.ports,
+        };
+        let memory = &mut self.state.memory[step.memory.clone()];
+        let states = &mut self.state.continuous[step.states.clone()];
+        self.instances[k].handle_events(&at, (memory, states), is_step_end)
     }
 
     #[inline(always)]

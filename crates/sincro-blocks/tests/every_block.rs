@@ -30,7 +30,7 @@ fn plausible(takes: ValueKind) -> Value {
         ValueKind::Flag => Value::Flag(true),
         ValueKind::Text => "u1".into(),
         ValueKind::Texts => vec!["u1"].into(),
-        ValueKind::Names => Value::Table(vec![("a".into(), Value::Number(1.0))]),
+        ValueKind::Names | ValueKind::NumberLists => Value::Table(vec![("a".into(), Value::Number(1.0))]),
         ValueKind::Choice(words) => words[0].into(),
         ValueKind::File => "data.csv".into(),
     }

@@ -45,6 +45,23 @@ pub trait CoupledSystem<R: Real> {
     /// state, 0 where unknown; implicit methods evaluate these terms at the new state.
     fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]);
 
+    /// Number of its zero-crossing functions, 0 if it has time events alone; `None` without events of its own, the
+    /// default.
+    fn zero_crossing_count(&self) -> Option<usize> {
+        None
+    }
+
+    /// Computes the zero-crossing functions at the instant `t` `[s]` of the last [`CoupledSystem::slope`] into `values`
+    /// (their number of entries): above zero where an event has happened since events were last handled, below zero
+    /// where it has not.
+    fn zero_crossings(&mut self, _t: f64, _values: &mut [R]) {}
+
+    /// Ends an accepted step at the instant `t` `[s]` of the last [`CoupledSystem::slope`]: handles the events that
+    /// have happened, which may change the states `z`. Returns true if there was one.
+    fn handle_events(&mut self, _t: f64, _z: &mut [R]) -> bool {
+        false
+    }
+
     /// Returns false if it has no states and never writes a command: then it is asked for neither.
     fn acts(&self) -> bool {
         true
@@ -80,6 +97,18 @@ impl<R: Real> CoupledSystem<R> for &mut (dyn CoupledSystem<R> + '_) {
 
     fn negated_jacobian_diagonal(&mut self, negated_jacobian_diagonal: &mut [R]) {
         (**self).negated_jacobian_diagonal(negated_jacobian_diagonal);
+    }
+
+    fn zero_crossing_count(&self) -> Option<usize> {
+        (**self).zero_crossing_count()
+    }
+
+    fn zero_crossings(&mut self, t: f64, values: &mut [R]) {
+        (**self).zero_crossings(t, values);
+    }
+
+    fn handle_events(&mut self, t: f64, z: &mut [R]) -> bool {
+        (**self).handle_events(t, z)
     }
 
     fn acts(&self) -> bool {

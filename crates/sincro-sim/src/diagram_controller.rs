@@ -127,8 +127,12 @@ impl<R: Number> DiagramController<R> {
         let mut new = Self::new(&other.wiring, model);
         let cast = |list: &[f64]| list.iter().map(|x| R::splat(*x)).collect::<Vec<_>>();
         let state = &other.runner.state;
-        let state =
-            State { signals: cast(&state.signals), continuous: cast(&state.continuous), memory: cast(&state.memory) };
+        let state = State {
+            signals: cast(&state.signals),
+            continuous: cast(&state.continuous),
+            memory: cast(&state.memory),
+            outside: other.runner.save_outside(),
+        };
         new.runner.resume(state, other.tick);
         new.tick = other.tick;
         new
@@ -307,7 +311,7 @@ impl Controller for DiagramController<f64> {
     }
 
     fn save(&self) -> Option<State<f64>> {
-        Some(self.runner.state.clone())
+        Some(self.runner.save())
     }
 
     fn restore(&mut self, saved: &State<f64>, world: &WorldState<f64>) {
@@ -331,7 +335,22 @@ impl<R: Number + Real> CoupledSystem<R> for DiagramController<R> {
     }
 
     fn next_time_event(&self, t: f64) -> f64 {
-        self.wiring.program().next_time_event(t)
+        self.wiring.program().next_time_event(t).min(self.runner.scheduled_event())
+    }
+
+    fn zero_crossing_count(&self) -> Option<usize> {
+        self.runner.zero_crossing_count()
+    }
+
+    fn zero_crossings(&mut self, t: f64, values: &mut [R]) {
+        self.runner.zero_crossings(self.tick, t, values);
+    }
+
+    fn handle_events(&mut self, t: f64, z: &mut [R]) -> bool {
+        self.runner.state.continuous.copy_from_slice(z);
+        let happened = self.runner.handle_events(self.tick, t);
+        z.copy_from_slice(&self.runner.state.continuous);
+        happened
     }
 
     fn find_commands(&mut self, seen: &mut StateView<'_, R>, z: &[R], commands: &mut [R]) {

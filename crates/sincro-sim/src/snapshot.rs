@@ -2,8 +2,8 @@
 //!
 //! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the integration
 //! method and its error control, the seven vectors of [`State`] with their lengths, that of the sensors, the
-//! parameters of the model (none if they are those of the scene), the three of the diagram's state (if there is one),
-//! and a checksum of all that.
+//! parameters of the model (none if they are those of the scene), the three of the diagram's state and the bytes that
+//! blocks keep elsewhere (if there is a diagram), and a checksum of all that.
 
 use std::fmt;
 use std::hash::Hasher;
@@ -17,7 +17,7 @@ use twox_hash::XxHash3_64;
 use crate::load::Loaded;
 use crate::trace::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro07";
+const MAGIC: &[u8; 8] = b"sincro08";
 
 /// Snapshot of a run: everything needed to go on from there bit for bit. Made by
 /// [`LockStep::snapshot`](crate::run::LockStep::snapshot).
@@ -108,6 +108,14 @@ impl Snapshot {
             bytes.extend((vector.len() as u64).to_le_bytes());
             vector.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
         }
+        if let Some(diagram) = &self.diagram {
+            bytes.extend((diagram.outside.len() as u64).to_le_bytes());
+            for (step, outside) in &diagram.outside {
+                bytes.extend((*step as u64).to_le_bytes());
+                bytes.extend((outside.len() as u64).to_le_bytes());
+                bytes.extend(outside);
+            }
+        }
         let sum = checksum(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
@@ -158,6 +166,7 @@ impl Snapshot {
                 signals: reader.vector()?,
                 continuous: reader.vector()?,
                 memory: reader.vector()?,
+                outside: reader.byte_strings()?,
             }),
         };
         Ok(Self { state, params, trace, method, control, sensors, diagram })
@@ -199,5 +208,20 @@ impl<'a> Reader<'a> {
             return Err(SnapshotError::Damaged);
         }
         (0..n).map(|_| self.number()).collect()
+    }
+
+    /// Indices, each with bytes.
+    fn byte_strings(&mut self) -> Result<Vec<(usize, Vec<u8>)>, SnapshotError> {
+        let size = |n: u64| usize::try_from(n).map_err(|_| SnapshotError::Damaged);
+        let n = size(self.integer()?)?;
+        if n > self.0.len() / 16 {
+            return Err(SnapshotError::Damaged);
+        }
+        (0..n)
+            .map(|_| {
+                let (index, len) = (size(self.integer()?)?, size(self.integer()?)?);
+                Ok((index, self.take(len)?.to_vec()))
+            })
+            .collect()
     }
 }

@@ -236,7 +236,7 @@ impl<'a> PeriodMap<'a> {
             measured.map_err(|_| {
                 Diagnostic::without_location("a block of the diagram gives what is not a finite number")
             })?;
-            *diagram = control.runner.state.clone();
+            *diagram = control.runner.save();
             self.run.restore(&snapshot);
             self.run.set_opening(control.runner.opening);
         }

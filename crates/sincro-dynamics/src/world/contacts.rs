@@ -134,7 +134,7 @@ impl World {
                 self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities[i];
             }
         }
-        Ok(())
+        self.handle_coupled_events(t + h, system).map(|_| ())
     }
 
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is

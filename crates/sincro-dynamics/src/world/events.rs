@@ -1,5 +1,5 @@
-//! Events that end a sub-step: zero crossings of drives and contacts, detected at its end and within it, located by
-//! repeating it.
+//! Events that end a sub-step: zero crossings of drives, contacts and the coupled system, detected at its end and
+//! within it, located by repeating it.
 //!
 //! Modes are held over a sub-step ([`crate::constraint`]), so that a zero crossing is a smooth function of time up to
 //! its event and beyond.
@@ -7,7 +7,7 @@
 use super::{Stop, World};
 use crate::constraint::ModeRule;
 use crate::coupled::CoupledSystem;
-use crate::integrate::{Bracket, Control};
+use crate::integrate::{Bracket, Control, System};
 use crate::mechanism::constraints::ContactEvent;
 
 /// Width to which the instant of an event is located, relative to the step.
@@ -23,7 +23,10 @@ const VALUE_RESOLUTION: f64 = 1e-14;
 const INTERIOR_STEP: f64 = 0.125;
 
 /// Number of kinds of zero crossings.
-pub(super) const MAX_CROSSINGS: usize = 6;
+pub(super) const MAX_CROSSINGS: usize = 7;
+
+/// Maximum number of events of the coupled system at one instant that follow from each other.
+const MAX_EVENT_ITERATIONS: usize = 100;
 
 /// Zero crossing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +37,8 @@ pub(super) enum Crossing {
     Overload(usize),
     /// A contact or limit.
     Contact(ContactEvent),
+    /// Zero-crossing function of the coupled system.
+    Coupled(usize),
 }
 
 impl World {
@@ -45,12 +50,15 @@ impl World {
         let passed = (0..self.target_velocities.len()).filter(|i| self.has_passed_target(*i));
         let furthest = passed.max_by(|i, j| self.target_passage(*i).total_cmp(&self.target_passage(*j)));
         self.crossings.extend(furthest.map(Crossing::Target));
-        if self.mechanism.drives.contains(&0.0) || self.is_constrained() {
+        let of_system = !self.coupled_crossings.is_empty();
+        if self.mechanism.drives.contains(&0.0) || self.is_constrained() || of_system {
             self.evaluate_held(t, system);
             let of_contacts = self.mechanism.contact_events(&self.y[self.layout().velocities()]);
             self.crossings.extend(of_contacts.into_iter().flatten().map(Crossing::Contact));
             let overload = self.find_overload();
             self.crossings.extend(overload.map(Crossing::Overload));
+            let coupled = self.coupled_crossings.iter().position(|value| *value > 0.0);
+            self.crossings.extend(coupled.map(Crossing::Coupled));
         }
         self.crossings.first().copied()
     }
@@ -76,6 +84,29 @@ impl World {
         self.mechanism.set_mode_rule(ModeRule::HeldAndChecked);
         self.evaluate_slope(t, system);
         self.mechanism.set_mode_rule(ModeRule::Decided);
+        if !self.coupled_crossings.is_empty() {
+            system.zero_crossings(t, &mut self.coupled_crossings);
+        }
+    }
+
+    /// Lets the coupled system handle its events at the end of an accepted step, in the present state at time `t`
+    /// `[s]`, until no event follows from another. Returns true if there was one.
+    pub(super) fn handle_coupled_events(
+        &mut self,
+        t: f64,
+        system: &mut dyn CoupledSystem<f64>,
+    ) -> Result<bool, (f64, Stop)> {
+        if system.zero_crossing_count().is_none() {
+            return Ok(false);
+        }
+        let own = self.mechanism.dim();
+        for n_events in 0..MAX_EVENT_ITERATIONS {
+            self.evaluate_held(t, system);
+            if !system.handle_events(t, &mut self.y[own..]) {
+                return Ok(n_events > 0);
+            }
+        }
+        Err((t, Stop::EndlessEvents { t }))
     }
 
     /// Value of a zero crossing in the present state, last evaluated: above zero where it has happened; NaN if it is
@@ -85,6 +116,7 @@ impl World {
             Crossing::Target(i) => self.target_passage(i),
             Crossing::Overload(i) => self.mechanism.drive_overload(i),
             Crossing::Contact(event) => self.mechanism.contact_event_value(event),
+            Crossing::Coupled(k) => self.coupled_crossings[k],
         }
     }
 
@@ -99,7 +131,7 @@ impl World {
     fn crossing_resolution(&self, crossing: Crossing) -> f64 {
         match crossing {
             Crossing::Target(i) => VALUE_RESOLUTION * self.target_velocities[i].abs(),
-            Crossing::Overload(_) => 0.0,
+            Crossing::Overload(_) | Crossing::Coupled(_) => 0.0,
             Crossing::Contact(event) => self.mechanism.contact_event_resolution(event),
         }
     }

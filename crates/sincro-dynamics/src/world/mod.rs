@@ -120,8 +120,13 @@ pub enum Stop {
         /// Largest complementarity residual, relative to the largest force or rate (dimensionless).
         residual: f64,
     },
-    /// Drives changed between locked and saturated too often within one tick.
+    /// Drives changed between locked and saturated, or blocks had events, too often within one tick.
     Chatter {
+        /// Time of the stop `[s]`.
+        t: f64,
+    },
+    /// Events of the coupled system followed from each other at one instant without end.
+    EndlessEvents {
         /// Time of the stop `[s]`.
         t: f64,
     },
@@ -133,7 +138,7 @@ pub enum Stop {
 pub struct StepStatistics {
     /// Number of accepted sub-steps.
     pub steps: u64,
-    /// Number of located zero crossings: changes of drives, limits and contacts.
+    /// Number of events: located changes of drives, limits and contacts, and events of the coupled system.
     pub events: u64,
     /// Number of impacts.
     pub impacts: u64,
@@ -171,6 +176,8 @@ pub struct World {
     present_kinks: Vec<Kink>,
     /// Zero crossings last found.
     crossings: Vec<Crossing>,
+    /// Values of the zero-crossing functions of the coupled system, last evaluated.
+    coupled_crossings: Vec<f64>,
     /// y at the present instant during a look-ahead.
     present: Vec<f64>,
     accelerations: Vec<f64>,
@@ -274,6 +281,7 @@ impl World {
             kink_of: vec![NO_KINK; n_drives],
             present_kinks: Vec::with_capacity(n_drives),
             crossings: Vec::with_capacity(MAX_CROSSINGS),
+            coupled_crossings: Vec::new(),
             present: vec![0.0; dim],
             accelerations,
             statistics: StepStatistics::default(),
@@ -454,6 +462,7 @@ impl World {
         system.set_time_event(f64::INFINITY);
         self.count_particles(h);
         self.load(system);
+        self.coupled_crossings.resize(system.zero_crossing_count().unwrap_or(0), f64::NAN);
         if system.acts() {
             self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
         }

@@ -84,7 +84,8 @@ impl fmt::Display for Stop {
                     "too many constraint problems did not converge, the worst to a relative residual of {residual:.1e}"
                 )
             }
-            Self::Chatter { .. } => f.write_str("a drive changed its mode too often within one tick"),
+            Self::Chatter { .. } => f.write_str("a drive or block had too many events within one tick"),
+            Self::EndlessEvents { .. } => f.write_str("events of blocks follow from each other without end"),
         }
     }
 }

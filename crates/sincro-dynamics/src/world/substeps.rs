@@ -79,7 +79,8 @@ impl World {
                     return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
                 }
             }
-            let limited = self.has_limited_drives() || self.is_constrained();
+            let has_events = system.zero_crossing_count().is_some();
+            let limited = self.has_limited_drives() || self.is_constrained() || has_events;
             let control = if limited { self.control() } else { None };
             if limited {
                 self.save_step_start();
@@ -103,6 +104,7 @@ impl World {
                 }
                 made => made?,
             };
+            let is_event = self.handle_coupled_events(reached, system)? || is_event;
             after_event = is_event;
             if is_event {
                 idle = if reached - t > IDLE * span { 0 } else { idle + 1 };

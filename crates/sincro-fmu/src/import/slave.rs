@@ -1,20 +1,20 @@
-//! One instance of a foreign FMU.
+//! One instance of a foreign FMU in co-simulation, for programs.
 
 use std::sync::Arc;
 
+use sincro_scene::fmu::FmuInterface;
+
 use super::ForeignFmu;
 use super::description::NumberKind;
-use super::library::{Component, Functions, SavedState};
+use super::instance::Instance;
+use super::library::SavedState;
 
 /// Instance of a foreign FMU in co-simulation, with a state of its own. After [`Slave::new`] comes [`Slave::start`],
 /// then inputs, steps and outputs in turn; dropping it ends and frees it. An error is the text of the FMU's failure.
 #[derive(Debug)]
 pub struct Slave {
-    fmu: Arc<ForeignFmu>,
-    component: Component,
+    instance: Instance,
     saved: Option<SavedState>,
-    is_started: bool,
-    has_failed: bool,
 }
 
 impl Slave {
@@ -22,16 +22,9 @@ impl Slave {
     ///
     /// # Errors
     ///
-    /// The library cannot be unpacked or loaded, or the FMU refuses to make an instance.
+    /// The FMU has no co-simulation, its library cannot be unpacked or loaded, or it refuses to make an instance.
     pub fn new(fmu: &Arc<ForeignFmu>, name: &str) -> Result<Self, String> {
-        let opened = fmu.opened()?;
-        let resources = opened.resources(fmu.description.version);
-        let component = opened.functions.instantiate(name, &fmu.description.token, &resources)?;
-        Ok(Self { fmu: fmu.clone(), component, saved: None, is_started: false, has_failed: false })
-    }
-
-    fn functions(&self) -> &Functions {
-        &self.fmu.opened().expect("an instance was made with them").functions
+        Ok(Self { instance: Instance::new(fmu, FmuInterface::CoSimulation, name)?, saved: None })
     }
 
     /// Initializes the instance at time `t` `[s]` with parameters: type, value reference and value, in the unit of the
@@ -42,12 +35,9 @@ impl Slave {
     /// A call of the FMU fails; the text names it.
     pub fn start(&mut self, t: f64, parameters: &[(NumberKind, u32, f64)]) -> Result<(), String> {
         for (kind, reference, value) in parameters {
-            self.set_number(*kind, *reference, *value)?;
+            self.instance.set(*kind, &[*reference], &[*value])?;
         }
-        self.functions().enter_initialization(self.component, t)?;
-        self.functions().call("ExitInitializationMode", self.component)?;
-        self.is_started = true;
-        Ok(())
+        self.instance.start(t, |_| Ok(())).map(|_| ())
     }
 
     /// Reads real variables into `values`: entry k is the variable of value reference `references[k]`, in the unit of
@@ -60,7 +50,7 @@ impl Slave {
         if references.len() != values.len() {
             return Err("there are not as many places as variables".into());
         }
-        self.functions().get(self.component, references, values)
+        self.instance.get(NumberKind::Float64, references, values)
     }
 
     /// Sets real variables: the variable of value reference `references[k]` to `values[k]`, in the unit of the model
@@ -73,26 +63,7 @@ impl Slave {
         if references.len() != values.len() {
             return Err("there are not as many values as variables".into());
         }
-        self.functions().set(self.component, references, values)
-    }
-
-    /// Value of a variable of any numeric type, in the unit of the description.
-    ///
-    /// # Errors
-    ///
-    /// The call fails.
-    pub(crate) fn get_number(&mut self, kind: NumberKind, reference: u32) -> Result<f64, String> {
-        self.functions().get_number(self.component, kind, reference)
-    }
-
-    /// Sets a variable of any numeric type, in the unit of the description: rounded, and cut off at the bounds of its
-    /// type.
-    ///
-    /// # Errors
-    ///
-    /// The call fails.
-    pub(crate) fn set_number(&mut self, kind: NumberKind, reference: u32, value: f64) -> Result<(), String> {
-        self.functions().set_number(self.component, kind, reference, value)
+        self.instance.set(NumberKind::Float64, references, values)
     }
 
     /// Makes a communication step from time `t` to `t + h`, both `[s]`; returns false if the FMU asks to end the
@@ -102,9 +73,7 @@ impl Slave {
     ///
     /// The step fails; the instance is then only to be dropped.
     pub fn step(&mut self, t: f64, h: f64) -> Result<bool, String> {
-        let stepped = self.functions().step(self.component, t, h);
-        self.has_failed |= stepped.is_err();
-        stepped
+        self.instance.step(t, h)
     }
 
     /// Saves the present state inside the instance, in place of one that was saved before.
@@ -113,12 +82,9 @@ impl Slave {
     ///
     /// The FMU cannot save its state (the text names it), or the call fails.
     pub fn save(&mut self) -> Result<(), String> {
-        if !self.fmu.description.can_save {
-            return Err(format!("the FMU `{}` cannot save its state", self.fmu.description.name));
-        }
-        let state = self.functions().save(self.component)?;
+        let state = self.instance.save()?;
         if let Some(old) = self.saved.replace(state) {
-            self.functions().free_state(self.component, old);
+            self.instance.free_state(old);
         }
         Ok(())
     }
@@ -130,18 +96,14 @@ impl Slave {
     /// No state was saved, or the call of the FMU fails.
     pub fn restore(&mut self) -> Result<(), String> {
         let state = self.saved.ok_or("no state was kept")?;
-        self.functions().restore(self.component, state)
+        self.instance.restore(state)
     }
 }
 
 impl Drop for Slave {
     fn drop(&mut self) {
         if let Some(state) = self.saved.take() {
-            self.functions().free_state(self.component, state);
+            self.instance.free_state(state);
         }
-        if self.is_started && !self.has_failed {
-            let _ = self.functions().call("Terminate", self.component);
-        }
-        self.functions().free(self.component);
     }
 }

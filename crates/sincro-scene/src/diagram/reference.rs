@@ -103,7 +103,7 @@ fn written(parameter: &Parameter) -> String {
         ValueKind::Flag => "true".into(),
         ValueKind::Text => "\"…\"".into(),
         ValueKind::Texts => "[\"…\"]".into(),
-        ValueKind::Names => "{ x = 1.0 }".into(),
+        ValueKind::Names | ValueKind::NumberLists => "{ x = 1.0 }".into(),
         ValueKind::File => "\"table.csv\"".into(),
     }
 }
@@ -126,7 +126,7 @@ fn least(kind: &'static Kind) -> Option<Box<dyn DynBlock>> {
         ValueKind::Flag => Value::Flag(true),
         ValueKind::Text | ValueKind::File => Value::from("u"),
         ValueKind::Texts => vec!["u"].into(),
-        ValueKind::Names => Value::Table(Vec::new()),
+        ValueKind::Names | ValueKind::NumberLists => Value::Table(Vec::new()),
         ValueKind::Matrix => Value::List(vec![vec![1.0].into()]),
         _ => Value::Number(1.0),
     };
@@ -184,6 +184,7 @@ fn takes(takes: ValueKind) -> String {
         ValueKind::Text => "text".into(),
         ValueKind::Texts => "list of texts".into(),
         ValueKind::Names => "names and values".into(),
+        ValueKind::NumberLists => "names and numbers or lists".into(),
         ValueKind::Choice(words) => words.join(", "),
         ValueKind::File => "CSV file".into(),
     }

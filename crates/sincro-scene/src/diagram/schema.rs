@@ -49,7 +49,7 @@ fn schema_of(parameter: &Parameter) -> Value {
         ValueKind::Flag => json!({"type": "boolean"}),
         ValueKind::Text | ValueKind::File => json!({"type": "string"}),
         ValueKind::Texts => json!({"type": ["string", "array"], "items": {"type": ["string", "number", "array"]}}),
-        ValueKind::Names => json!({"type": "object"}),
+        ValueKind::Names | ValueKind::NumberLists => json!({"type": "object"}),
         ValueKind::Choice(words) => json!({"enum": words}),
     };
     let description = match parameter.default {

@@ -34,6 +34,7 @@ use crate::replay::Trajectory;
 use crate::results::{EnergyReport, Status};
 use crate::table::Table;
 use sincro_scene::diagnostic::Diagnostics;
+use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::{Experiment, Integrator};
 use sincro_scene::scene::Scene;
 
@@ -319,6 +320,12 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         MethodKind::SemiImplicitEuler | MethodKind::Implicit => EULER_LIMIT,
         MethodKind::DormandPrince | MethodKind::Stiff => return (kind, warnings),
     };
+    // poles would run the code of FMUs, which a scene that is only looked at must not
+    let has_foreign =
+        |c: &ControlDiagram| c.wiring.program().steps.iter().any(|step| step.template.zero_crossing_count().is_some());
+    if loaded.controller.as_ref().is_some_and(has_foreign) {
+        return (kind, warnings);
+    }
     if let Some((closed, open)) = loaded.extensions.fastest_poles.and_then(|fastest| fastest(loaded, kind))
         && closed > 1.2 * open
         && closed * step > limit

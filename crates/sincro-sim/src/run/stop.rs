@@ -69,7 +69,8 @@ fn explain(
         Stop::Unsolved { residual, .. } => {
             format!("the constraint solver found no forces that fit 100,000 times (misfit up to {residual:.1e})")
         }
-        Stop::Chatter { .. } => "a limited motor or a friction changed too often within one step".to_owned(),
+        Stop::Chatter { .. } => "a limited motor, a friction or a block changed too often within one step".to_owned(),
+        Stop::EndlessEvents { .. } => "events of blocks follow from each other without end".to_owned(),
     };
     if let Some(rotor) = world.rotor_without_load() {
         let name = &world.model().names().rotors[rotor.index()];
