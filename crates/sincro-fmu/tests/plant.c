@@ -38,6 +38,7 @@ static int set(Plant *p, const uint32_t *vr, size_t n, const double *x) {
 
 static int step(Plant *p, double t, double h) {
   if (!p->started || t - p->t > 1e-9 || p->t - t > 1e-9) return 3;
+  if (p->u > 1000.0) *(volatile int *)NULL = 1;
   if (p->u > 100.0) return 3;
   p->y += h * p->u;
   p->t = t + h;

@@ -15,6 +15,10 @@ use crate::{Verdict, commands};
 #[derive(Debug, Parser)]
 #[command(name = "sincro", version, about, propagate_version = true, arg_required_else_help = true)]
 struct Cli {
+    #[cfg(feature = "adapters")]
+    /// Run each FMU in a process of its own, which may crash
+    #[arg(long, global = true)]
+    isolate: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -73,6 +77,10 @@ enum Command {
     Serve(commands::serve::Arguments),
     /// Run every experiment of the thesis and show measured and expected values on one page
     Reproduce(commands::reproduce::Arguments),
+    #[cfg(feature = "adapters")]
+    /// Be the process of an FMU, for `--isolate`
+    #[command(hide = true)]
+    FmuWorker,
     #[cfg(feature = "cli")]
     /// Measure speed, memory and accuracy on this machine, next to MuJoCo and Pinocchio on request
     Bench(sincro_bench::Options),
@@ -118,7 +126,16 @@ impl From<Exit> for u8 {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let parsed = with_negative_numbers(Cli::command()).try_get_matches_from(arguments);
     let command = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => cli.command,
+        Ok(cli) => {
+            #[cfg(feature = "adapters")]
+            if cli.isolate
+                && let Err(error) = isolate_fmus()
+            {
+                eprintln!("this program cannot be found, to be started for each FMU: {error}");
+                return Exit::Refused.into();
+            }
+            cli.command
+        }
         Err(refused) => {
             let _ = refused.print();
             return u8::try_from(refused.exit_code()).unwrap_or(2);
@@ -153,6 +170,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         #[cfg(feature = "adapters")]
         Command::Serve(arguments) => commands::serve::run(&arguments),
         Command::Reproduce(arguments) => commands::reproduce::run(&arguments),
+        #[cfg(feature = "adapters")]
+        Command::FmuWorker => match sincro_fmu::import::isolated::serve() {
+            Ok(()) => Exit::Holds,
+            Err(_) => Exit::Stopped,
+        },
         #[cfg(feature = "cli")]
         Command::Bench(options) => match sincro_bench::run(&options) {
             Ok(()) => Exit::Holds,
@@ -160,6 +182,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         },
     };
     exit.into()
+}
+
+/// Lets FMUs run in processes of their own: this program again, as their worker.
+#[cfg(feature = "adapters")]
+fn isolate_fmus() -> std::io::Result<()> {
+    crate::load::isolate_fmus(std::env::current_exe()?, vec!["fmu-worker".to_owned()]);
+    Ok(())
 }
 
 /// Takes negative numbers for values of every option, not for unknown flags: a wrong one is then refused by what it

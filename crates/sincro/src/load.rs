@@ -1,8 +1,14 @@
 //! Opening a scene folder with every script language that sincro has.
 
 use std::path::Path;
+#[cfg(feature = "adapters")]
+use std::{path::PathBuf, sync::OnceLock};
 
+#[cfg(feature = "adapters")]
+use sincro_fmu::import::isolated::IsolatedLoader;
 use sincro_scene::diagnostic::Diagnostics;
+#[cfg(feature = "adapters")]
+use sincro_scene::fmu::FmuLoader;
 use sincro_scene::overrides::Override;
 use sincro_scene::scene::{ObjectKind, Scene};
 use sincro_sim::{Extensions, Loaded};
@@ -32,10 +38,29 @@ pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Diagnostics>
 #[must_use]
 pub fn extensions() -> Extensions {
     #[cfg(feature = "adapters")]
-    let (scripts, fmus) = (Some(sincro_lua::engine()), Some(sincro_fmu::import::loader()));
+    let (scripts, fmus) = (Some(sincro_lua::engine()), Some(fmu_loader()));
     #[cfg(not(feature = "adapters"))]
     let (scripts, fmus) = (None, None);
     Extensions { scripts, fmus, fastest_poles: Some(sincro_analysis::linearize::fastest_poles) }
+}
+
+/// Loader whose FMUs run in processes of their own, if that was asked for.
+#[cfg(feature = "adapters")]
+static ISOLATED: OnceLock<IsolatedLoader> = OnceLock::new();
+
+/// Lets FMUs of all scenes that are opened from now on run in processes of their own: `program` with `arguments`, which
+/// calls [`sincro_fmu::import::isolated::serve`].
+#[cfg(feature = "adapters")]
+pub(crate) fn isolate_fmus(program: PathBuf, arguments: Vec<String>) {
+    let _ = ISOLATED.set(IsolatedLoader::new(program, arguments));
+}
+
+#[cfg(feature = "adapters")]
+fn fmu_loader() -> &'static dyn FmuLoader {
+    match ISOLATED.get() {
+        Some(isolated) => isolated,
+        None => sincro_fmu::import::loader(),
+    }
 }
 
 /// Name of a scene, which results and reports have: that of its folder, or `scene` if that has none. `path` is the

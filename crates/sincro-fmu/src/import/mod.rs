@@ -2,13 +2,15 @@
 //!
 //! An FMU is foreign code that runs in this process with its rights: open one only where the user names it.
 //! [`ForeignFmu::read`] reads it; a [`Slave`], one instance, loads its library from a temporary folder; [`loader`]
-//! makes it a block of a diagram, and [`FmuController`] lets one command a scene in lock-step.
+//! makes it a block of a diagram, in this process or, by [`isolated`], in others, and [`FmuController`] lets one
+//! command a scene in lock-step.
 
 mod block;
 mod clocks;
 mod controller;
 mod description;
 mod instance;
+pub mod isolated;
 mod library;
 mod slave;
 
