@@ -50,6 +50,9 @@ impl DynBlock for Sham {
     fn next_time_event(&self, _: f64) -> f64 {
         f64::INFINITY
     }
+    fn zero_crossing_count(&self) -> Option<usize> {
+        None
+    }
     fn highest_frequency(&self, _: f64, _: bool) -> f64 {
         0.0
     }
