@@ -42,7 +42,8 @@ pub(super) struct Balance<R> {
 /// of the bracket. Usual are five; the limit is there for what is not a number and for roots of 1e-30 of the bracket.
 const MAX_ITERATIONS: usize = 128;
 
-/// Step of Newton's method, as a part of w, after which the polishing step, which squares what is left, is the last.
+/// Step of Newton's method, as a part of w, that leaves its square: then the polishing step gives value and derivatives
+/// to rounding.
 const LAST_STEP: f64 = 1e-8;
 
 /// f′ below this part of the velocities in it counts as zero: at a double root rounding leaves √ε = 1.5e-8 of it.
@@ -99,12 +100,17 @@ impl<R: Real> Balance<R> {
             low = zero.if_less(f, low, w);
             let middle = low + R::splat(0.5) * (high - low);
             let newton = w - f / slope;
-            let is_short = (newton - w).abs().if_less(R::splat(0.5) * before_last, newton, middle);
-            let next = low.if_less(newton, newton.if_less(high, is_short, middle), middle);
+            let newton_step = (newton - w).abs();
+            let (one, epsilon) = (R::one(), R::splat(f64::EPSILON));
+            let is_short = newton_step.if_less(R::splat(0.5) * before_last, one, zero);
+            let is_good = low.if_less(newton, newton.if_less(high, is_short, zero), zero);
+            let next = zero.if_less(is_good, newton, middle);
+            let last_step = zero.if_less(is_good, R::splat(LAST_STEP), epsilon);
             let step = (next - w).abs();
             let moves = low.if_less(next, next.if_less(high, pending, zero), zero);
             let moves = f.abs().if_less(R::splat(SMALLEST), zero, moves);
-            pending = (R::splat(LAST_STEP) * w.abs()).if_less(step, moves, zero);
+            let moves = newton_step.if_less(R::splat(SMALLEST), zero, moves);
+            pending = (last_step * w.abs()).if_less(step, moves, zero);
             w = zero.if_less(moves, next, w);
             (before_last, last) = (last, step);
         }
@@ -192,12 +198,13 @@ impl Balance<f64> {
             }
             let newton = w - f / slope;
             let is_good = newton > low && newton < high && (newton - w).abs() < 0.5 * before_last;
-            let next = if is_good { newton } else { low + 0.5 * (high - low) };
+            let (next, last_step) =
+                if is_good { (newton, LAST_STEP) } else { (low + 0.5 * (high - low), f64::EPSILON) };
             let step = (next - w).abs();
-            if f == 0.0 || next == low || next == high {
+            if f == 0.0 || newton == w || next == low || next == high {
                 return w;
             }
-            if step <= LAST_STEP * w.abs() {
+            if step <= last_step * w.abs() {
                 return next;
             }
             (before_last, last, w) = (last, step, next);
