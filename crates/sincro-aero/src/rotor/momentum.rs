@@ -76,49 +76,62 @@ impl<R: Real> Balance<R> {
         (f, slope)
     }
 
-    /// The largest root of f in each lane, with the bits of [`Balance::largest_root`]: the lanes whose root is above
-    /// max(v, 0), as in flight, are searched together, the others one by one.
+    /// The largest root of f in each lane: the lanes whose root is above max(v, 0), as in flight, are searched together,
+    /// the others one by one.
     #[inline(always)]
     fn largest_roots(&self) -> R {
         let zero = R::zero();
         let above = self.climb.max(zero);
-        let at_above = self.residual(above).0;
-        // infinite where a lane's search is under way
-        let mut pending = at_above.if_less(zero, R::splat(f64::INFINITY), zero);
+        let is_above = self.residual(above).0.if_less(zero, R::one(), zero);
+        let upper = self.axial_root().max(above);
+        let together = self.rising_root(above, upper, is_above);
+        if (0..R::LANES).all(|k| is_above.lane(k) > 0.0) {
+            return together;
+        }
+        R::from_lanes(|k| if is_above.lane(k) > 0.0 { together.lane(k) } else { self.lane(k).largest_root() })
+    }
+
+    /// The root for h = 0 with the same S, of w² − (v − a)w − S: an upper bound of the root for h > 0 where that is
+    /// above max(v, 0), because √(w² + h²) ≥ w there; exact in axial flight.
+    #[inline(always)]
+    fn axial_root(&self) -> R {
         let b = self.climb - self.relief;
-        let root = (b * b + R::splat(4.0) * self.supply).max(zero).sqrt();
-        let axial = b.if_less(zero, R::splat(2.0) * self.supply / (root - b), R::splat(0.5) * (b + root));
-        let (mut low, mut high) = (above, axial.max(above));
+        let root = (b * b + R::splat(4.0) * self.supply).max(R::zero()).sqrt();
+        // the form without cancellation
+        b.if_less(R::zero(), R::splat(2.0) * self.supply / (root - b), R::splat(0.5) * (b + root))
+    }
+
+    /// The root of f between `low` and `high`, where f rises, by Newton's method from `high`, kept inside the bracket; in
+    /// the lanes where `is_wanted` is 1. A lane whose search has ended stays as it is.
+    #[inline(always)]
+    fn rising_root(&self, mut low: R, mut high: R, is_wanted: R) -> R {
+        let (zero, one) = (R::zero(), R::one());
         let mut w = high;
         let (mut last, mut before_last) = (high - low, high - low);
+        let mut is_pending = is_wanted;
         for _ in 0..MAX_ITERATIONS {
-            if pending.is_finite() {
+            if (0..R::LANES).all(|k| is_pending.lane(k) == 0.0) {
                 break;
             }
             let (f, slope) = self.residual(w);
             high = zero.if_less(f, w, high);
             low = zero.if_less(f, low, w);
-            let middle = low + R::splat(0.5) * (high - low);
             let newton = w - f / slope;
             let newton_step = (newton - w).abs();
-            let (one, epsilon) = (R::one(), R::splat(f64::EPSILON));
             let is_short = newton_step.if_less(R::splat(0.5) * before_last, one, zero);
             let is_good = low.if_less(newton, newton.if_less(high, is_short, zero), zero);
-            let next = zero.if_less(is_good, newton, middle);
-            let last_step = zero.if_less(is_good, R::splat(LAST_STEP), epsilon);
+            let next = zero.if_less(is_good, newton, low + R::splat(0.5) * (high - low));
+            let last_step = zero.if_less(is_good, R::splat(LAST_STEP), R::splat(f64::EPSILON));
             let step = (next - w).abs();
-            let moves = low.if_less(next, next.if_less(high, pending, zero), zero);
+            // it stays at a root to rounding, and at an end of the bracket
+            let moves = low.if_less(next, next.if_less(high, is_pending, zero), zero);
             let moves = f.abs().if_less(R::splat(SMALLEST), zero, moves);
             let moves = newton_step.if_less(R::splat(SMALLEST), zero, moves);
-            pending = (last_step * w.abs()).if_less(step, moves, zero);
+            is_pending = (last_step * w.abs()).if_less(step, moves, zero);
             w = zero.if_less(moves, next, w);
             (before_last, last) = (last, step);
         }
-        let is_above = at_above.if_less(zero, zero, R::splat(f64::INFINITY)).is_finite();
-        if is_above {
-            return w;
-        }
-        R::from_lanes(|k| if at_above.lane(k) < 0.0 { w.lane(k) } else { self.lane(k).largest_root() })
+        w
     }
 
     #[inline(always)]
@@ -141,20 +154,10 @@ impl Balance<f64> {
             return above;
         }
         if at_above < 0.0 {
-            let upper = self.axial_root().max(above);
-            return self.rising_root(above, upper, upper);
+            return self.rising_root(above, self.axial_root().max(above), 1.0);
         }
         let (least, most) = self.bracket_below(above);
-        self.rising_root(least, most, most)
-    }
-
-    /// The root for h = 0 with the same S, of w² − (v − a)w − S: an upper bound of the root for h > 0 where that is
-    /// above max(v, 0), because √(w² + h²) ≥ w there; exact in axial flight.
-    fn axial_root(&self) -> f64 {
-        let b = self.climb - self.relief;
-        let root = (b * b + 4.0 * self.supply).max(0.0).sqrt();
-        // the form without cancellation
-        if b < 0.0 { 2.0 * self.supply / (root - b) } else { 0.5 * (b + root) }
+        self.rising_root(least, most, 1.0)
     }
 
     /// An interval on which f rises through its largest root, given f(above) > 0 at `above` = max(v, 0).
@@ -183,33 +186,6 @@ impl Balance<f64> {
         let through_disc = (w * w + self.in_plane_squared).sqrt();
         let g = 2.0 * w * w - self.climb * w + self.in_plane_squared + self.relief * through_disc;
         (g, 4.0 * w - self.climb + self.relief * (w / through_disc.max(f64::MIN_POSITIVE)))
-    }
-
-    /// The root of f between `low` and `high`, where f rises, by Newton's method kept inside the bracket.
-    fn rising_root(&self, mut low: f64, mut high: f64, start: f64) -> f64 {
-        let mut w = start;
-        let (mut last, mut before_last) = (high - low, high - low);
-        for _ in 0..MAX_ITERATIONS {
-            let (f, slope) = self.residual(w);
-            if f > 0.0 {
-                high = w;
-            } else {
-                low = w;
-            }
-            let newton = w - f / slope;
-            let is_good = newton > low && newton < high && (newton - w).abs() < 0.5 * before_last;
-            let (next, last_step) =
-                if is_good { (newton, LAST_STEP) } else { (low + 0.5 * (high - low), f64::EPSILON) };
-            let step = (next - w).abs();
-            if f == 0.0 || newton == w || next == low || next == high {
-                return w;
-            }
-            if step <= last_step * w.abs() {
-                return next;
-            }
-            (before_last, last, w) = (last, step, next);
-        }
-        w
     }
 }
 
