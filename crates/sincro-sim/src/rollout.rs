@@ -6,12 +6,11 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use sincro_compile::native::{self, NativeProgram};
+use sincro_compile::native::{self, Native, NativeProgram};
 use sincro_compile::{Obstacle, plant};
 use sincro_dynamics::batch::{self, BatchSettings, BatchWorld, CompiledStep};
 use sincro_dynamics::model::{Model, PackError};
 use sincro_dynamics::state::State;
-use sincro_dynamics::world::MethodKind;
 use sincro_math::record::Program;
 
 /// Steps of worlds times their degrees of freedom from which a compilation pays: it takes a few tenths of a second, and
@@ -56,39 +55,35 @@ pub enum StepsBy {
 pub struct Rollout {
     worlds: Vec<BatchWorld>,
     settings: BatchSettings,
-    compiled: Option<(Arc<NativeProgram>, Program)>,
+    step: Option<BatchStep>,
     steps_by: StepsBy,
 }
 
-/// Compiled step of one bundle, with the numbers of its worlds.
+/// Compiled step of a batch: for lanes, and the program it was made from, which has the numbers of each world.
 #[derive(Debug)]
-pub(crate) struct BundleStep {
-    program: Arc<NativeProgram>,
+struct BatchStep {
+    native: Arc<NativeProgram>,
+    program: Program,
+}
+
+impl BatchStep {
+    /// Step of the worlds from number `first` on.
+    fn of_bundle(&self, first: usize) -> BundleStep {
+        let parameters = native::rows_of_parameters(&self.program, first, self.native.width());
+        BundleStep { native: Arc::clone(&self.native), parameters }
+    }
+}
+
+/// Compiled step of one bundle.
+#[derive(Debug)]
+struct BundleStep {
+    native: Arc<NativeProgram>,
     parameters: Vec<f64>,
 }
 
 impl CompiledStep for BundleStep {
     fn step(&self, rows: &mut [f64]) -> bool {
-        self.program.evaluate_in_place(rows, &self.parameters)
-    }
-}
-
-/// Compiles the step of `models` for lanes, with the program it was made from.
-pub(crate) fn compile_step(
-    models: &[&Model<f64>],
-    method: MethodKind,
-    h: f64,
-) -> Result<(native::Native, Program), Obstacle> {
-    let program = plant::step(models, method, h)?.with_folded_parameters();
-    let native = native::compile(&[&program])?;
-    Ok((native, program))
-}
-
-impl BundleStep {
-    /// Step of the worlds from number `first` on.
-    pub(crate) fn new(native: &Arc<NativeProgram>, program: &Program, first: usize) -> Self {
-        let parameters = native::rows_of_parameters(program, first, native.width());
-        Self { program: Arc::clone(native), parameters }
+        self.native.evaluate_in_place(rows, &self.parameters)
     }
 }
 
@@ -121,41 +116,11 @@ impl Rollout {
     /// ```
     #[must_use]
     pub fn new(worlds: Vec<BatchWorld>, settings: BatchSettings, compile: Compile) -> Self {
-        let (compiled, steps_by) = match Self::compiled(&worlds, &settings, compile) {
-            Ok((mut native, program)) => {
-                let step = Arc::new(native.programs.remove(0));
-                let steps_by = StepsBy::Compiled { elapsed: native.elapsed, is_cached: native.is_cached };
-                (Some((step, program)), steps_by)
-            }
+        let (step, steps_by) = match compile_step(&worlds, &settings, compile) {
+            Ok((step, steps_by)) => (Some(step), steps_by),
             Err(obstacle) => (None, StepsBy::Recursions { reason: obstacle.to_string() }),
         };
-        Self { worlds, settings, compiled, steps_by }
-    }
-
-    fn compiled(
-        worlds: &[BatchWorld],
-        settings: &BatchSettings,
-        compile: Compile,
-    ) -> Result<(native::Native, Program), Obstacle> {
-        let Some(first) = worlds.first() else { return Err(Obstacle::new("there is no world")) };
-        let work = worlds.len() as f64 * f64::from(settings.n_steps) * first.model.n_v() as f64;
-        if compile == Compile::Never {
-            return Err(Obstacle::new("that is not wanted"));
-        }
-        if compile == Compile::IfItPays && work < WORTH_COMPILING {
-            return Err(Obstacle::new("it would take longer than the steps"));
-        }
-        if worlds.len() < sincro_math::lanes::width() {
-            return Err(Obstacle::new("there are fewer worlds than lanes"));
-        }
-        // worlds of one model need no numbers of their own
-        let is_same = worlds.iter().all(|world| world.model.is_same(&first.model));
-        if !is_same && worlds.len() > MAX_DIFFERENT {
-            return Err(Obstacle::new(format!("there are more than {MAX_DIFFERENT} worlds with numbers of their own")));
-        }
-        let models: Vec<&Model<f64>> =
-            worlds.iter().map(|world| &world.model).take(if is_same { 1 } else { worlds.len() }).collect();
-        compile_step(&models, settings.method, settings.h)
+        Self { worlds, settings, step, steps_by }
     }
 
     /// Way in which the steps are made.
@@ -203,15 +168,44 @@ impl Rollout {
     ///
     /// [`PackError`] if the worlds differ in more than their numbers.
     pub fn advance(&mut self, threads: usize) -> Result<(), PackError> {
-        let compiled = self.compiled.as_ref();
-        advance(&mut self.worlds, &self.settings, compiled, threads)
+        advance(&mut self.worlds, &self.settings, self.step.as_ref(), threads)
     }
+}
+
+/// Compiles the step of a batch.
+fn compile_step(
+    worlds: &[BatchWorld],
+    settings: &BatchSettings,
+    compile: Compile,
+) -> Result<(BatchStep, StepsBy), Obstacle> {
+    let Some(first) = worlds.first() else { return Err(Obstacle::new("there is no world")) };
+    let work = worlds.len() as f64 * f64::from(settings.n_steps) * first.model.n_v() as f64;
+    if compile == Compile::Never {
+        return Err(Obstacle::new("that is not wanted"));
+    }
+    if compile == Compile::IfItPays && work < WORTH_COMPILING {
+        return Err(Obstacle::new("it would take longer than the steps"));
+    }
+    if worlds.len() < sincro_math::lanes::width() {
+        return Err(Obstacle::new("there are fewer worlds than lanes"));
+    }
+    // worlds of one model need no numbers of their own
+    let is_same = worlds.iter().all(|world| world.model.is_same(&first.model));
+    if !is_same && worlds.len() > MAX_DIFFERENT {
+        return Err(Obstacle::new(format!("there are more than {MAX_DIFFERENT} worlds with numbers of their own")));
+    }
+    let different = if is_same { &worlds[..1] } else { worlds };
+    let models: Vec<&Model<f64>> = different.iter().map(|world| &world.model).collect();
+    let program = plant::step(&models, settings.method, settings.h)?.with_folded_parameters();
+    let Native { mut programs, elapsed, is_cached } = native::compile(&[&program])?;
+    let native = Arc::new(programs.remove(0));
+    Ok((BatchStep { native, program }, StepsBy::Compiled { elapsed, is_cached }))
 }
 
 fn advance(
     worlds: &mut [BatchWorld],
     settings: &BatchSettings,
-    compiled: Option<&(Arc<NativeProgram>, Program)>,
+    step: Option<&BatchStep>,
     threads: usize,
 ) -> Result<(), PackError> {
     let available = std::thread::available_parallelism().map_or(1, usize::from);
@@ -220,10 +214,10 @@ fn advance(
     // whole bundles to each thread, so that lanes are full wherever they can be
     let bundles = worlds.len().div_ceil(width);
     let share = bundles.div_ceil(threads).max(1) * width;
-    let of_part = |part: &mut [BatchWorld], first: usize| match compiled {
+    let of_part = |part: &mut [BatchWorld], first: usize| match step {
         None => batch::advance(part, settings),
-        Some((step, program)) => {
-            let of_bundle = |k: usize| -> Arc<dyn CompiledStep> { Arc::new(BundleStep::new(step, program, first + k)) };
+        Some(step) => {
+            let of_bundle = |k: usize| -> Arc<dyn CompiledStep> { Arc::new(step.of_bundle(first + k)) };
             batch::advance_compiled(part, settings, Some(&of_bundle))
         }
     };
@@ -277,7 +271,6 @@ fn advance(
 ///
 /// [`PackError`] if the worlds differ in more than their numbers: they must have the same structure.
 pub fn rollout(worlds: &mut [BatchWorld], settings: &BatchSettings, threads: usize) -> Result<(), PackError> {
-    let compiled = Rollout::compiled(worlds, settings, Compile::IfItPays).ok();
-    let compiled = compiled.map(|(mut native, program)| (Arc::new(native.programs.remove(0)), program));
-    advance(worlds, settings, compiled.as_ref(), threads)
+    let step = compile_step(worlds, settings, Compile::IfItPays).ok().map(|(step, _)| step);
+    advance(worlds, settings, step.as_ref(), threads)
 }

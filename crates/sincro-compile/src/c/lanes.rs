@@ -9,8 +9,7 @@ use super::{Dialect, sine_statements};
 /// sum of their magnitudes in `angles`.
 pub(crate) fn lane_support(width: usize) -> String {
     let bytes = 8 * width;
-    let all = |x: &str| vec![x; width].join(", ");
-    let (all_of_x, all_of_bits) = (all("(x)"), all("(x)"));
+    let all = vec!["(x)"; width].join(", ");
     let root = match width {
         4 | 8 if cfg!(target_arch = "x86_64") => {
             "    lanes root;\n    __asm__(\"vsqrtpd %1, %0\" : \"=v\"(root) : \"v\"(x));\n    return root;\n".to_owned()
@@ -23,8 +22,8 @@ pub(crate) fn lane_support(width: usize) -> String {
 typedef double row __attribute__((vector_size({bytes}), aligned(8), may_alias));
 typedef unsigned long long bits __attribute__((vector_size({bytes})));
 
-#define ALL(x) ((lanes){{{all_of_x}}})
-#define BITS(x) ((bits){{{all_of_bits}}})
+#define ALL(x) ((lanes){{{all}}})
+#define BITS(x) ((bits){{{all}}})
 #define AT(array, k) (*(row *)((array) + {width} * (k)))
 #define INLINE static inline __attribute__((always_inline))
 

@@ -82,6 +82,16 @@ pub(crate) fn statements(
     input: impl Fn(usize) -> String,
     output: impl Fn(usize) -> String,
 ) -> String {
+    statement_parts(program, dialect, input, output).concat()
+}
+
+/// As [`statements`]: those that compute, then those that write the outputs.
+pub(crate) fn statement_parts(
+    program: &Program,
+    dialect: Dialect<'_>,
+    input: impl Fn(usize) -> String,
+    output: impl Fn(usize) -> String,
+) -> [String; 2] {
     let (mut text, prefix) = (String::new(), dialect.prefix());
     let operations = program.operations();
     let mut has_angle = vec![false; operations.len()];
@@ -121,10 +131,8 @@ pub(crate) fn statements(
         };
         _ = writeln!(text, "    const {} t{k} = {value};", dialect.number_type());
     }
-    for (k, &result) in program.outputs().iter().enumerate() {
-        _ = writeln!(text, "    {} = {};", output(k), name(result));
-    }
-    text
+    let write = |(k, &result): (usize, &u32)| format!("    {} = {};\n", output(k), name(result));
+    [text, program.outputs().iter().enumerate().map(write).collect()]
 }
 
 /// Statements of sine and cosine of `x` within the limit of the reduction, into `*sine` and `*cosine`.

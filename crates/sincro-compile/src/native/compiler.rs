@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// Longest time for a compilation.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
 
-/// Options of the compiler for this processor: the instruction set that the lanes of this program use, and neither
+/// Options of the compiler for this processor: the instruction set of its lanes (eight: AVX-512, four: AVX2), and neither
 /// fused operations nor others that change a bit.
 pub(super) fn options() -> Vec<&'static str> {
     let mut options = vec![
@@ -22,9 +22,9 @@ pub(super) fn options() -> Vec<&'static str> {
         "-nostdlib",
         "-w",
     ];
-    match sincro_math::lanes::instruction_set() {
-        "AVX-512" => options.extend(["-mavx512f", "-mavx512dq", "-mavx512vl", "-mprefer-vector-width=512"]),
-        "AVX2" => options.push("-mavx2"),
+    match sincro_math::lanes::width() {
+        8 => options.extend(["-mavx512f", "-mavx512dq", "-mavx512vl", "-mprefer-vector-width=512"]),
+        4 => options.push("-mavx2"),
         _ => {}
     }
     options

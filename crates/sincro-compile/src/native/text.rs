@@ -5,7 +5,7 @@ use core::fmt::Write;
 use sincro_math::elementary::REDUCTION_LIMIT;
 use sincro_math::record::Program;
 
-use crate::c::{Dialect, lane_support, number, statements};
+use crate::c::{Dialect, lane_support, number, statement_parts};
 
 /// Magnitude of inputs below which leaving out x·0 is exact: no product of a few of them overflows.
 const INPUT_LIMIT: f64 = 1e100;
@@ -33,12 +33,9 @@ pub(super) fn library(programs: &[&Program], width: usize) -> String {
             number(INPUT_LIMIT),
             number(REDUCTION_LIMIT)
         );
-        let body = statements(program, Dialect::Lanes, |i| format!("i{i}"), |i| format!("AT(out, {i})"));
-        // outputs are written last, behind the check
-        let first_output = body.find("    AT(out,").unwrap_or(body.len());
-        text += &body[..first_output];
-        text += &check;
-        text += &body[first_output..];
+        let [computed, written] =
+            statement_parts(program, Dialect::Lanes, |i| format!("i{i}"), |i| format!("AT(out, {i})"));
+        text += &(computed + &check + &written);
         text += "    return 1;\n}\n";
     }
     text
