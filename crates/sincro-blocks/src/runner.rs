@@ -360,16 +360,7 @@ impl<R: Number> Runner<R> {
             let k = self.with_events[i];
             let step = &self.program.steps[k];
             let end = start + step.template.zero_crossing_count().unwrap_or(0);
-            let at = At {
-                t,
-                time_event: f64::INFINITY,
-                tick,
-                node: &step.node,
-                states: &self.state.continuous[step.states.clone()],
-                memory: &self.state.memory[step.memory.clone()],
-                signals: &self.state.signals,
-                ports: &step.ports,
-            };
+            let at = everything_known(step, &self.state, (tick, t, f64::INFINITY));
             self.instances[k].zero_crossings(&at, &mut values[start..end]);
             start = end;
         }
@@ -425,16 +416,7 @@ impl<R: Number> Runner<R> {
     ) {
         for &k in &self.with_states {
             let step = &self.program.steps[k];
-            let at = At {
-                t,
-                time_event,
-                tick,
-                node: &step.node,
-                states: &self.state.continuous[step.states.clone()],
-                memory: &self.state.memory[step.memory.clone()],
-                signals: &self.state.signals,
-                ports: &step.ports,
-            };
+            let at = everything_known(step, &self.state, (tick, t, time_event));
             visit(self.instances[k].as_mut(), &at, step.states.clone());
         }
     }
@@ -462,5 +444,20 @@ impl<R: Number> Runner<R> {
             let bad = self.state.signals[step.out.clone()].iter().position(|x| !x.lane(0).is_finite());
             bad.map(|k| (step, k))
         })
+    }
+}
+
+/// Instant of a block with all signals and its own states.
+#[inline(always)]
+fn everything_known<'a, R>(step: &'a Step, state: &'a State<R>, (tick, t, time_event): (u64, f64, f64)) -> At<'a, R> {
+    At {
+        t,
+        time_event,
+        tick,
+        node: &step.node,
+        states: &state.continuous[step.states.clone()],
+        memory: &state.memory[step.memory.clone()],
+        signals: &state.signals,
+        ports: &step.ports,
     }
 }
