@@ -1,16 +1,15 @@
 //! FMUs in model exchange as blocks: states, events, arrays, units, saved states. Made here by a C compiler.
 
-use std::path::Path;
-use std::process::Command;
+mod common;
 
 use sincro_fmu::FmiVersion;
-use sincro_fmu::archive::pack;
 use sincro_fmu::import::loader;
-use sincro_fmu::platform::Platform;
 use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
 use sincro_sim::{Extensions, Loaded, load};
 use sincro_testing::{SceneFolder, run};
+
+use common::{SCENE, compiled};
 
 /// The ball of `ball.c`, with a base unit of its height.
 fn description(version: FmiVersion) -> String {
@@ -71,25 +70,8 @@ fn description(version: FmiVersion) -> String {
 }
 
 fn ball(version: FmiVersion) -> Vec<u8> {
-    let folder = SceneFolder::new();
-    let library = folder.join("ball.so");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ball.c");
-    let status = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(source).status();
-    assert!(status.expect("there is a C compiler").success());
-    let platform = Platform::here().expect("a platform that FMI names");
-    let name = format!("binaries/{}/ball.{}", platform.folder(version), platform.ending());
-    let bytes = std::fs::read(library).unwrap();
-    pack(&[("modelDescription.xml".into(), description(version).into_bytes()), (name, bytes)]).unwrap()
+    compiled("ball", version, &description(version))
 }
-
-const SCENE: &str = "
-    joint = [{ name = \"slide\", kind = \"prismatic\", axis = [1, 0, 0], motor = { mode = \"torque\" } }]
-    [[body]]
-    name = \"cart\"
-    parent = \"/slide\"
-    mass = 1.0
-    inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-";
 
 /// A scene with the ball as block `ball`, whose force is 2 N from 1 s on.
 fn scene(

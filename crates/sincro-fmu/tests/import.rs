@@ -1,7 +1,6 @@
 //! FMUs of others as blocks and controllers: made here by a C compiler, and hostile ones.
 
-use std::path::Path;
-use std::process::Command;
+mod common;
 
 use sincro_fmu::FmiVersion;
 use sincro_fmu::archive::pack;
@@ -11,6 +10,8 @@ use sincro_scene::record::Recorder;
 use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::{Extensions, Loaded, load};
 use sincro_testing::{SceneFolder, run};
+
+use common::{SCENE, compiled};
 
 const STEP: f64 = 0.01;
 
@@ -41,25 +42,8 @@ fn description(version: FmiVersion) -> String {
 
 /// The plant of `plant.c` as an FMU.
 fn plant(version: FmiVersion) -> Vec<u8> {
-    let folder = SceneFolder::new();
-    let library = folder.join("plant.so");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/plant.c");
-    let status = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(source).status();
-    assert!(status.expect("there is a C compiler").success());
-    let platform = Platform::here().expect("a platform that FMI names");
-    let name = format!("binaries/{}/plant.{}", platform.folder(version), platform.ending());
-    let bytes = std::fs::read(library).unwrap();
-    pack(&[("modelDescription.xml".into(), description(version).into_bytes()), (name, bytes)]).unwrap()
+    compiled("plant", version, &description(version))
 }
-
-const SCENE: &str = "
-    joint = [{ name = \"slide\", kind = \"prismatic\", axis = [1, 0, 0], motor = { mode = \"torque\" } }]
-    [[body]]
-    name = \"cart\"
-    parent = \"/slide\"
-    mass = 1.0
-    inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-";
 
 fn extensions() -> Extensions {
     Extensions { fmus: Some(loader()), ..Extensions::default() }

@@ -1,17 +1,16 @@
 //! FMUs in processes of their own: the same bits, and crashes that end the run alone. The process is this test again.
 #![cfg(unix)]
 
-use std::path::Path;
-use std::process::Command;
+mod common;
 
 use sincro_fmu::FmiVersion;
-use sincro_fmu::archive::pack;
 use sincro_fmu::import::isolated::{IsolatedLoader, serve};
 use sincro_fmu::import::loader;
-use sincro_fmu::platform::Platform;
 use sincro_scene::fmu::FmuLoader;
 use sincro_sim::{Extensions, Loaded, load};
 use sincro_testing::{SceneFolder, run};
+
+use common::{SCENE, compiled};
 
 /// Word among the arguments by which a test knows that it is the process of an FMU.
 const WORKER: &str = "be-the-process-of-an-fmu";
@@ -26,18 +25,6 @@ fn serves_an_instance() {
 fn isolated() -> &'static dyn FmuLoader {
     let arguments = ["--exact", "serves_an_instance", WORKER, "--nocapture"].map(str::to_owned);
     Box::leak(Box::new(IsolatedLoader::new(std::env::current_exe().unwrap(), arguments.to_vec())))
-}
-
-fn fmu(name: &str, version: FmiVersion, description: &str) -> Vec<u8> {
-    let folder = SceneFolder::new();
-    let library = folder.join("fmu.so");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(format!("{name}.c"));
-    let status = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(source).status();
-    assert!(status.expect("there is a C compiler").success());
-    let platform = Platform::here().expect("a platform that FMI names");
-    let path = format!("binaries/{}/{name}.{}", platform.folder(version), platform.ending());
-    let bytes = std::fs::read(library).unwrap();
-    pack(&[("modelDescription.xml".into(), description.as_bytes().to_vec()), (path, bytes)]).unwrap()
 }
 
 const PLANT: &str = r#"<fmiModelDescription fmiVersion="2.0" modelName="plant" guid="{plant}">
@@ -65,15 +52,6 @@ const BALL: &str = r#"<fmiModelDescription fmiVersion="3.0" modelName="ball" ins
     </ModelStructure>
   </fmiModelDescription>"#;
 
-const SCENE: &str = "
-    joint = [{ name = \"slide\", kind = \"prismatic\", axis = [1, 0, 0], motor = { mode = \"torque\" } }]
-    [[body]]
-    name = \"cart\"
-    parent = \"/slide\"
-    mass = 1.0
-    inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
-";
-
 fn scene(fmu: &[u8], block: &str, amplitude: f64, loader: &'static dyn FmuLoader) -> (SceneFolder, Loaded) {
     let diagram = format!(
         "wires = [\"source -> foreign.u\", {block}\n\
@@ -94,8 +72,8 @@ const EXCHANGED: &str =
 
 #[test]
 fn isolated_runs_have_the_same_bits() {
-    let plant = fmu("plant", FmiVersion::V2, PLANT);
-    let ball = fmu("ball", FmiVersion::V3, BALL);
+    let plant = compiled("plant", FmiVersion::V2, PLANT);
+    let ball = compiled("ball", FmiVersion::V3, BALL);
     for (fmu, block) in [(&plant, STEPPED), (&ball, EXCHANGED)] {
         let (here, there) = (scene(fmu, block, 2.0, loader()), scene(fmu, block, 2.0, isolated()));
         let (here, there) = (run(&here.1), run(&there.1));
@@ -107,7 +85,7 @@ fn isolated_runs_have_the_same_bits() {
 
 #[test]
 fn crash_ends_the_run_and_names_the_fmu() {
-    let plant = fmu("plant", FmiVersion::V2, PLANT);
+    let plant = compiled("plant", FmiVersion::V2, PLANT);
     // the plant refuses inputs above 100 and crashes above 1000
     let status = |amplitude: f64| format!("{:?}", run(&scene(&plant, STEPPED, amplitude, isolated()).1).status);
     let refused = status(500.0);
@@ -119,7 +97,7 @@ fn crash_ends_the_run_and_names_the_fmu() {
 
 #[test]
 fn worker_that_is_none_is_named() {
-    let plant = fmu("plant", FmiVersion::V2, PLANT);
+    let plant = compiled("plant", FmiVersion::V2, PLANT);
     for (program, message) in [("/nonexistent", "cannot be started"), ("/bin/true", "its process ended itself")] {
         let loader = Box::leak(Box::new(IsolatedLoader::new(program.into(), Vec::new())));
         let status = format!("{:?}", run(&scene(&plant, STEPPED, 1.0, loader).1).status);

@@ -92,8 +92,7 @@ impl Client {
 
     fn exchange(&mut self, verb: Verb, fields: Fields) -> std::io::Result<Option<Frame>> {
         let Some(connection) = &mut self.connection else { return Ok(None) };
-        Fields::default().code(verb as u8).send(connection)?;
-        fields.send(connection)?;
+        Fields::default().code(verb as u8).and(fields).send(connection)?;
         Frame::receive(connection)
     }
 

@@ -71,6 +71,12 @@ impl Fields {
         self
     }
 
+    /// These fields and behind them others.
+    pub fn and(mut self, others: Self) -> Self {
+        self.0.extend(others.0);
+        self
+    }
+
     /// Writes the frame at once.
     pub fn send(self, to: &mut impl Write) -> io::Result<()> {
         let mut frame = (self.0.len() as u64).to_le_bytes().to_vec();

@@ -39,8 +39,8 @@ pub fn serve() -> io::Result<()> {
 /// Answers until the end of the connection.
 fn answer(reader: &mut impl Read, writer: &mut impl Write) -> io::Result<()> {
     let mut instance: Option<Box<dyn FmuInstance>> = None;
-    while let (Some(mut verb), Some(fields)) = (Frame::receive(reader)?, Frame::receive(reader)?) {
-        let verb = verb.code().ok().and_then(|code| Verb::ALL.get(usize::from(code)).copied());
+    while let Some(mut fields) = Frame::receive(reader)? {
+        let verb = fields.code().ok().and_then(|code| Verb::ALL.get(usize::from(code)).copied());
         let done = match (verb, &mut instance) {
             (None, _) => Err("an unknown message".to_owned()),
             (Some(Verb::Open), _) => open(fields).map(|new| {
