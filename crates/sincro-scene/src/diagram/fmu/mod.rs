@@ -113,7 +113,9 @@ impl FmuBlock {
         let Some(bytes) = p.binary_file("file") else { return new };
         match loader.read(&bytes) {
             Ok(model) => new.read_ports(p, &model),
-            Err(message) => p.fault("file", message, "export it for this platform"),
+            Err(message) => {
+                p.fault("file", message, "take a whole FMU of FMI 2.0 or 3.0 that has a library for this platform")
+            }
         }
         new
     }
