@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// Longest time for a compilation.
 const TIME_LIMIT: Duration = Duration::from_secs(60);
 
-/// Options of the compiler for this processor: the instruction set of its lanes (eight: AVX-512, four: AVX2), and neither
+/// Options of the compiler for this processor: the instruction set of its lanes (eight: AVX-512, four: AVX2), neither
 /// fused operations nor others that change a bit.
 pub(super) fn options() -> Vec<&'static str> {
     let mut options = vec![
