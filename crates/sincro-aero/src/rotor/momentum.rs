@@ -76,8 +76,8 @@ impl<R: Real> Balance<R> {
         (f, slope)
     }
 
-    /// The largest root of f in each lane: the lanes whose root is above max(v, 0), as in flight, are searched together,
-    /// the others one by one.
+    /// The largest root of f in each lane: lanes whose root is above max(v, 0), as in flight, are searched together, the
+    /// others one by one.
     #[inline(always)]
     fn largest_roots(&self) -> R {
         let zero = R::zero();
@@ -101,8 +101,8 @@ impl<R: Real> Balance<R> {
         b.if_less(R::zero(), R::splat(2.0) * self.supply / (root - b), R::splat(0.5) * (b + root))
     }
 
-    /// The root of f between `low` and `high`, where f rises, by Newton's method from `high`, kept inside the bracket; in
-    /// the lanes where `is_wanted` is 1. A lane whose search has ended stays as it is.
+    /// The root of f between `low` and `high`, where f rises, by Newton's method from `high`, kept inside the bracket,
+    /// in the lanes where `is_wanted` is 1. A lane whose search has ended stays as it is.
     #[inline(always)]
     fn rising_root(&self, mut low: R, mut high: R, is_wanted: R) -> R {
         let (zero, one) = (R::zero(), R::one());
