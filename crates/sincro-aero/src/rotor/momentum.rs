@@ -76,7 +76,7 @@ impl<R: Real> Balance<R> {
         (f, slope)
     }
 
-    /// The largest root of f in each lane: lanes whose root is above max(v, 0), as in flight, are searched together, the
+    /// The largest root of f in each lane: lanes whose root is above max(v, 0), as in flight, are searched together,
     /// others one by one.
     #[inline(always)]
     fn largest_roots(&self) -> R {
