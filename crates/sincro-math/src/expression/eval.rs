@@ -65,7 +65,7 @@ impl Op {
             Self::Constant(x) => R::splat(x),
             Self::Value(slot) => values[slot as usize],
             Self::Neg => -operands[0],
-            Self::Not => logical(operands[0], R::zero(), |x, _| x == 0.0),
+            Self::Not => logical(operands[0], R::zero(), equal(operands[0], R::zero())),
             Self::Power(exponent) => whole_power(operands[0], exponent),
             Self::Binary(binary) => binary.apply(operands[0], operands[1]),
             Self::Call(function, _) => function.apply(operands),
@@ -82,14 +82,14 @@ impl Binary {
             Self::Mul => a * b,
             Self::Div => a / b,
             Self::Pow => a.map2(b, elementary::pow),
-            Self::Less => logical(a, b, |a, b| a < b),
-            Self::LessEqual => logical(a, b, |a, b| a <= b),
-            Self::Greater => logical(a, b, |a, b| a > b),
-            Self::GreaterEqual => logical(a, b, |a, b| a >= b),
-            Self::Equal => logical(a, b, |a, b| a == b),
-            Self::NotEqual => logical(a, b, |a, b| a != b),
-            Self::And => logical(a, b, |a, b| a != 0.0 && b != 0.0),
-            Self::Or => logical(a, b, |a, b| a != 0.0 || b != 0.0),
+            Self::Less => logical(a, b, less(a, b)),
+            Self::LessEqual => logical(a, b, not(less(b, a))),
+            Self::Greater => logical(a, b, less(b, a)),
+            Self::GreaterEqual => logical(a, b, not(less(a, b))),
+            Self::Equal => logical(a, b, equal(a, b)),
+            Self::NotEqual => logical(a, b, not(equal(a, b))),
+            Self::And => logical(a, b, not(equal(a, R::zero())) * not(equal(b, R::zero()))),
+            Self::Or => logical(a, b, not(equal(a, R::zero()) * equal(b, R::zero()))),
         }
     }
 }
@@ -127,38 +127,57 @@ pub(super) fn stack_depth(program: &[Op]) -> usize {
     deepest
 }
 
-/// 1 where `holds`, else 0, lane by lane; NaN where `a` or `b` is. No derivatives.
+/// 1 where a condition holds, else 0: `value`, but NaN where `a` or `b` is. No derivatives.
 #[inline]
-fn logical<R: Real>(a: R, b: R, holds: impl Fn(f64, f64) -> bool) -> R {
-    R::from_lanes(|k| {
-        let (a, b) = (a.lane(k), b.lane(k));
-        if a.is_nan() || b.is_nan() {
-            f64::NAN
-        } else if holds(a, b) {
-            1.0
-        } else {
-            0.0
-        }
-    })
+fn logical<R: Real>(a: R, b: R, value: R) -> R {
+    unless_nan(a, unless_nan(b, value, R::splat(f64::NAN)), R::splat(f64::NAN))
+}
+
+/// `value` where `x` is a number, else `otherwise`.
+#[inline]
+fn unless_nan<R: Real>(x: R, value: R, otherwise: R) -> R {
+    // every number is below 1 or above ½
+    x.if_less(R::one(), value, R::splat(0.5).if_less(x, value, otherwise))
+}
+
+/// 1 where a is less than b, else 0.
+#[inline]
+fn less<R: Real>(a: R, b: R) -> R {
+    a.if_less(b, R::one(), R::zero())
+}
+
+/// 1 where a is neither less nor more than b, else 0.
+#[inline]
+fn equal<R: Real>(a: R, b: R) -> R {
+    a.if_less(b, R::zero(), b.if_less(a, R::zero(), R::one()))
+}
+
+/// 1 where a condition, 1 or 0, does not hold, else 0.
+#[inline]
+fn not<R: Real>(condition: R) -> R {
+    R::one() - condition
 }
 
 /// `then` where the condition is not zero, else `otherwise`, lane by lane; NaN where the condition is.
 #[inline]
 pub(super) fn choose<R: Real>(condition: R, then: R, otherwise: R) -> R {
-    let is_false = logical(condition, R::zero(), |x, _| x == 0.0);
+    let is_false = logical(condition, R::zero(), equal(condition, R::zero()));
     // 0 or NaN: taking it away changes no bit of a number
-    let poison = is_false * R::zero();
+    let poison = is_false - is_false;
     is_false.if_less(R::splat(0.5), then, otherwise) - poison
 }
 
 /// The smaller of two, `a` where they are equal; NaN where one of them is.
 #[inline]
 pub(super) fn smaller<R: Real>(a: R, b: R) -> R {
-    let takes_b = R::from_lanes(|k| {
-        let (a, b) = (a.lane(k), b.lane(k));
-        if b < a || b.is_nan() { 1.0 } else { 0.0 }
-    });
-    takes_b.if_less(R::splat(0.5), a, b)
+    unless_nan(b, b.if_less(a, b, a), b)
+}
+
+/// −1, 0 or 1; NaN for NaN. No derivatives.
+#[inline]
+pub(super) fn sign<R: Real>(x: R) -> R {
+    // the cube of a zero keeps its sign, and has no slope
+    R::zero().if_less(x, R::one(), x.if_less(R::zero(), -R::one(), x * x * x))
 }
 
 /// `x^exponent` by squaring; a negative exponent divides 1 by it.
@@ -210,5 +229,86 @@ mod tests {
         let x = Dual::<1>::variable(-1.0, 0);
         let out = choose(Dual::constant(0.0), x.map(elementary::ln), x * x);
         assert_eq!((out.value, out.partials), (1.0, [-2.0]));
+    }
+
+    const SPECIAL: [f64; 13] = [
+        f64::NAN,
+        f64::NEG_INFINITY,
+        -1e300,
+        -1.0,
+        -0.5,
+        -0.0,
+        0.0,
+        f64::MIN_POSITIVE,
+        0.5,
+        0.75,
+        1.0,
+        3.0,
+        f64::INFINITY,
+    ];
+
+    #[test]
+    fn comparisons_without_branches_have_the_values_of_branches() {
+        let branches: [(Binary, fn(f64, f64) -> bool); 8] = [
+            (Binary::Less, |a, b| a < b),
+            (Binary::LessEqual, |a, b| a <= b),
+            (Binary::Greater, |a, b| a > b),
+            (Binary::GreaterEqual, |a, b| a >= b),
+            (Binary::Equal, |a, b| a == b),
+            (Binary::NotEqual, |a, b| a != b),
+            (Binary::And, |a, b| a != 0.0 && b != 0.0),
+            (Binary::Or, |a, b| a != 0.0 || b != 0.0),
+        ];
+        for (a, b) in SPECIAL.iter().flat_map(|a| SPECIAL.iter().map(move |b| (*a, *b))) {
+            for (binary, holds) in branches {
+                let expected = if a.is_nan() || b.is_nan() { f64::NAN } else { f64::from(u8::from(holds(a, b))) };
+                let found = binary.apply(a, b);
+                assert!(
+                    found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan(),
+                    "{binary:?} {a} {b}"
+                );
+                assert_eq!(
+                    binary.apply(Dual::<1>::variable(a, 0), Dual::constant(b)).partials,
+                    [0.0],
+                    "{binary:?} {a} {b}"
+                );
+            }
+            let least = if b < a || b.is_nan() { b } else { a };
+            assert_eq!(smaller(a, b).to_bits(), least.to_bits(), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn the_sign_keeps_zeros_and_has_no_slope() {
+        for x in SPECIAL {
+            let expected = if x == 0.0 || x.is_nan() { x } else { 1f64.copysign(x) };
+            let found = sign(x);
+            assert!(found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan(), "{x}");
+            if !x.is_nan() {
+                assert_eq!(sign(Dual::<1>::variable(x, 0)).partials, [0.0], "{x}");
+            }
+        }
+    }
+
+    #[test]
+    fn recorded_functions_keep_what_is_not_a_number() {
+        for text in ["sign(x)", "x < 1", "not(x)", "min(x, 1)", "max(1, x)", "clamp(x, 0, 1)", "if(x, 1, 2)", "x and 0"]
+        {
+            let formula = crate::expression::Expression::parse(text, &["x"]).unwrap();
+            let program = crate::record::record(1, 1, |x| vec![formula.eval(x, &mut Vec::new())]).unwrap();
+            assert!(program.evaluate(&[f64::NAN], 0)[0].is_nan(), "{text}");
+        }
+    }
+
+    #[test]
+    fn formulas_with_comparisons_are_recorded_with_their_bits() {
+        let text =
+            "if(x > 0.5 and not(y == x), min(x, y, 0.7), sign(y)) + clamp(x, -1, y) + max(x, 2*y) + (x <= y or x != 3)";
+        let formula = crate::expression::Expression::parse(text, &["x", "y"]).unwrap();
+        let program = crate::record::record(2, 1, |x| vec![formula.eval(x, &mut Vec::new())]).unwrap();
+        for (x, y) in SPECIAL.iter().flat_map(|x| SPECIAL.iter().map(move |y| (*x, *y))) {
+            let (expected, found) = (formula.eval(&[x, y], &mut Vec::new()), program.evaluate(&[x, y], 0)[0]);
+            assert!(found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan(), "{x} {y}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The functions that formulas know: name, number of arguments, value.
 
-use super::eval::{choose, smaller};
+use super::eval::{choose, sign, smaller};
 use crate::{Real, elementary};
 
 /// A function of a formula.
@@ -118,7 +118,7 @@ impl Function {
             Self::Ln => x[0].map(elementary::ln),
             Self::Log10 => x[0].map(elementary::log10),
             Self::Abs => x[0].abs(),
-            Self::Sign => R::from_lanes(|k| sign(x[0].lane(k))),
+            Self::Sign => sign(x[0]),
             Self::Floor => R::from_lanes(|k| libm::floor(x[0].lane(k))),
             Self::Ceil => R::from_lanes(|k| libm::ceil(x[0].lane(k))),
             Self::Mod => x[0].map2(x[1], elementary::modulo),
@@ -128,17 +128,6 @@ impl Function {
             Self::Hypot => x[0].map2(x[1], elementary::hypot),
             Self::If => choose(x[0], x[1], x[2]),
         }
-    }
-}
-
-/// −1, 0 or 1; NaN for NaN.
-fn sign(x: f64) -> f64 {
-    if x > 0.0 {
-        1.0
-    } else if x < 0.0 {
-        -1.0
-    } else {
-        x
     }
 }
 
