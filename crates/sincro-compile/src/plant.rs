@@ -62,7 +62,7 @@ pub(crate) fn parts<R, const N: usize>(mut inputs: &[R], sizes: [usize; N]) -> [
 ///
 /// If there is no model.
 pub fn step(models: &[&Model<f64>], method: MethodKind, h: f64) -> Result<Program, Obstacle> {
-    worlds(models, method, |worlds| {
+    worlds(models, method, 0, |worlds, _| {
         worlds.step(0.0, h);
         [worlds.coordinates(), worlds.velocities(), worlds.rotors()].concat()
     })
@@ -75,23 +75,36 @@ pub fn step(models: &[&Model<f64>], method: MethodKind, h: f64) -> Result<Progra
 ///
 /// As [`step`], for a method with fixed steps that takes springs at the present state.
 pub fn rates(model: &Model<f64>) -> Result<Program, Obstacle> {
-    worlds(&[model], MethodKind::Rk4, |worlds| worlds.rates(0.0))
+    worlds(&[model], MethodKind::Rk4, 0, |worlds, _| worlds.rates(0.0))
 }
 
-fn worlds(
+/// Records what `act` makes of worlds whose models differ in numbers alone: it gets them in the state of the inputs
+/// ([`state_sizes`]), and the `n_more` inputs that follow.
+///
+/// # Errors
+///
+/// As [`step`], of what `act` does with the worlds.
+///
+/// # Panics
+///
+/// If there is no model.
+pub fn worlds(
     models: &[&Model<f64>],
     method: MethodKind,
-    act: impl FnOnce(&mut LaneWorlds<Recorded>) -> Vec<Recorded>,
+    n_more: usize,
+    act: impl FnOnce(&mut LaneWorlds<Recorded>, &[Recorded]) -> Vec<Recorded>,
 ) -> Result<Program, Obstacle> {
     models.iter().try_for_each(|model| check(model, method))?;
     let sizes = state_sizes(models[0]);
     let mut different = None;
-    let program = record(sizes.iter().sum(), models.len(), |inputs| {
-        let [q, v, rotors, commands] = parts(inputs, sizes);
+    let n_state: usize = sizes.iter().sum();
+    let program = record(n_state + n_more, models.len(), |inputs| {
+        let (state, more) = inputs.split_at(n_state);
+        let [q, v, rotors, commands] = parts(state, sizes);
         match LaneWorlds::new(models, method) {
             Ok(mut worlds) => {
                 worlds.set_state(q, v, rotors, commands);
-                act(&mut worlds)
+                act(&mut worlds, more)
             }
             Err(error) => {
                 different = Some(error);

@@ -16,6 +16,19 @@ pub(crate) fn lane_support(width: usize) -> String {
         }
         _ => format!("    int k;\n    for (k = 0; k < {width}; k++) x[k] = __builtin_sqrt(x[k]);\n    return x;\n"),
     };
+    // 17: ordered, less than, without a signal
+    let all_below = match width {
+        8 if cfg!(target_arch = "x86_64") => {
+            "    int mask;\n    __asm__(\"vcmppd $17, %2, %1, %%k1\\n\\tkmovb %%k1, %0\" : \"=r\"(mask) : \"v\"(x), \"v\"(bound) : \"k1\");\n    return mask == 255;\n".to_owned()
+        }
+        4 if cfg!(target_arch = "x86_64") => {
+            "    int mask;\n    lanes below;\n    __asm__(\"vcmppd $17, %3, %2, %1\\n\\tvmovmskpd %1, %0\" : \"=r\"(mask), \"=&x\"(below) : \"x\"(x), \"x\"(bound));\n    return mask == 15;\n".to_owned()
+        }
+        _ => {
+            let each: Vec<String> = (0..width).map(|k| format!("(x[{k}] < bound[{k}])")).collect();
+            format!("    return {};\n", each.join(" & "))
+        }
+    };
     let sine = sine_statements(Dialect::Lanes);
     format!(
         r#"typedef double lanes __attribute__((vector_size({bytes})));
@@ -65,12 +78,8 @@ INLINE void sine_cosine(lanes x, lanes *sine, lanes *cosine) {{
 
 /* True if all lanes are below a limit; false for those that are no numbers. */
 INLINE int all_below(lanes x, double limit) {{
-    const bits below = (bits)(x < ALL(limit));
-    unsigned long long all = below[0];
-    int k;
-    for (k = 1; k < {width}; k++) all &= below[k];
-    return all != 0;
-}}
+    const lanes bound = ALL(limit);
+{all_below}}}
 "#
     )
 }

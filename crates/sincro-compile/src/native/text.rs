@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use sincro_math::elementary::REDUCTION_LIMIT;
-use sincro_math::record::Program;
+use sincro_math::record::{Operation, Program};
 
 use crate::c::{Dialect, lane_support, number, statement_parts};
 
@@ -20,19 +20,21 @@ pub(super) fn function_name(k: usize) -> String {
 pub(super) fn library(programs: &[&Program], width: usize) -> String {
     let mut text = lane_support(width);
     for (k, program) in programs.iter().enumerate() {
-        _ = writeln!(
-            text,
-            "\nint {}(const double *in, const double *parameters, double *out) {{\n    lanes angles = ALL(0.0), size = ALL(0.0);\n    (void)parameters;",
-            function_name(k)
-        );
+        let has_angles = program.operations().iter().any(|x| matches!(x, Operation::Sin(_) | Operation::Cos(_)));
+        let name = function_name(k);
+        _ = writeln!(text, "\nint {name}(const double *in, const double *parameters, double *out) {{");
+        // in four sums, which do not wait for each other
+        text +=
+            "    lanes angles = ALL(0.0), size0 = ALL(0.0), size1 = ALL(0.0), size2 = ALL(0.0), size3 = ALL(0.0);\n";
+        text += "    (void)parameters;\n    (void)angles;\n";
         for input in 0..program.n_inputs() {
-            _ = writeln!(text, "    const lanes i{input} = AT(in, {input});\n    size += absolute(i{input});");
+            let sum = input % 4;
+            _ = writeln!(text, "    const lanes i{input} = AT(in, {input});\n    size{sum} += absolute(i{input});");
         }
-        let check = format!(
-            "    if (!all_below(size, {}) || !all_below(angles, {})) return 0;\n",
-            number(INPUT_LIMIT),
-            number(REDUCTION_LIMIT)
-        );
+        let size = format!("all_below((size0 + size1) + (size2 + size3), {})", number(INPUT_LIMIT));
+        let angles =
+            if has_angles { format!(" & all_below(angles, {})", number(REDUCTION_LIMIT)) } else { String::new() };
+        let check = format!("    if (!({size}{angles})) return 0;\n");
         let [computed, written] =
             statement_parts(program, Dialect::Lanes, |i| format!("i{i}"), |i| format!("AT(out, {i})"));
         text += &(computed + &check + &written);
