@@ -6,6 +6,7 @@ use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUn
 use pyo3::prelude::*;
 use sincro_scene::experiment::task::Space;
 use sincro_scene::scene::{Camera, Object, ObjectKind};
+use sincro_sim::rollout::StepsBy;
 use sincro_sim::task::{Autoreset, Step, TaskWorlds};
 
 use crate::model::Model;
@@ -17,11 +18,13 @@ const PICTURE: [usize; 2] = [480, 360];
 /// Name of an action, its bounds if it has a range, its values if it has those.
 type ActionSpace = (String, Option<(f64, f64)>, Option<Vec<f64>>);
 
-/// Results of a step as arrays: observations, rewards, terminated, truncated, stopped, final observations.
+/// Results of a step as arrays: observations, rewards, terminated and truncated; if there are any, stopped worlds and
+/// final observations.
 type Results<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
-    [Bound<'py, PyArray1<bool>>; 3],
+    [Bound<'py, PyArray1<bool>>; 2],
+    Option<Bound<'py, PyArray1<bool>>>,
     Option<Bound<'py, PyArray2<f64>>>,
 );
 
@@ -32,6 +35,8 @@ pub struct Worlds {
     n: usize,
     n_observations: usize,
     n_actions: usize,
+    /// Name and values of each action; none of one with a range.
+    values: Vec<(String, Vec<f64>)>,
 }
 
 impl Worlds {
@@ -55,7 +60,12 @@ impl Worlds {
         let made = foreground::contained(py, || TaskWorlds::new(loaded, n, threads))?;
         let worlds = made.map_err(|found| errors::scene(py, &found))?;
         let (n_observations, n_actions) = (worlds.plan().n_observations(), worlds.plan().n_actions());
-        Ok(Self { worlds: Mutex::new(worlds), n, n_observations, n_actions })
+        let of = |action: &sincro_scene::experiment::task::Action| match &action.space {
+            Space::Range(..) => (action.name.clone(), Vec::new()),
+            Space::Values(values) => (action.name.clone(), values.clone()),
+        };
+        let values = worlds.plan().task().actions.iter().map(of).collect();
+        Ok(Self { worlds: Mutex::new(worlds), n, n_observations, n_actions, values })
     }
 
     /// Formulas of the observations.
@@ -92,6 +102,15 @@ impl Worlds {
     #[getter]
     fn lanes_refused(&self, py: Python<'_>) -> PyResult<Option<String>> {
         self.worlds(py, |worlds| worlds.plan().lanes_refused().map(ToOwned::to_owned))
+    }
+
+    /// Reason why the steps are not compiled; none if they are.
+    #[getter]
+    fn compilation_refused(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        self.worlds(py, |worlds| match worlds.steps_by() {
+            StepsBy::Compiled { .. } => None,
+            StepsBy::Recursions { reason } => Some(reason.clone()),
+        })
     }
 
     /// Picture of a world by a camera of the scene (the first one unless named), (height, width, 3).
@@ -156,20 +175,56 @@ impl Worlds {
         actions: PyReadonlyArray2<'py, f64>,
         autoreset: &str,
     ) -> PyResult<Results<'py>> {
-        if actions.shape() != [self.n, self.n_actions] {
-            let [rows, columns] = [actions.shape()[0], actions.shape()[1]];
-            let words = format!("the actions are ({rows}, {columns}), not ({}, {})", self.n, self.n_actions);
-            return Err(errors::argument(py, &words));
-        }
+        self.check_shape(py, actions.shape())?;
         let given: Vec<f64> = match actions.as_slice() {
             Ok(given) => given.to_vec(),
             Err(_) => actions.as_array().iter().copied().collect(),
         };
-        if let Some(k) = given.iter().position(|x| !x.is_finite()) {
+        // x − x is 0, or NaN where x is not finite
+        if given.iter().map(|x| x - x).sum::<f64>() != 0.0 {
+            let k = given.iter().position(|x| !x.is_finite()).unwrap_or_default();
             let (world, action) = (k / self.n_actions, k % self.n_actions);
             let words = format!("action {action} of world {world} is {}, not a finite number", given[k]);
             return Err(errors::argument(py, &words));
         }
+        self.step_by(py, given, autoreset)
+    }
+
+    /// Steps all worlds by one action each, `(n, n_actions)`: numbers of values, counted from 0, of actions that have
+    /// them.
+    fn step_chosen<'py>(
+        &self,
+        py: Python<'py>,
+        actions: PyReadonlyArray2<'py, i64>,
+        autoreset: &str,
+    ) -> PyResult<Results<'py>> {
+        self.check_shape(py, actions.shape())?;
+        let chosen = actions.as_array();
+        let mut given = vec![0.0; self.n * self.n_actions];
+        for (k, (name, values)) in self.values.iter().enumerate() {
+            for (to, index) in given.iter_mut().skip(k).step_by(self.n_actions).zip(chosen.column(k)) {
+                let value = usize::try_from(*index).ok().and_then(|index| values.get(index));
+                let Some(value) = value else {
+                    let words = format!("`{name}` is chosen from 0 to {}, not {index}", values.len().saturating_sub(1));
+                    return Err(errors::argument(py, &words));
+                };
+                *to = *value;
+            }
+        }
+        self.step_by(py, given, autoreset)
+    }
+}
+
+impl Worlds {
+    fn check_shape(&self, py: Python<'_>, shape: &[usize]) -> PyResult<()> {
+        if shape == [self.n, self.n_actions] {
+            return Ok(());
+        }
+        let words = format!("the actions are ({}, {}), not ({}, {})", shape[0], shape[1], self.n, self.n_actions);
+        Err(errors::argument(py, &words))
+    }
+
+    fn step_by<'py>(&self, py: Python<'py>, given: Vec<f64>, autoreset: &str) -> PyResult<Results<'py>> {
         let autoreset = match autoreset {
             "next-step" => Autoreset::NextStep,
             "same-step" => Autoreset::SameStep,
@@ -181,10 +236,11 @@ impl Worlds {
             worlds.step(&given, autoreset, &mut step);
             step
         })?;
-        let has_ended = step.terminated.iter().chain(&step.truncated).any(|ended| *ended);
-        let finals = (has_ended && autoreset == Autoreset::SameStep).then_some(step.final_observations);
-        let flags = [step.terminated, step.truncated, step.stopped].map(|flags| PyArray1::from_vec(py, flags));
-        let finals = finals.map(|finals| self.rows(py, finals)).transpose()?;
-        Ok((self.rows(py, step.observations)?, PyArray1::from_vec(py, step.rewards), flags, finals))
+        let has_finals = autoreset == Autoreset::SameStep
+            && step.terminated.iter().zip(&step.truncated).any(|(terminated, truncated)| *terminated || *truncated);
+        let finals = has_finals.then(|| self.rows(py, step.final_observations)).transpose()?;
+        let stopped = step.stopped.contains(&true).then(|| PyArray1::from_vec(py, step.stopped));
+        let flags = [step.terminated, step.truncated].map(|flags| PyArray1::from_vec(py, flags));
+        Ok((self.rows(py, step.observations)?, PyArray1::from_vec(py, step.rewards), flags, stopped, finals))
     }
 }

@@ -2,40 +2,142 @@
 
 use std::path::{Path, PathBuf};
 
+use sincro_blocks::library::sources::random::uniform;
+use sincro_math::random::splitmix64;
 use sincro_sim::prelude::*;
+use sincro_sim::rollout::{Compile, StepsBy};
 use sincro_sim::task::{Autoreset, Step, TaskWorlds};
 
 fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
 }
 
-/// Observations and rewards of `n_steps` of `n` worlds whose actions alternate.
-fn episodes(name: &str, n: usize, threads: usize, n_steps: usize) -> Vec<Vec<u64>> {
-    let loaded = load(&scene(name), &[], Extensions::default()).unwrap();
-    let mut worlds = TaskWorlds::new(&loaded, n, threads).unwrap();
-    let (n_actions, n_observations) = (worlds.plan().n_actions(), worlds.plan().n_observations());
+/// Everything that `n_steps` of `n` worlds give, world by world, whose actions are drawn from the world and the step.
+fn episodes(worlds: &mut TaskWorlds, autoreset: Autoreset, n_steps: u64) -> Vec<Vec<u64>> {
+    let (n, n_actions, n_observations) = (worlds.n_worlds(), worlds.plan().n_actions(), worlds.plan().n_observations());
     let seeds: Vec<Option<u64>> = (0..n as u64).map(|k| Some(7 + k)).collect();
     let mut step = Step::new(n, n_observations);
     worlds.reset(&seeds, &vec![true; n], &mut step.observations);
     let mut seen = vec![Vec::new(); n];
+    let mut is_over = vec![false; n];
     for k in 0..n_steps {
-        let action = if k % 3 == 0 { 1.0 } else { -0.5 };
-        worlds.step(&vec![action; n * n_actions], Autoreset::SameStep, &mut step);
+        let action = |world: u64, i: u64| 12.0 * uniform(splitmix64(world, k), i) - 6.0;
+        let actions: Vec<f64> =
+            (0..n as u64).flat_map(|world| (0..n_actions as u64).map(move |i| action(world, i))).collect();
+        worlds.step(&actions, autoreset, &mut step);
         for (world, seen) in seen.iter_mut().enumerate() {
-            let row = &step.observations[world * n_observations..(world + 1) * n_observations];
-            seen.extend(row.iter().chain([&step.rewards[world]]).map(|x| x.to_bits()));
+            let row = world * n_observations..(world + 1) * n_observations;
+            let flags = [step.terminated[world], step.truncated[world], step.stopped[world]].map(u64::from);
+            let numbers = step.observations[row.clone()].iter().chain([&step.rewards[world]]);
+            seen.extend(numbers.map(|x| x.to_bits()).chain(flags));
+            let ended = step.terminated[world] || step.truncated[world];
+            if ended && autoreset == Autoreset::SameStep {
+                seen.extend(step.final_observations[row].iter().map(|x| x.to_bits()));
+            }
+            is_over[world] |= ended;
+        }
+        // of those that wait, some begin anew
+        if autoreset == Autoreset::Disabled && k % 7 == 6 {
+            let mask: Vec<bool> = (0..n).map(|world| is_over[world] && world % 3 != 0).collect();
+            worlds.reset(&vec![None; n], &mask, &mut step.observations);
+            is_over.iter_mut().zip(&mask).for_each(|(is_over, begun)| *is_over &= !begun);
         }
     }
     seen
 }
 
+const TASKS: [&str; 5] = ["cart-pole-balance", "cart-pole-swing-up", "acrobot", "reacher-springs", "quadrotor-hover"];
+
 #[test]
 fn episodes_depend_on_their_seeds_alone() {
-    for name in ["cart-pole-balance", "acrobot", "quadrotor-hover"] {
-        let many = episodes(name, 21, 3, 100);
-        let few = episodes(name, 2, 1, 100);
+    for name in TASKS {
+        let loaded = load(&scene(name), &[], Extensions::default()).unwrap();
+        let of = |n: usize, threads: usize| {
+            episodes(&mut TaskWorlds::new(&loaded, n, threads).unwrap(), Autoreset::SameStep, 120)
+        };
+        let (many, few) = (of(21, 3), of(2, 1));
         assert_eq!(many[..2], few[..], "{name}");
         assert_ne!(many[0], many[1], "{name}: seeds differ");
+    }
+}
+
+/// A cart and pole with a task of its own, in a folder that is removed when it is dropped.
+struct OwnTask(PathBuf);
+
+impl OwnTask {
+    fn new(name: &str, experiment: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("sincro-task-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::copy(scene("cart-pole-balance").join("scene.toml"), folder.join("scene.toml")).unwrap();
+        std::fs::write(folder.join("experiment.toml"), experiment).unwrap();
+        Self(folder)
+    }
+}
+
+impl Drop for OwnTask {
+    fn drop(&mut self) {
+        _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Commands by formulas of signals, time and random numbers; formulas that are not compiled; a reward that is not
+/// finite now and then.
+const ODD_TASK: &str = r#"
+title = "Odd"
+duration = 1.0
+step = 0.01
+integrator = "rk4"
+record = ["/rail.position"]
+
+[task]
+period = 0.05
+time_limit = 0.6
+signals = { x = "/rail.position", q = "/rail/cart/hinge.position", w = "/rail/cart/hinge.velocity", f = "/rail.command", e = "energy.kinetic" }
+observations = ["x", "cos(q)", "f", "t", "push", "exp(-x^2)", "noise", "e", "if(w > 0, w, -2*w)"]
+reward = "sqrt(0.08 - abs(q)) + x"
+terminated = "w > 0.5 or hypot(x, q) > 0.079"
+
+[task.commands]
+"/rail" = "0.3*push + 5*x + t + noise + 0.01*f"
+
+[[task.action]]
+name = "push"
+range = [-4.0, 5.0]
+
+[[task.random]]
+name = "noise"
+normal = [0.0, 0.3]
+
+[[task.random]]
+signal = "/rail/cart/hinge.position"
+range = [-0.05, 0.05]
+"#;
+
+#[test]
+fn compiled_actions_have_the_bits_of_the_recursions() {
+    let width = sincro_math::lanes::width();
+    let odd = OwnTask::new("odd", ODD_TASK);
+    let scenes: Vec<PathBuf> = TASKS.iter().map(|name| scene(name)).chain([odd.0.clone()]).collect();
+    let (mut n_compiled, mut n_stopped) = (0, 0);
+    for path in &scenes {
+        let loaded = load(path, &[], Extensions::default()).unwrap();
+        let worlds = |compile| TaskWorlds::with_steps(&loaded, 3 * width + 1, 2, compile).unwrap();
+        for autoreset in [Autoreset::SameStep, Autoreset::NextStep, Autoreset::Disabled] {
+            let mut compiled = worlds(Compile::IfPossible);
+            n_compiled += usize::from(matches!(compiled.steps_by(), StepsBy::Compiled { .. }));
+            let expected = episodes(&mut worlds(Compile::Never), autoreset, 150);
+            let found = episodes(&mut compiled, autoreset, 150);
+            for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                let differs = found.iter().zip(expected).position(|(a, b)| a != b);
+                let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
+                assert_eq!(differs.map(of), None, "{}, {autoreset:?}, world {world}", path.display());
+            }
+            n_stopped += expected.iter().flatten().filter(|x| **x == 1).count();
+        }
+    }
+    assert!(n_stopped > 100, "episodes end: {n_stopped}");
+    if width > 1 && std::env::var_os("SINCRO_COMPILE").is_none() {
+        assert_eq!(n_compiled, 5 * 3, "all but the quadrotor");
     }
 }
 

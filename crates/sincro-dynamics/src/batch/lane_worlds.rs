@@ -5,7 +5,9 @@ use std::sync::Arc;
 use sincro_math::{Real, Task};
 
 use super::{BatchSettings, BatchWorld, CompiledStep};
+use crate::coupled::StateView;
 use crate::integrate::{Control, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
+use crate::kinematics;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, PackError};
 use crate::state::State;
@@ -163,6 +165,21 @@ impl<R: Real> LaneWorlds<R> {
         self.mechanism.mark_locked();
         self.mechanism.slope(t, &self.y, &mut slope);
         [&slope[layout.velocities()], &slope[layout.rotor_states()]].concat()
+    }
+
+    /// State of all lanes as sensors and controllers see it, its time 0; with `with_kinematics` the poses `[m]` and
+    /// twists `[rad/s]`, `[m/s]` of links in its scratch are those of the state, else they are outdated.
+    #[inline(always)]
+    pub fn view(&mut self, with_kinematics: bool) -> StateView<'_, R> {
+        let Self { mechanism, y, reach_target_velocities: zeros, .. } = self;
+        let layout = mechanism.layout();
+        let (v, rotors) = (&y[layout.velocities()], &y[layout.rotor_states()]);
+        if with_kinematics {
+            zeros.fill(R::zero());
+            kinematics::motions(&mechanism.model, &mechanism.base, v, zeros, &mut mechanism.scratch);
+        }
+        let (model, q, commands) = (&mechanism.model, &*mechanism.base, &*mechanism.commands);
+        StateView { t: 0.0, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
     }
 
     fn load(&mut self, worlds: &[BatchWorld]) {

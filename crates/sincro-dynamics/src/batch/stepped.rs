@@ -10,7 +10,6 @@ use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 use super::lane_worlds::LaneWorlds;
 use super::{CompiledStep, obstacle_to_lanes};
 use crate::coupled::StateView;
-use crate::kinematics;
 use crate::model::{Model, PackError};
 use crate::state::State;
 use crate::world::MethodKind;
@@ -200,10 +199,7 @@ impl LaneVisitor for UpdateKinematics<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) {
-        let LaneWorlds { mechanism, y, reach_target_velocities: zeros, .. } = self.lanes.worlds::<R>();
-        let v = &y[mechanism.layout().velocities()];
-        zeros.fill(R::zero());
-        kinematics::motions(&mechanism.model, &mechanism.base, v, zeros, &mut mechanism.scratch);
+        self.lanes.worlds::<R>().view(true);
     }
 }
 
@@ -217,10 +213,6 @@ impl<O: LaneObserver> LaneVisitor for Observe<'_, O> {
 
     #[inline(always)]
     fn visit<R: Real>(self) -> O::Output {
-        let LaneWorlds { mechanism, y, .. } = self.lanes.worlds::<R>();
-        let layout = mechanism.layout();
-        let (v, rotors) = (&y[layout.velocities()], &y[layout.rotor_states()]);
-        let (model, q, commands) = (&mechanism.model, &*mechanism.base, &*mechanism.commands);
-        self.observer.observe(&StateView { t: 0.0, model, q, v, rotors, commands, scratch: &mut mechanism.scratch })
+        self.observer.observe(&self.lanes.worlds::<R>().view(false))
     }
 }

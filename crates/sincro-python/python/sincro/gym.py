@@ -92,8 +92,8 @@ class _Actions:
             low, high = np.array(ranges, dtype=np.float64).T
             self.space = spaces.Box(low, high, dtype=np.float64)
 
-    def numbers(self, actions, n):
-        """Actions as an (n, n_actions) array of numbers."""
+    def step(self, worlds, actions, n, mode):
+        """Steps n worlds by actions."""
         given = np.asarray(actions)
         shape = (n, len(self.names))
         if given.size != n * len(self.names):
@@ -102,16 +102,10 @@ class _Actions:
         if self.values[0] is None:
             if given.dtype.kind not in "fiu":
                 raise ArgumentError(f"the actions are of type {given.dtype}, not real numbers")
-            return np.ascontiguousarray(given, dtype=np.float64)
+            return worlds.step(given.astype(np.float64, copy=False), mode)
         if given.dtype.kind not in "iu":
             raise ArgumentError(f"the actions are of type {given.dtype}; they choose values by whole numbers")
-        numbers = np.empty(shape)
-        for k, values in enumerate(self.values):
-            chosen = given[:, k]
-            if chosen.size and not (chosen.min() >= 0 and chosen.max() < len(values)):
-                raise ArgumentError(f"`{self.names[k]}` is chosen from 0 to {len(values) - 1}")
-            numbers[:, k] = values[chosen]
-        return numbers
+        return worlds.step_chosen(given.astype(np.int64, copy=False), mode)
 
 
 def _seed(generator) -> int:
@@ -151,10 +145,9 @@ class SceneEnv(gymnasium.Env):
         """Steps by an action; returns observation, reward, terminated, truncated and a dictionary."""
         if self._is_over:
             raise ArgumentError("the episode is over, or has not begun: reset() first")
-        numbers = self._actions.numbers(action, 1)
-        seen, rewards, (terminated, truncated, stopped), _ = self._worlds.step(numbers, "disabled")
+        seen, rewards, (terminated, truncated), stopped, _ = self._actions.step(self._worlds, action, 1, "disabled")
         self._is_over = bool(terminated[0] or truncated[0])
-        info = {"stopped": True} if stopped[0] else {}
+        info = {} if stopped is None else {"stopped": True}
         return seen[0], float(rewards[0]), bool(terminated[0]), bool(truncated[0]), info
 
     def render(self):
@@ -204,6 +197,11 @@ class SceneVectorEnv(VectorEnv):
         """What in the scene keeps its worlds from the lanes; None if they are in lanes."""
         return self._worlds.lanes_refused
 
+    @property
+    def compilation_refused(self) -> str | None:
+        """Why steps and formulas are not compiled by the system's C compiler; None if they are. The results are the same."""
+        return self._worlds.compilation_refused
+
     def reset(self, *, seed=None, options=None):
         """Begins episodes; returns what the agents see, and a dictionary."""
         n = self.num_envs
@@ -233,8 +231,8 @@ class SceneVectorEnv(VectorEnv):
         """Steps all worlds; returns observations, rewards, terminations, truncations and a dictionary."""
         if self._seen is None:
             raise ArgumentError("the episodes have not begun: reset() first")
-        numbers = self._actions.numbers(actions, self.num_envs)
-        seen, rewards, (terminated, truncated, stopped), finals = self._worlds.step(numbers, self._mode)
+        results = self._actions.step(self._worlds, actions, self.num_envs, self._mode)
+        seen, rewards, (terminated, truncated), stopped, finals = results
         self._seen = seen
         info = {}
         if finals is not None:
@@ -243,7 +241,7 @@ class SceneVectorEnv(VectorEnv):
             for k in np.flatnonzero(ended):
                 kept[k] = finals[k]
             info = {"final_obs": kept, "_final_obs": ended, "final_info": {}, "_final_info": ended.copy()}
-        if stopped.any():
+        if stopped is not None:
             info["stopped"], info["_stopped"] = stopped, stopped.copy()
         return seen.copy() if self._mode == "disabled" else seen, rewards, terminated, truncated, info
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use sincro_dynamics::model::Model;
+use sincro_math::Real;
 use sincro_math::expression::{Expression, is_name};
 
 use super::checks::CheckReader;
@@ -63,6 +64,32 @@ pub enum Space {
     Range(f64, f64),
     /// Discrete: these values, in the unit of the command; of an action between them the nearest counts.
     Values(Vec<f64>),
+}
+
+impl Space {
+    /// Returns the action as it acts: within its bounds, or the nearest of its values (of two as near, the first).
+    #[must_use]
+    pub fn acting<R: Real>(&self, x: R) -> R {
+        match self {
+            Self::Range(low, high) => {
+                let (low, high) = (R::splat(*low), R::splat(*high));
+                let x = x.if_less(low, low, x);
+                high.if_less(x, high, x)
+            }
+            Self::Values(values) => {
+                let Some((first, others)) = values.split_first() else { return x };
+                let mut nearest = R::splat(*first);
+                let mut distance = (nearest - x).abs();
+                for value in others {
+                    let value = R::splat(*value);
+                    let apart = (value - x).abs();
+                    nearest = apart.if_less(distance, value, nearest);
+                    distance = apart.if_less(distance, apart, distance);
+                }
+                nearest
+            }
+        }
+    }
 }
 
 /// Random number that is drawn anew for each episode of a task (domain randomisation).

@@ -2,9 +2,10 @@
 
 use sincro_dynamics::batch::{LaneObserver, SteppedLanes};
 use sincro_dynamics::coupled::StateView;
+use sincro_dynamics::state::State;
 use sincro_math::Real;
 
-use super::plan::{Drawn, Plan};
+use super::plan::Plan;
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{View, of_state};
 
@@ -15,12 +16,9 @@ pub(super) struct LaneBundle {
 }
 
 impl LaneBundle {
-    /// Puts the worlds of a mask into the states that were drawn for them.
-    pub fn place(&mut self, plan: &Plan, drawn: &[Drawn], mask: &[bool]) {
-        let lanes = self.lanes(plan);
-        for lane in (0..drawn.len()).filter(|lane| mask[*lane]) {
-            lanes.set_lane(lane, &drawn[lane].state);
-        }
+    /// Puts a world into a state.
+    pub fn place(&mut self, plan: &Plan, lane: usize, state: &State<f64>) {
+        self.lanes(plan).set_lane(lane, state);
     }
 
     /// Advances all worlds by one action's period under commands (`lane × command`).
@@ -36,6 +34,16 @@ impl LaneBundle {
         self.lanes(plan).observe(plan.needs_kinematics, Observation { probes, signals, is_finite });
     }
 
+    /// Sets the commands of all worlds (`lane × command`).
+    pub fn set_commands(&mut self, plan: &Plan, commands: &[f64]) {
+        self.lanes(plan).set_commands(commands);
+    }
+
+    /// Copies coordinates, velocities and rotor states of all worlds, row by row.
+    pub fn copy_state(&mut self, plan: &Plan, rows: &mut [f64]) {
+        self.lanes(plan).observe(false, StateRows { rows });
+    }
+
     /// Coordinates of one world.
     pub fn coordinates(&mut self, plan: &Plan, lane: usize) -> Vec<f64> {
         self.lanes(plan).observe(false, Coordinates { lane })
@@ -45,8 +53,7 @@ impl LaneBundle {
         self.lanes.get_or_insert_with(|| {
             let mut made = SteppedLanes::new(&[&plan.loaded.scene.model], plan.method)
                 .expect("the plan refuses lanes where they cannot be");
-            let commands: Vec<f64> = plan.loaded.scene.commands.iter().map(|signal| signal.value(0.0)).collect();
-            made.set_commands(&commands);
+            made.set_commands(&plan.commands());
             made
         })
     }
@@ -95,5 +102,21 @@ impl LaneObserver for Coordinates {
     #[inline(always)]
     fn observe<R: Real>(self, view: &StateView<'_, R>) -> Vec<f64> {
         view.q.iter().map(|q| q.lane(self.lane)).collect()
+    }
+}
+
+struct StateRows<'a> {
+    rows: &'a mut [f64],
+}
+
+impl LaneObserver for StateRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn observe<R: Real>(self, view: &StateView<'_, R>) {
+        let numbers = view.q.iter().chain(view.v).chain(view.rotors);
+        for (row, x) in self.rows.chunks_exact_mut(R::LANES).zip(numbers) {
+            x.to_row(row);
+        }
     }
 }

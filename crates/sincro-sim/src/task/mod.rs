@@ -10,20 +10,32 @@
 //! | `plan` | the task with its names resolved, and the draws of an episode |
 //! | `lanes` | a bundle of worlds in lanes |
 //! | `single` | a world as a lock-step |
-//! | `group` | episodes of a bundle: actions to commands, formulas, ends, autoreset |
+//! | `compiled` | the actions of a task as compiled programs |
+//! | `threads` | groups shared out to threads |
+//! | `group` | episodes of a bundle: actions to commands, formulas, ends, autoreset; by the programs where there are some |
 
+mod compiled;
 mod group;
 mod lanes;
 mod plan;
 mod single;
+mod threads;
 
 use std::sync::Arc;
 
+use compiled::CompiledTask;
 use group::{Buffers, Group};
 pub use plan::Plan;
+use sincro_compile::Obstacle;
+use threads::Threads;
 
 use crate::load::Loaded;
+use crate::rollout::{Compile, StepsBy};
 use sincro_scene::diagnostic::Diagnostics;
+
+/// Number of worlds from which a compilation pays: it takes a few tenths of a second, and saves about 0.1 µs a step of
+/// each; training takes thousands of steps.
+const WORTH_COMPILING: usize = 256;
 
 /// Treatment of a world of a task whose episode has ended (autoreset mode of Gymnasium).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +65,7 @@ pub struct Step {
     /// True for each world that could not go on: its state is not finite, a block or the solver failed.
     pub stopped: Vec<bool>,
     /// Last observations of the episodes that ended in this step, `n_worlds × n_observations` as `observations`, if
-    /// worlds begin anew in the same step; rows of other worlds have no meaning.
+    /// worlds begin anew in the same step, else empty; rows of other worlds have no meaning.
     pub final_observations: Vec<f64>,
 }
 
@@ -68,7 +80,7 @@ impl Step {
             terminated: vec![false; n],
             truncated: vec![false; n],
             stopped: vec![false; n],
-            final_observations: vec![0.0; n * n_observations],
+            final_observations: Vec::new(),
         }
     }
 }
@@ -80,7 +92,8 @@ pub struct TaskWorlds {
     plan: Arc<Plan>,
     groups: Vec<Group>,
     n: usize,
-    threads: usize,
+    steps_by: StepsBy,
+    threads: Threads,
 }
 
 impl TaskWorlds {
@@ -92,11 +105,36 @@ impl TaskWorlds {
     /// Diagnostics: the experiment has no task, a signal of it does not exist, or the scene refuses a number that is
     /// drawn.
     pub fn new(loaded: &Loaded, n: usize, threads: usize) -> Result<Self, Diagnostics> {
-        let plan = Arc::new(Plan::new(loaded)?);
+        Self::with_steps(loaded, n, threads, Compile::IfItPays)
+    }
+
+    /// As [`TaskWorlds::new`], with a choice of the way in which the steps are made; their results are the same.
+    ///
+    /// # Errors
+    ///
+    /// As [`TaskWorlds::new`].
+    pub fn with_steps(loaded: &Loaded, n: usize, threads: usize, compile: Compile) -> Result<Self, Diagnostics> {
+        let mut plan = Plan::new(loaded)?;
+        let steps_by = match compile_task(&plan, n, compile) {
+            Ok((task, steps_by)) => {
+                plan.compiled = Some(task);
+                steps_by
+            }
+            Err(obstacle) => StepsBy::Recursions { reason: obstacle.to_string() },
+        };
+        let plan = Arc::new(plan);
         let width = if plan.lanes_refused().is_none() { sincro_math::lanes::width() } else { 1 };
-        let groups = (0..n).step_by(width).map(|first| Group::new(&plan, width.min(n - first))).collect();
+        let groups: Vec<Group> = (0..n).step_by(width).map(|first| Group::new(&plan, width.min(n - first))).collect();
         let available = std::thread::available_parallelism().map_or(1, usize::from);
-        Ok(Self { plan, groups, n, threads: if threads == 0 { available } else { threads } })
+        let threads = if threads == 0 { available } else { threads };
+        let threads = Threads::new(&plan, threads.min(groups.len()), width);
+        Ok(Self { plan, groups, n, steps_by, threads })
+    }
+
+    /// Returns the way in which the steps are made.
+    #[must_use]
+    pub fn steps_by(&self) -> &StepsBy {
+        &self.steps_by
     }
 
     /// Returns the task, resolved against its scene; it has the lengths of observations and actions.
@@ -131,22 +169,26 @@ impl TaskWorlds {
     /// If `seeds`, `mask` or `observations` are shorter than that.
     pub fn reset(&mut self, seeds: &[Option<u64>], mask: &[bool], observations: &mut [f64]) {
         let n_observations = self.plan.n_observations();
-        self.share(seeds, mask, observations, n_observations);
-    }
-
-    fn share(&mut self, seeds: &[Option<u64>], mask: &[bool], observations: &mut [f64], n_observations: usize) {
-        let (plan, mut first) = (&*self.plan, 0);
-        let mut parts = Vec::with_capacity(self.groups.len());
-        let mut rest = observations;
-        for group in &mut self.groups {
-            let n = group.n_worlds();
-            let (mine, others) = rest.split_at_mut(n * n_observations);
-            parts.push((group, &seeds[first..first + n], &mask[first..first + n], mine));
-            (rest, first) = (others, first + n);
-        }
-        in_threads(&mut parts, self.threads, |(group, seeds, mask, observations)| {
-            group.reset(plan, seeds, mask, observations);
-        });
+        let plan = &*self.plan;
+        let (mut first, mut rest) = (0, observations);
+        self.threads.share(
+            &mut self.groups,
+            |n_worlds| {
+                let mine = rest.split_off_mut(..n_worlds * n_observations).expect("observations of all worlds");
+                let range = first..first + n_worlds;
+                first += n_worlds;
+                (&seeds[range.clone()], &mask[range], mine)
+            },
+            |groups, (seeds, mask, observations), scratch| {
+                let (mut first, mut rest) = (0, observations);
+                for group in groups {
+                    let n = group.n_worlds();
+                    let (mine, others) = rest.split_at_mut(n * n_observations);
+                    group.reset(plan, &seeds[first..first + n], &mask[first..first + n], mine, scratch);
+                    (first, rest) = (first + n, others);
+                }
+            },
+        );
     }
 
     /// Steps all worlds by one action each and writes the results into `out`. `actions` has `n_worlds × n_actions`
@@ -162,29 +204,32 @@ impl TaskWorlds {
         assert_eq!(actions.len(), self.n * n_actions, "one action a world");
         assert_eq!(out.rewards.len(), self.n, "results of as many worlds");
         let plan = &*self.plan;
-        let mut buffers = Buffers::of(out);
-        let (mut parts, mut first) = (Vec::with_capacity(self.groups.len()), 0);
-        for group in &mut self.groups {
-            let n = group.n_worlds();
-            let mine = &actions[first * n_actions..(first + n) * n_actions];
-            parts.push((group, mine, buffers.take(n, n_observations)));
-            first += n;
-        }
-        in_threads(&mut parts, self.threads, |(group, actions, out)| group.step(plan, actions, autoreset, out));
+        out.final_observations.resize(if autoreset == Autoreset::SameStep { self.n * n_observations } else { 0 }, 0.0);
+        let (mut rest, mut buffers) = (actions, Buffers::of(out));
+        self.threads.share(
+            &mut self.groups,
+            |n_worlds| {
+                let mine = rest.split_off(..n_worlds * n_actions).expect("actions of all worlds");
+                (mine, buffers.take(n_worlds, n_observations))
+            },
+            |groups, (actions, mut buffers), scratch| {
+                let mut first = 0;
+                for group in groups {
+                    let n = group.n_worlds();
+                    let mine = &actions[first * n_actions..(first + n) * n_actions];
+                    group.step(plan, mine, autoreset, &mut buffers.take(n, n_observations), scratch);
+                    first += n;
+                }
+            },
+        );
     }
 }
 
-/// Works on all parts, on this thread and others.
-fn in_threads<T: Send>(parts: &mut [T], threads: usize, work: impl Fn(&mut T) + Sync) {
-    let share = parts.len().div_ceil(threads.max(1)).max(1);
-    if share >= parts.len() {
-        return parts.iter_mut().for_each(work);
+fn compile_task(plan: &Plan, n: usize, compile: Compile) -> Result<(CompiledTask, StepsBy), Obstacle> {
+    match compile {
+        Compile::Never => Err(Obstacle::new("that is not wanted")),
+        Compile::IfItPays if n < WORTH_COMPILING => Err(Obstacle::new("it would take longer than the steps")),
+        _ if n < sincro_math::lanes::width() => Err(Obstacle::new("there are fewer worlds than lanes")),
+        _ => CompiledTask::new(plan),
     }
-    std::thread::scope(|scope| {
-        let (own, others) = parts.split_at_mut(share);
-        for part in others.chunks_mut(share) {
-            scope.spawn(|| part.iter_mut().for_each(&work));
-        }
-        own.iter_mut().for_each(&work);
-    });
 }

@@ -8,14 +8,16 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
+use sincro_math::Real;
 use sincro_math::expression::Expression;
 use sincro_math::random::splitmix64;
 
+use super::compiled::CompiledTask;
 use crate::load::Loaded;
 use crate::run::method_for;
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 use sincro_scene::diagram::ControlDiagram;
-use sincro_scene::experiment::task::{Action, Distribution, Space, Target, Task, command_index};
+use sincro_scene::experiment::task::{Distribution, Target, Task, command_index};
 use sincro_scene::overrides::Override;
 use sincro_scene::record::probe::{needs_kinematics, of_state};
 use sincro_scene::record::{Probe, Recorder, catalogue};
@@ -43,13 +45,19 @@ impl Formula {
 
     /// Value for a list of numbers.
     #[inline]
-    pub fn eval(&self, values: &[f64], stack: &mut Vec<f64>) -> f64 {
+    pub fn eval<R: Real>(&self, values: &[R], stack: &mut Vec<R>) -> R {
         match self {
             Self::Slot(slot) => values[*slot],
-            Self::Constant(value) => *value,
+            Self::Constant(value) => R::splat(*value),
             Self::Expression(expression) => expression.eval(values, stack),
         }
     }
+}
+
+/// The number, without the sign of a zero: programs do not keep it.
+#[inline]
+pub(super) fn unsigned_zero(x: f64) -> f64 {
+    x + 0.0
 }
 
 /// Coordinate or velocity that an episode starts with.
@@ -79,6 +87,8 @@ pub struct Plan {
     starts: Vec<(usize, StartAt)>,
     /// Reason why lanes cannot advance the worlds.
     lanes_refused: Option<String>,
+    /// Programs of an action, where they were compiled.
+    pub(super) compiled: Option<CompiledTask>,
 }
 
 /// Start of an episode, as it was drawn.
@@ -132,6 +142,7 @@ impl Plan {
             of_formulas: task.commands.iter().filter_map(|(c, f)| Some((command(&c.value)?, of(f)))).collect(),
             starts: starts.collect(),
             lanes_refused: None,
+            compiled: None,
             loaded: loaded.clone(),
             task,
         };
@@ -199,6 +210,21 @@ impl Plan {
         self.task.actions.len()
     }
 
+    /// Number of random numbers with names.
+    pub(super) fn n_named(&self) -> usize {
+        self.task.random.iter().filter(|random| matches!(random.target, Target::Name(_))).count()
+    }
+
+    /// Number of commands of the model.
+    pub(super) fn n_commands(&self) -> usize {
+        self.loaded.scene.commands.len()
+    }
+
+    /// Commands of the scene itself, in the order of the model.
+    pub(super) fn commands(&self) -> Vec<f64> {
+        self.loaded.scene.commands.iter().map(|signal| signal.value(0.0)).collect()
+    }
+
     /// Returns the task as the experiment has it: formulas, actions, random numbers.
     #[must_use]
     pub fn task(&self) -> &Task {
@@ -213,11 +239,8 @@ impl Plan {
 
     /// The actions as they act: within their ranges; of those with values the nearest.
     pub(super) fn acting(&self, given: &[f64], out: &mut [f64]) {
-        for ((out, x), Action { space, .. }) in out.iter_mut().zip(given).zip(&self.task.actions) {
-            *out = match space {
-                Space::Range(low, high) => x.clamp(*low, *high),
-                Space::Values(values) => nearest(values, *x),
-            };
+        for ((out, x), action) in out.iter_mut().zip(given).zip(&self.task.actions) {
+            *out = unsigned_zero(action.space.acting(*x));
         }
     }
 
@@ -255,11 +278,6 @@ impl Plan {
             }
         }
     }
-}
-
-fn nearest(values: &[f64], x: f64) -> f64 {
-    let distance = |value: &f64| (value - x).abs();
-    values.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(x)
 }
 
 /// Returns true if the state of the world alone decides a probe, and its commands.

@@ -1,7 +1,11 @@
 //! Episodes of a bundle of worlds: actions to commands, formulas, ends, autoreset.
 
+mod compiled;
+
+use compiled::{CompiledScratch, CompiledWorlds};
+
 use super::lanes::LaneBundle;
-use super::plan::{Drawn, Plan};
+use super::plan::{Drawn, Plan, unsigned_zero};
 use super::single::SingleWorld;
 use super::{Autoreset, Step};
 
@@ -9,20 +13,46 @@ use super::{Autoreset, Step};
 #[derive(Debug)]
 pub(super) struct Group {
     worlds: Worlds,
-    episodes: Vec<Episode>,
+    compiled: Option<CompiledWorlds>,
+    episodes: Episodes,
     /// Numbers that formulas see, of one world after the other.
     values: Vec<f64>,
     signals: Vec<f64>,
     is_finite: Vec<bool>,
     commands: Vec<f64>,
-    single_commands: Vec<Option<f64>>,
-    stack: Vec<f64>,
-    /// Starts of the next episodes, one a world, and what a step needs to know of each world.
-    drawn: Vec<Drawn>,
-    was_over: Vec<bool>,
-    begins_anew: Vec<bool>,
     n_slots: usize,
     n_signals: usize,
+}
+
+/// Working memory of the steps of the groups of one thread.
+#[derive(Debug)]
+pub(super) struct Scratch {
+    /// Worlds whose episode was over before the step.
+    was_over: Vec<bool>,
+    /// Worlds that begin a new episode in the step.
+    begins_anew: Vec<bool>,
+    /// Start of an episode, as drawn last.
+    drawn: Drawn,
+    default_commands: Vec<f64>,
+    single_commands: Vec<Option<f64>>,
+    stack: Vec<f64>,
+    compiled: Option<CompiledScratch>,
+}
+
+impl Scratch {
+    /// For groups of up to `n_worlds` worlds.
+    pub fn new(plan: &Plan, n_worlds: usize) -> Self {
+        let default_commands = plan.commands();
+        Self {
+            was_over: vec![false; n_worlds],
+            begins_anew: vec![false; n_worlds],
+            drawn: plan.drawn(0, 0),
+            single_commands: vec![None; default_commands.len()],
+            default_commands,
+            stack: Vec::new(),
+            compiled: plan.compiled.as_ref().map(|task| CompiledScratch::new(plan, task)),
+        }
+    }
 }
 
 #[derive(Debug)]
@@ -31,14 +61,15 @@ enum Worlds {
     Single(Vec<SingleWorld>),
 }
 
-/// An episode under way.
-#[derive(Clone, Debug, Default)]
-struct Episode {
-    seed: u64,
-    number: u64,
-    actions: u64,
-    /// True from its end to the next start.
-    is_over: bool,
+/// Episodes under way, world by world.
+#[derive(Debug)]
+struct Episodes {
+    seeds: Vec<u64>,
+    numbers: Vec<u64>,
+    /// Actions since the start; those of worlds whose rows are current stand there.
+    actions: Vec<u64>,
+    /// True from the end of an episode to the next start.
+    is_over: Vec<bool>,
 }
 
 /// Results of the worlds of one group.
@@ -78,7 +109,10 @@ impl<'a> Buffers<'a> {
             terminated: front(&mut self.terminated, n),
             truncated: front(&mut self.truncated, n),
             stopped: front(&mut self.stopped, n),
-            finals: front(&mut self.finals, n * n_observations),
+            finals: match self.finals.is_empty() {
+                true => &mut [],
+                false => front(&mut self.finals, n * n_observations),
+            },
         }
     }
 }
@@ -90,35 +124,33 @@ impl Group {
         for of_world in values.chunks_mut(n_slots) {
             of_world[n_slots - plan.task.parameters.len()..].copy_from_slice(&plan.task.parameters);
         }
-        let commands: Vec<f64> = plan.loaded.scene.commands.iter().map(|signal| signal.value(0.0)).collect();
+        let commands = plan.commands();
         let n_commands = commands.len();
         let worlds = match plan.lanes_refused() {
             None => Worlds::Lanes(LaneBundle::default()),
             Some(_) => Worlds::Single((0..n_worlds).map(|_| SingleWorld::new()).collect()),
         };
+        let (none, no) = (vec![0; n_worlds], vec![false; n_worlds]);
         Self {
             worlds,
-            episodes: vec![Episode::default(); n_worlds],
+            compiled: CompiledWorlds::new(plan, n_worlds),
+            episodes: Episodes { seeds: none.clone(), numbers: none.clone(), actions: none, is_over: no },
             values,
             signals: vec![0.0; n_worlds * n_signals],
             is_finite: vec![true; n_worlds],
             commands: commands.iter().copied().cycle().take(n_worlds * n_commands).collect(),
-            single_commands: vec![None; n_commands],
-            stack: Vec::new(),
-            drawn: (0..n_worlds).map(|_| plan.drawn(0, 0)).collect(),
-            was_over: vec![false; n_worlds],
-            begins_anew: vec![false; n_worlds],
             n_slots,
             n_signals,
         }
     }
 
     pub fn n_worlds(&self) -> usize {
-        self.episodes.len()
+        self.is_finite.len()
     }
 
     /// Coordinates of a world.
     pub fn coordinates(&mut self, plan: &Plan, k: usize) -> Vec<f64> {
+        self.leave_rows(plan);
         match &mut self.worlds {
             Worlds::Lanes(bundle) => bundle.coordinates(plan, k),
             Worlds::Single(worlds) => worlds[k].coordinates().unwrap_or_else(|| plan.loaded.scene.initial.q.clone()),
@@ -126,74 +158,90 @@ impl Group {
     }
 
     /// Begins new episodes in the worlds of the mask; see [`super::TaskWorlds::reset`].
-    pub fn reset(&mut self, plan: &Plan, seeds: &[Option<u64>], mask: &[bool], observations: &mut [f64]) {
-        for (episode, seed) in
-            self.episodes.iter_mut().zip(seeds).zip(mask).filter(|(_, chosen)| **chosen).map(|(e, _)| e)
-        {
-            if let Some(seed) = seed {
-                (episode.seed, episode.number) = (*seed, 0);
+    pub fn reset(
+        &mut self,
+        plan: &Plan,
+        seeds: &[Option<u64>],
+        mask: &[bool],
+        observations: &mut [f64],
+        scratch: &mut Scratch,
+    ) {
+        self.leave_rows(plan);
+        for k in (0..self.n_worlds()).filter(|k| mask[*k]) {
+            if let Some(seed) = seeds[k] {
+                (self.episodes.seeds[k], self.episodes.numbers[k]) = (seed, 0);
             }
         }
-        self.begins_anew.copy_from_slice(mask);
-        self.start(plan);
+        scratch.begins_anew[..mask.len()].copy_from_slice(mask);
+        self.start(plan, scratch);
         self.look(plan);
         for k in (0..self.n_worlds()).filter(|k| mask[*k]) {
-            self.write(plan, k, observations);
+            self.write(plan, k, observations, &mut scratch.stack);
         }
     }
 
     /// Steps all worlds by one action each; see [`super::TaskWorlds::step`].
-    pub fn step(&mut self, plan: &Plan, actions: &[f64], autoreset: Autoreset, out: &mut Buffers<'_>) {
+    pub fn step(
+        &mut self,
+        plan: &Plan,
+        actions: &[f64],
+        autoreset: Autoreset,
+        out: &mut Buffers<'_>,
+        scratch: &mut Scratch,
+    ) {
+        let n = self.n_worlds();
+        scratch.was_over[..n].copy_from_slice(&self.episodes.is_over);
+        if self.step_compiled(plan, actions, autoreset, out, scratch) {
+            return;
+        }
+        self.leave_rows(plan);
         let n_actions = plan.n_actions();
-        for k in 0..self.n_worlds() {
-            self.was_over[k] = self.episodes[k].is_over;
+        for k in 0..n {
             let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots];
             plan.acting(&actions[k * n_actions..][..n_actions], &mut of_world[self.n_signals..][..n_actions]);
         }
-        self.command(plan);
-        self.advance(plan);
-        for (episode, _) in self.episodes.iter_mut().zip(&self.was_over).filter(|(_, was_over)| !**was_over) {
-            episode.actions += 1;
+        self.command(plan, &mut scratch.stack);
+        self.advance(plan, scratch);
+        for (actions, was_over) in self.episodes.actions.iter_mut().zip(&scratch.was_over) {
+            *actions += u64::from(!was_over);
         }
         self.look(plan);
-        for k in 0..self.n_worlds() {
+        for k in 0..n {
             (out.rewards[k], out.terminated[k], out.truncated[k], out.stopped[k]) = (0.0, false, false, false);
-            if self.was_over[k] {
-                self.begins_anew[k] = autoreset == Autoreset::NextStep;
-                self.write(plan, k, out.observations);
+            if scratch.was_over[k] {
+                scratch.begins_anew[k] = autoreset == Autoreset::NextStep;
+                self.write(plan, k, out.observations, &mut scratch.stack);
                 continue;
             }
-            self.judge(plan, k, out);
+            self.judge(plan, k, out, &mut scratch.stack);
             let is_over = out.terminated[k] || out.truncated[k];
-            self.episodes[k].is_over = is_over;
-            self.begins_anew[k] = is_over && autoreset == Autoreset::SameStep;
-            if self.begins_anew[k] {
+            self.episodes.is_over[k] = is_over;
+            scratch.begins_anew[k] = is_over && autoreset == Autoreset::SameStep;
+            if scratch.begins_anew[k] {
                 let n = plan.n_observations();
                 out.finals[k * n..(k + 1) * n].copy_from_slice(&out.observations[k * n..(k + 1) * n]);
             }
         }
-        if self.begins_anew.contains(&true) {
-            self.start(plan);
+        if scratch.begins_anew[..n].contains(&true) {
+            self.start(plan, scratch);
             self.look(plan);
-            for k in 0..self.n_worlds() {
-                if self.begins_anew[k] {
-                    self.write(plan, k, out.observations);
-                }
+            for k in (0..n).filter(|k| scratch.begins_anew[*k]) {
+                self.write(plan, k, out.observations, &mut scratch.stack);
             }
         }
     }
 
     /// Reward and end of a world's action, and what the agent sees after it.
-    fn judge(&mut self, plan: &Plan, k: usize, out: &mut Buffers<'_>) {
-        let at_limit = self.episodes[k].actions >= plan.task.max_actions;
-        self.write(plan, k, out.observations);
+    fn judge(&mut self, plan: &Plan, k: usize, out: &mut Buffers<'_>, stack: &mut Vec<f64>) {
+        let at_limit = self.episodes.actions[k] >= plan.task.max_actions;
+        self.write(plan, k, out.observations, stack);
         if !self.is_finite[k] {
             (out.truncated[k], out.stopped[k]) = (true, true);
             return;
         }
         let of_world = &self.values[k * self.n_slots..(k + 1) * self.n_slots];
-        out.rewards[k] = plan.reward.eval(of_world, &mut self.stack);
-        let ended = plan.terminated.as_ref().map_or(0.0, |formula| formula.eval(of_world, &mut self.stack));
+        out.rewards[k] = unsigned_zero(plan.reward.eval(of_world, stack));
+        let ended = plan.terminated.as_ref().map_or(0.0, |formula| formula.eval(of_world, stack));
         let n = plan.n_observations();
         let seen = &out.observations[k * n..(k + 1) * n];
         if !(out.rewards[k].is_finite() && ended.is_finite() && seen.iter().all(|x| x.is_finite())) {
@@ -205,9 +253,9 @@ impl Group {
     }
 
     /// Commands of all worlds, from their actions and the signals last seen.
-    fn command(&mut self, plan: &Plan) {
-        let n = self.single_commands.len();
-        for k in 0..self.episodes.len() {
+    fn command(&mut self, plan: &Plan, stack: &mut Vec<f64>) {
+        let n = plan.n_commands();
+        for k in 0..self.n_worlds() {
             let of_world = &self.values[k * self.n_slots..(k + 1) * self.n_slots];
             let commands = &mut self.commands[k * n..(k + 1) * n];
             for (action, command) in plan.of_actions.iter().enumerate() {
@@ -216,45 +264,56 @@ impl Group {
                 }
             }
             for (command, formula) in &plan.of_formulas {
-                commands[*command] = formula.eval(of_world, &mut self.stack);
+                commands[*command] = unsigned_zero(formula.eval(of_world, stack));
             }
         }
     }
 
-    fn advance(&mut self, plan: &Plan) {
+    fn advance(&mut self, plan: &Plan, scratch: &mut Scratch) {
+        let n = plan.n_commands();
         match &mut self.worlds {
             Worlds::Lanes(bundle) => bundle.advance(plan, &self.commands),
             Worlds::Single(worlds) => {
-                let n = self.single_commands.len();
-                for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| !self.was_over[*k]) {
+                for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| !scratch.was_over[*k]) {
                     let own = plan.of_actions.iter().flatten().chain(plan.of_formulas.iter().map(|(c, _)| c));
                     for command in own {
-                        self.single_commands[*command] = Some(self.commands[k * n + command]);
+                        scratch.single_commands[*command] = Some(self.commands[k * n + command]);
                     }
-                    world.advance(plan, &self.single_commands);
+                    world.advance(plan, &scratch.single_commands);
                 }
             }
         }
     }
 
     /// Begins the next episodes of the worlds that begin anew.
-    fn start(&mut self, plan: &Plan) {
-        let n_actions = plan.n_actions();
-        for k in (0..self.episodes.len()).filter(|k| self.begins_anew[*k]) {
-            let (episode, drawn) = (&mut self.episodes[k], &mut self.drawn[k]);
-            plan.draw(episode.seed, episode.number, drawn);
-            episode.number += 1;
-            (episode.actions, episode.is_over) = (0, false);
-            let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots];
-            of_world[self.n_signals..][..n_actions].fill(0.0);
-            of_world[self.n_signals + n_actions..][..drawn.named.len()].copy_from_slice(&drawn.named);
-            if let Worlds::Single(worlds) = &mut self.worlds {
-                worlds[k].start(plan, drawn);
+    fn start(&mut self, plan: &Plan, scratch: &mut Scratch) {
+        for k in 0..self.n_worlds() {
+            if !scratch.begins_anew[k] {
+                continue;
+            }
+            self.draw(plan, k, scratch);
+            match &mut self.worlds {
+                Worlds::Lanes(bundle) => bundle.place(plan, k, &scratch.drawn.state),
+                Worlds::Single(worlds) => worlds[k].start(plan, &scratch.drawn),
             }
         }
         if let Worlds::Lanes(bundle) = &mut self.worlds {
-            bundle.place(plan, &self.drawn, &self.begins_anew);
+            bundle.set_commands(plan, &self.commands);
         }
+    }
+
+    /// Draws the next episode of a world.
+    fn draw(&mut self, plan: &Plan, k: usize, scratch: &mut Scratch) {
+        let (episodes, drawn) = (&mut self.episodes, &mut scratch.drawn);
+        plan.draw(episodes.seeds[k], episodes.numbers[k], drawn);
+        episodes.numbers[k] += 1;
+        (episodes.actions[k], episodes.is_over[k]) = (0, false);
+        let n_actions = plan.n_actions();
+        let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots];
+        of_world[self.n_signals..][..n_actions].fill(0.0);
+        of_world[self.n_signals + n_actions..][..drawn.named.len()].copy_from_slice(&drawn.named);
+        let n = plan.n_commands();
+        self.commands[k * n..(k + 1) * n].copy_from_slice(&scratch.default_commands);
     }
 
     /// Reads the signals of all worlds.
@@ -269,23 +328,23 @@ impl Group {
             }
         }
         let (period, n_parameters) = (plan.period(), plan.task.parameters.len());
-        for (k, episode) in self.episodes.iter().enumerate() {
+        for k in 0..self.n_worlds() {
             // after its end a world shows what it ended with, and one that cannot go on its last good signals
-            if episode.is_over || !self.is_finite[k] {
+            if self.episodes.is_over[k] || !self.is_finite[k] {
                 continue;
             }
             let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots];
             of_world[..n].copy_from_slice(&self.signals[k * n..(k + 1) * n]);
-            of_world[self.n_slots - n_parameters - 1] = episode.actions as f64 * period;
+            of_world[self.n_slots - n_parameters - 1] = self.episodes.actions[k] as f64 * period;
         }
     }
 
     /// Writes what the agent sees of a world.
-    fn write(&mut self, plan: &Plan, k: usize, observations: &mut [f64]) {
+    fn write(&self, plan: &Plan, k: usize, observations: &mut [f64], stack: &mut Vec<f64>) {
         let of_world = &self.values[k * self.n_slots..(k + 1) * self.n_slots];
         let n = plan.n_observations();
         for (out, formula) in observations[k * n..(k + 1) * n].iter_mut().zip(&plan.observations) {
-            *out = formula.eval(of_world, &mut self.stack);
+            *out = unsigned_zero(formula.eval(of_world, stack));
         }
     }
 }

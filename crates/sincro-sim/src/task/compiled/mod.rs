@@ -1,0 +1,189 @@
+//! The actions of a task compiled for lanes: programs of commands, of the step, and of what the agent sees after it.
+//!
+//! Formulas whose functions are no arithmetic (`exp`, `hypot`, …) are evaluated world by world after the step; all
+//! others are part of the programs.
+
+mod rows;
+
+use sincro_compile::native::{self, Native, NativeProgram};
+use sincro_compile::{Obstacle, plant};
+use sincro_dynamics::batch::LaneWorlds;
+use sincro_math::Real;
+use sincro_math::record::{Program, Recorded, record};
+use sincro_scene::record::Probe;
+use sincro_scene::record::probe::{View, of_state};
+
+pub(super) use rows::{CompiledScratch, Rows};
+
+use super::plan::{Formula, Plan};
+use crate::rollout::StepsBy;
+
+/// Programs of one action of a task.
+#[derive(Clone, Debug)]
+pub(super) struct CompiledTask {
+    /// Commands and actions as they act, of everything known before the step.
+    command: NativeProgram,
+    /// One base step.
+    step: NativeProgram,
+    /// Results of everything known after the step: see [`results`].
+    judge: NativeProgram,
+    pub layout: Layout,
+    pub reward_is_compiled: bool,
+    pub end_is_compiled: bool,
+    /// Numbers of the observations that are evaluated world by world.
+    pub other_observations: Vec<usize>,
+}
+
+/// Rows of the results of the program that judges: first one that is 0 where all of them and the state are finite.
+pub(super) mod results {
+    pub const FINITE: usize = 0;
+    pub const REWARD: usize = 1;
+    pub const ENDED: usize = 2;
+    pub const OBSERVATIONS: usize = 3;
+}
+
+/// Rows of numbers that the programs read, in this order; each has one number a world.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
+    /// Coordinates, velocities and rotor states.
+    pub n_state: usize,
+    /// Commands of the model.
+    pub n_commands: usize,
+    /// Actions as they act; the actions as they are given stand last.
+    pub n_actions: usize,
+    /// Random numbers with names; the number of actions of the episode follows them.
+    pub n_named: usize,
+}
+
+impl Layout {
+    fn of(plan: &Plan) -> Self {
+        let [n_q, n_v, n_rotors, n_commands] = plant::state_sizes(&plan.loaded.scene.model);
+        Self { n_state: n_q + n_v + n_rotors, n_commands, n_actions: plan.n_actions(), n_named: plan.n_named() }
+    }
+
+    pub fn acted(&self) -> usize {
+        self.n_state + self.n_commands
+    }
+
+    pub fn named(&self) -> usize {
+        self.acted() + self.n_actions
+    }
+
+    pub fn count(&self) -> usize {
+        self.named() + self.n_named
+    }
+
+    pub fn given(&self) -> usize {
+        self.count() + 1
+    }
+
+    pub fn n_rows(&self) -> usize {
+        self.given() + self.n_actions
+    }
+}
+
+impl CompiledTask {
+    /// Compiles the actions of a task whose worlds lanes advance.
+    pub fn new(plan: &Plan) -> Result<(Self, StepsBy), Obstacle> {
+        if let Some(part) = plan.lanes_refused() {
+            return Err(Obstacle::new(format!("there is {part}")));
+        }
+        let (scene, method, layout) = (&plan.loaded.scene, plan.method, Layout::of(plan));
+        let models = [&*scene.model];
+        let after_state = layout.n_rows() - layout.acted();
+        let command = plant::worlds(&models, method, after_state, |worlds, rows| commands(plan, worlds, rows))?;
+        let step = plant::step(&models, method, plan.loaded.experiment.step)?;
+        let is_compiled = |formula: &Formula| {
+            let recorded = record(plan.task.slots.len(), 1, |values| vec![formula.eval(values, &mut Vec::new())]);
+            recorded.is_ok()
+        };
+        let reward_is_compiled = is_compiled(&plan.reward);
+        let end_is_compiled = plan.terminated.as_ref().is_none_or(is_compiled);
+        let others = plan.observations.iter().enumerate().filter(|(_, formula)| !is_compiled(formula));
+        let other_observations: Vec<usize> = others.map(|(i, _)| i).collect();
+        let judge = plant::worlds(&models, method, layout.given() - layout.acted(), |worlds, rows| {
+            let values = values(plan, worlds, rows);
+            let value = |formula: Option<&Formula>, is_compiled: bool| match formula {
+                Some(formula) if is_compiled => formula.eval(&values, &mut Vec::new()),
+                _ => Recorded::zero(),
+            };
+            let mut found = vec![value(Some(&plan.reward), reward_is_compiled)];
+            found.push(value(plan.terminated.as_ref(), end_is_compiled));
+            for (i, formula) in plan.observations.iter().enumerate() {
+                found.push(value(Some(formula), !other_observations.contains(&i)));
+            }
+            // x − x is 0, or NaN where x is not finite
+            let state = [worlds.coordinates(), worlds.velocities(), worlds.rotors()].concat();
+            let zeros: Vec<Recorded> = found.iter().chain(&state).map(|x| *x - *x).collect();
+            found.insert(results::FINITE, sum(&zeros));
+            if !(reward_is_compiled && end_is_compiled && other_observations.is_empty()) {
+                found.extend(&values[..plan.probes.len()]);
+            }
+            found
+        })?;
+        let programs: Vec<Program> = [command, step, judge].iter().map(Program::with_folded_parameters).collect();
+        let Native { programs, elapsed, is_cached } = native::compile(&programs.iter().collect::<Vec<_>>())?;
+        let [command, step, judge] = <[NativeProgram; 3]>::try_from(programs).expect("one for each");
+        let made = Self { command, step, judge, layout, reward_is_compiled, end_is_compiled, other_observations };
+        Ok((made, StepsBy::Compiled { elapsed, is_cached }))
+    }
+
+    /// Number of worlds that are advanced together.
+    pub fn width(&self) -> usize {
+        self.step.width()
+    }
+
+    /// True if formulas are left to be evaluated world by world.
+    pub fn has_others(&self) -> bool {
+        !(self.reward_is_compiled && self.end_is_compiled && self.other_observations.is_empty())
+    }
+}
+
+/// Sum of numbers, by halves: no addition waits for all before it.
+fn sum(numbers: &[Recorded]) -> Recorded {
+    match numbers {
+        [] => Recorded::zero(),
+        [x] => *x,
+        _ => {
+            let (first, second) = numbers.split_at(numbers.len() / 2);
+            sum(first) + sum(second)
+        }
+    }
+}
+
+/// Commands of an action, then the actions as they act.
+fn commands(plan: &Plan, worlds: &mut LaneWorlds<Recorded>, rows: &[Recorded]) -> Vec<Recorded> {
+    let n_given = plan.n_actions();
+    let (known, given) = rows.split_at(rows.len() - n_given);
+    let mut values = values(plan, worlds, known);
+    let acted: Vec<Recorded> = plan.task.actions.iter().zip(given).map(|(action, x)| action.space.acting(*x)).collect();
+    let first = plan.probes.len();
+    values[first..first + n_given].copy_from_slice(&acted);
+    let mut commands = worlds.view(false).commands.to_vec();
+    for (action, command) in plan.of_actions.iter().enumerate() {
+        if let Some(command) = command {
+            commands[*command] = acted[action];
+        }
+    }
+    for (command, formula) in &plan.of_formulas {
+        commands[*command] = formula.eval(&values, &mut Vec::new());
+    }
+    [commands, acted].concat()
+}
+
+/// Numbers that formulas see: signals, actions, random numbers with names, time and parameters. `rows`: actions as they
+/// act, random numbers, number of actions.
+fn values(plan: &Plan, worlds: &mut LaneWorlds<Recorded>, rows: &[Recorded]) -> Vec<Recorded> {
+    let seen = worlds.view(plan.needs_kinematics);
+    let view = View::of(&seen);
+    let of = |probe: &Probe| match *probe {
+        Probe::Command(k) => view.commands[k],
+        probe => of_state(&view, probe).expect("the plan refuses other signals"),
+    };
+    let mut values: Vec<Recorded> = plan.probes.iter().map(of).collect();
+    let (count, before) = rows.split_last().expect("the number of actions");
+    values.extend(before);
+    values.push(*count * Recorded::splat(plan.period()));
+    values.extend(plan.task.parameters.iter().map(|x| Recorded::splat(*x)));
+    values
+}
