@@ -301,6 +301,20 @@ mod tests {
     }
 
     #[test]
+    fn recordings_of_one_formula_are_equal() {
+        let formula = crate::expression::Expression::parse("if(x > 1, x, 2)", &["x"]).unwrap();
+        let program = |unused: f64| {
+            let act = |x: &[crate::record::Recorded]| {
+                Real::sqrt(x[0] + crate::record::Recorded::splat(unused));
+                vec![formula.eval(x, &mut Vec::new()) * x[0]]
+            };
+            crate::record::record(1, 1, act).unwrap()
+        };
+        // a number that nothing needs, also one of those in the formula
+        assert!([0.0, 1.0, 2.0, 0.5, 7.0].into_iter().all(|unused| program(unused) == program(3.0)));
+    }
+
+    #[test]
     fn formulas_with_comparisons_are_recorded_with_their_bits() {
         let text =
             "if(x > 0.5 and not(y == x), min(x, y, 0.7), sign(y)) + clamp(x, -1, y) + max(x, 2*y) + (x <= y or x != 3)";

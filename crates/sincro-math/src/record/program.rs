@@ -8,7 +8,7 @@ use crate::Real;
 use crate::elementary::{self, Bits};
 
 /// Operation of a [`Program`]; operands are indices of earlier operations.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Operation {
     /// The same number in every evaluation.
     Constant(f64),
@@ -49,6 +49,13 @@ pub enum Operation {
         /// Index of the bit, 0 for the lowest.
         bit: u32,
     },
+}
+
+/// Operations are equal if they are the same to the bit, also constants that are no numbers.
+impl PartialEq for Operation {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
 }
 
 impl Operation {
@@ -167,19 +174,37 @@ impl Program {
                 all[k].operands().iter().for_each(|&x| is_needed[x as usize] = true);
             }
         }
-        let (mut new, mut operations) = (vec![0; all.len()], Vec::new());
+        // Constants come right before their first use, and operands of sums and products in the order of evaluation:
+        // two recordings of one algorithm are equal also where one met a constant earlier, in what nothing needs.
+        let (mut new, mut operations): (Vec<Option<u32>>, Vec<Operation>) = (vec![None; all.len()], Vec::new());
         let mut kept = Vec::new();
-        for (k, operation) in all.into_iter().enumerate().filter(|(k, _)| is_needed[*k]) {
-            new[k] = operations.len() as u32;
-            operations.push(match operation {
+        let is_constant = |k: u32| matches!(all[k as usize], Operation::Constant(_));
+        let emit_constants = |of: &[u32], new: &mut [Option<u32>], operations: &mut Vec<Operation>| {
+            for &k in of.iter().filter(|&&k| is_constant(k)) {
+                if new[k as usize].is_none() {
+                    new[k as usize] = Some(operations.len() as u32);
+                    operations.push(all[k as usize]);
+                }
+            }
+        };
+        for k in (0..all.len()).filter(|&k| is_needed[k] && !is_constant(k as u32)) {
+            emit_constants(&all[k].operands(), &mut new, &mut operations);
+            let operation = match all[k] {
                 Operation::Parameter(p) => {
                     kept.push(core::mem::take(&mut parameters[p as usize]));
                     Operation::Parameter(kept.len() as u32 - 1)
                 }
-                other => other.with_operands(|x| new[x as usize]),
+                other => other.with_operands(|x| new[x as usize].expect("operands come before what needs them")),
+            };
+            new[k] = Some(operations.len() as u32);
+            operations.push(match operation {
+                Operation::Add(a, b) => Operation::Add(a.min(b), a.max(b)),
+                Operation::Mul(a, b) => Operation::Mul(a.min(b), a.max(b)),
+                other => other,
             });
         }
-        outputs.iter_mut().for_each(|x| *x = new[*x as usize]);
+        emit_constants(&outputs, &mut new, &mut operations);
+        outputs.iter_mut().for_each(|x| *x = new[*x as usize].expect("outputs are needed"));
         Self { operations, outputs, n_inputs, parameters: kept }
     }
 
