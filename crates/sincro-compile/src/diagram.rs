@@ -9,6 +9,8 @@ use sincro_blocks::block::Memory;
 use sincro_blocks::program::{Program as Diagram, Rate, Step};
 use sincro_blocks::runner::Runner;
 use sincro_math::record::{Program, Recorded, Unrecordable, record};
+use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
+use sincro_scene::record::Probe;
 
 use std::sync::Arc;
 
@@ -95,6 +97,34 @@ pub fn compile(diagram: &Arc<Diagram>) -> Result<CompiledDiagram, Obstacle> {
     }
     let state = start.state;
     Ok(CompiledDiagram { blocks, signals: state.signals, memory: state.memory })
+}
+
+/// Measurements of a diagram at ticks: the index of each among the signals, and its probe.
+///
+/// # Errors
+///
+/// [`Obstacle`] if the diagram measures what the state at the tick does not decide.
+pub fn measurements(wiring: &Wiring) -> Result<Vec<(usize, Probe)>, Obstacle> {
+    if !wiring.late.is_empty() {
+        return Err(Obstacle::new("the controller measures accelerations or motor torques"));
+    }
+    let readings: Vec<(usize, Probe)> = (wiring.early.iter())
+        .flat_map(|reading| reading.probes.iter().enumerate().map(|(k, probe)| (reading.at + k, *probe)))
+        .collect();
+    if readings.iter().any(|(_, probe)| is_known_at_ticks_only(*probe)) {
+        return Err(Obstacle::new("the controller measures a sensor, a contact, or a mean over the step"));
+    }
+    Ok(readings)
+}
+
+/// Returns true if a block of the rate `rate` is evaluated at tick `tick`.
+#[must_use]
+pub fn is_due(rate: Rate, tick: u64) -> bool {
+    match rate {
+        Rate::Constant => false,
+        Rate::Continuous => true,
+        Rate::Sampled(every) => tick.is_multiple_of(every),
+    }
 }
 
 /// Name of a block's kind.

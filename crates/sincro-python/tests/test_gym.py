@@ -1,5 +1,7 @@
 """Tasks: gymnasium's checks, seeds, autoreset, lanes against lock-steps, wrong calls."""
 
+import os
+import shutil
 import warnings
 
 import numpy as np
@@ -122,9 +124,20 @@ def test_worlds_do_not_depend_on_lanes_threads_and_neighbours(name, mode):
     assert np.array_equal(seen[:, :5], seen_few) and np.array_equal(rest[:, :, :5], rest_few)
 
 
-def test_lanes_have_the_bits_of_lock_steps(tmp_path):
-    import shutil
+@pytest.mark.parametrize("name", TASKS)
+def test_compiled_worlds_have_the_bits_of_others(name):
+    many = sincro.gym.make_vec(scene(name), 260, autoreset="SameStep")
+    if shutil.which("cc") and "SINCRO_COMPILE" not in os.environ:
+        assert (many.compilation_refused is None) == (name != "quadrotor-hover"), many.compilation_refused
+    actions = actions_for(many, 120)
+    seen, rest = episodes(many, actions)
+    few = sincro.gym.make_vec(scene(name), 5, autoreset="SameStep")
+    assert few.compilation_refused
+    seen_few, rest_few = episodes(few, [action[:5] for action in actions])
+    assert np.array_equal(seen[:, :5], seen_few) and np.array_equal(rest[:, :, :5], rest_few)
 
+
+def test_lanes_have_the_bits_of_lock_steps(tmp_path):
     for name in TASKS:
         folder = tmp_path / name
         shutil.copytree(scene(name), folder)
@@ -230,8 +243,6 @@ def test_arrays_of_cart_poles_have_the_episodes_of_gymnasium():
 
 
 def test_randomised_parameters_are_drawn_by_episode(tmp_path):
-    import shutil
-
     folder = tmp_path / "cart"
     shutil.copytree(scene("cart-pole-balance"), folder)
     with (folder / "experiment.toml").open("a") as file:
@@ -274,8 +285,6 @@ def test_wrong_choices_are_refused(action):
 
 
 def test_tasks_are_checked_when_the_scene_is_loaded(tmp_path):
-    import shutil
-
     wrong = [
         ('reward = "1"', 'reward = "1 + nothing"', "unknown name `nothing`"),
         ('command = "/rail"', 'command = "/rial"', "there is no command `/rial`"),

@@ -10,6 +10,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
 
 import sincro
@@ -72,6 +73,30 @@ def test_processes_give_the_same_bits(method):
         hashes = pool.map(hash_of, [{"/rail/cart/hinge/pole.mass": 0.2}] * 4)
         of_model = pool.apply(hash_of_model, (model,))
     assert set(hashes) == {expected} and of_model == hash_of_model(model)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_worlds_of_a_task_step_in_a_forked_process():
+    pytest.importorskip("gymnasium")
+    import sincro.gym
+
+    envs = sincro.gym.make_vec("scenes/acrobot", 64, threads=2)
+    envs.reset(seed=1)
+    actions = np.ones(64, dtype=np.int64)
+    envs.step(actions)
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            os.write(writing, envs.step(actions)[0].tobytes())
+        finally:
+            os._exit(0)
+    with os.fdopen(reading, "rb") as pipe:
+        os.close(writing)
+        of_child = np.frombuffer(pipe.read(), dtype=np.float64)
+    assert os.waitpid(child, 0)[1] == 0
+    assert np.array_equal(of_child, envs.step(actions)[0].ravel())
 
 
 @pytest.mark.skipif(not hasattr(os, "kill"), reason="needs signals")

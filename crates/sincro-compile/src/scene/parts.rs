@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use sincro_blocks::program::Rate;
 use sincro_dynamics::ids::BodyId;
 use sincro_dynamics::integrate::System;
 use sincro_dynamics::kinematics;
@@ -14,13 +13,12 @@ use sincro_math::Real;
 use sincro_math::random::splitmix64;
 use sincro_math::record::{Program, Recorded};
 use sincro_math::signal::Signal;
-use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
-use sincro_scene::record::Probe;
+use sincro_scene::diagram::Wiring;
 use sincro_scene::record::probe::{self, View};
 
 use super::names::{comment_text, identifiers};
 use super::{ReferenceTick, Request, frames};
-use crate::diagram::{ByTick, CompiledDiagram, Computed};
+use crate::diagram::{ByTick, CompiledDiagram, Computed, is_due};
 use crate::{Obstacle, diagram, plant};
 
 /// Largest number of operations of an exported function; the partial derivatives of long chains have more.
@@ -246,15 +244,6 @@ impl<'a> ClosedLoop<'a> {
     }
 }
 
-/// Returns true if a block is evaluated at `tick`.
-pub(super) fn is_due(rate: Rate, tick: u64) -> bool {
-    match rate {
-        Rate::Constant => false,
-        Rate::Continuous => true,
-        Rate::Sampled(every) => tick.is_multiple_of(every),
-    }
-}
-
 /// Inputs of sample `k` for a function of `n` numbers: coordinates that are quaternions are not normalised, which no
 /// function asks for.
 pub(super) fn sample(k: u64, n: usize) -> Vec<f64> {
@@ -374,15 +363,7 @@ fn frame_function(model: &Model<f64>, frame: BodyId, name: &str) -> Result<Funct
 
 /// Records the measurements of a diagram.
 fn measure(model: &Model<f64>, wiring: &Arc<Wiring>) -> Result<(Vec<usize>, Program), Obstacle> {
-    if !wiring.late.is_empty() {
-        return Err(Obstacle::new("the controller measures accelerations or motor torques"));
-    }
-    let readings: Vec<(usize, Probe)> = (wiring.early.iter())
-        .flat_map(|reading| reading.probes.iter().enumerate().map(|(k, probe)| (reading.at + k, *probe)))
-        .collect();
-    if readings.iter().any(|(_, probe)| is_known_at_ticks_only(*probe)) {
-        return Err(Obstacle::new("the controller measures a sensor, a contact, or a mean over the step"));
-    }
+    let readings = diagram::measurements(wiring)?;
     let sizes = plant::state_sizes(model);
     let mut unknown = false;
     let program = plant::mechanism(model, sizes.iter().sum(), |model, inputs| {

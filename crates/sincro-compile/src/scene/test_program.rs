@@ -3,9 +3,10 @@
 use core::fmt::Write;
 
 use super::Request;
-use super::parts::{Function, N_SAMPLES, Parts, is_due, sample};
+use super::parts::{Function, N_SAMPLES, Parts, sample};
 use crate::c::number;
 use crate::diagram::Computed;
+use crate::diagram::is_due;
 
 /// Longest table of values of sources in a self-test; a longer experiment is tested over its first part.
 const MAX_CHANGES: usize = 20_000;

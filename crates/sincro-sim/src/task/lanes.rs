@@ -53,7 +53,7 @@ impl LaneBundle {
         self.lanes.get_or_insert_with(|| {
             let mut made = SteppedLanes::new(&[&plan.loaded.scene.model], plan.method)
                 .expect("the plan refuses lanes where they cannot be");
-            made.set_commands(&plan.commands());
+            made.set_commands(&plan.loaded.scene.initial.commands);
             made
         })
     }

@@ -85,8 +85,8 @@ pub struct Plan {
     /// Commands by formulas.
     pub(super) of_formulas: Vec<(usize, Formula)>,
     starts: Vec<(usize, StartAt)>,
-    /// Reason why lanes cannot advance the worlds.
-    lanes_refused: Option<String>,
+    /// Reason why the recursions cannot advance the worlds in lanes.
+    recursions_refused: Option<String>,
     /// Programs of an action, where they were compiled.
     pub(super) compiled: Option<CompiledTask>,
 }
@@ -141,12 +141,12 @@ impl Plan {
             of_actions: task.actions.iter().map(|a| a.command.as_ref().and_then(|c| command(&c.value))).collect(),
             of_formulas: task.commands.iter().filter_map(|(c, f)| Some((command(&c.value)?, of(f)))).collect(),
             starts: starts.collect(),
-            lanes_refused: None,
+            recursions_refused: None,
             compiled: None,
             loaded: loaded.clone(),
             task,
         };
-        plan.lanes_refused = plan.obstacle().map(ToOwned::to_owned);
+        plan.recursions_refused = plan.obstacle_to_recursions().map(ToOwned::to_owned);
         let middle = plan.drawn(0, 0);
         if !middle.overrides.is_empty() {
             loaded.with_overrides_without_variants(&middle.overrides)?;
@@ -154,16 +154,21 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Part of the scene that keeps lanes from advancing its worlds, in words.
-    fn obstacle(&self) -> Option<&str> {
-        let Loaded { scene, controller, .. } = &self.loaded;
+    /// Part of the scene that keeps the recursions from advancing its worlds in lanes, in words.
+    fn obstacle_to_recursions(&self) -> Option<&str> {
+        if self.loaded.controller.is_some() { Some("a diagram") } else { self.obstacle_to_programs() }
+    }
+
+    /// Part of the scene that keeps compiled programs from advancing its worlds, in words; its diagram apart.
+    pub(super) fn obstacle_to_programs(&self) -> Option<&str> {
+        let scene = &self.loaded.scene;
         let fixed = matches!(self.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
         let model = &*scene.model;
         if !fixed {
             return Some("an integrator with error control: set `rk4`, `implicit` or `semi-implicit-euler`");
         }
-        if controller.is_some() {
-            return Some("a diagram");
+        if !self.loaded.controllers.is_empty() {
+            return Some("a controller in another language");
         }
         if !scene.scripts.is_empty() {
             return Some("scripts");
@@ -189,7 +194,17 @@ impl Plan {
     /// advanced alone; `None` if lanes do.
     #[must_use]
     pub fn lanes_refused(&self) -> Option<&str> {
-        self.lanes_refused.as_deref()
+        if self.compiled.is_some() { None } else { self.recursions_refused.as_deref() }
+    }
+
+    /// As [`Plan::lanes_refused`], for the recursions.
+    pub(super) fn recursions_refused(&self) -> Option<&str> {
+        self.recursions_refused.as_deref()
+    }
+
+    /// Commands that the task sets, itself or by formulas.
+    pub(super) fn own_commands(&self) -> impl Iterator<Item = usize> {
+        self.of_actions.iter().flatten().copied().chain(self.of_formulas.iter().map(|(command, _)| *command))
     }
 
     /// Returns the scene of all worlds, as its files describe it before random numbers are drawn.
@@ -280,13 +295,13 @@ impl Plan {
     }
 }
 
-/// Returns true if the state of the world alone decides a probe, and its commands.
+/// Returns true if the state of the world, its commands and its diagram decide a probe.
 fn is_of_state(model: &Model<f64>, probe: Probe) -> bool {
     use sincro_dynamics::kinematics;
     use sincro_dynamics::scratch::Scratch;
     use sincro_scene::record::probe::View;
 
-    if matches!(probe, Probe::Command(_)) {
+    if matches!(probe, Probe::Command(_) | Probe::Signal(_)) {
         return true;
     }
     let (state, mut scratch) = (State::new(model), Scratch::new(model));

@@ -3,6 +3,8 @@
 use crate::controller::{Commands, Controller, Forked};
 use crate::load::Loaded;
 use crate::run::LockStep;
+use sincro_blocks::runner::State as DiagramState;
+use sincro_dynamics::state::State;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::Recorder;
 
@@ -96,6 +98,21 @@ impl SingleWorld {
     /// Coordinates of the world; none before its first episode.
     pub fn coordinates(&self) -> Option<Vec<f64>> {
         self.run.as_ref().map(|(lockstep, _)| lockstep.state().q.clone())
+    }
+
+    /// State of the world, and that of its diagram; none before its first episode.
+    pub fn state(&self) -> Option<(&State<f64>, Option<&DiagramState<f64>>)> {
+        let (lockstep, _) = self.run.as_ref()?;
+        Some((lockstep.state(), lockstep.control().map(|control| &control.runner.state)))
+    }
+
+    /// Puts the world at tick `tick` into the state that `set` makes of its last one and of that of its diagram.
+    pub fn resume(&mut self, tick: u64, set: impl FnOnce(&mut State<f64>, Option<&mut DiagramState<f64>>)) {
+        let Some((lockstep, _)) = &mut self.run else { return };
+        let mut snapshot = lockstep.snapshot(lockstep.trace());
+        set(&mut snapshot.state, snapshot.diagram.as_mut());
+        snapshot.state.tick = tick;
+        lockstep.restore(&snapshot);
     }
 
     /// Signals of the world; false if it cannot go on.

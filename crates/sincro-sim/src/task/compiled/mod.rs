@@ -3,8 +3,10 @@
 //! Formulas whose functions are no arithmetic (`exp`, `hypot`, …) are evaluated world by world after the step; all
 //! others are part of the programs.
 
+mod control;
 mod rows;
 
+use control::ControlPrograms;
 use sincro_compile::native::{self, Native, NativeProgram};
 use sincro_compile::{Obstacle, plant};
 use sincro_dynamics::batch::LaneWorlds;
@@ -27,11 +29,23 @@ pub(super) struct CompiledTask {
     step: NativeProgram,
     /// Results of everything known after the step: see [`results`].
     judge: NativeProgram,
+    control: Option<Control>,
     pub layout: Layout,
     pub reward_is_compiled: bool,
     pub end_is_compiled: bool,
     /// Numbers of the observations that are evaluated world by world.
     pub other_observations: Vec<usize>,
+}
+
+/// The diagram of the task, compiled: see [`ControlPrograms`].
+#[derive(Clone, Debug)]
+struct Control {
+    programs: Vec<NativeProgram>,
+    latch: Vec<usize>,
+    evaluate: Vec<usize>,
+    start: usize,
+    /// Signals and memory before the start.
+    initial: Vec<f64>,
 }
 
 /// Rows of the results of the program that judges: first one that is 0 where all of them and the state are finite.
@@ -53,12 +67,24 @@ pub(super) struct Layout {
     pub n_actions: usize,
     /// Random numbers with names; the number of actions of the episode follows them.
     pub n_named: usize,
+    /// Signals of the diagram.
+    pub n_signals: usize,
+    /// Memory of the diagram; a number that is 0 while all signals were finite follows it.
+    pub n_memory: usize,
 }
 
 impl Layout {
     fn of(plan: &Plan) -> Self {
         let [n_q, n_v, n_rotors, n_commands] = plant::state_sizes(&plan.loaded.scene.model);
-        Self { n_state: n_q + n_v + n_rotors, n_commands, n_actions: plan.n_actions(), n_named: plan.n_named() }
+        let diagram = plan.loaded.controller.as_ref().map(|control| control.wiring.program());
+        Self {
+            n_state: n_q + n_v + n_rotors,
+            n_commands,
+            n_actions: plan.n_actions(),
+            n_named: plan.n_named(),
+            n_signals: diagram.map_or(0, |diagram| diagram.n_signals),
+            n_memory: diagram.map_or(0, |diagram| diagram.n_memory),
+        }
     }
 
     pub fn acted(&self) -> usize {
@@ -73,8 +99,20 @@ impl Layout {
         self.named() + self.n_named
     }
 
-    pub fn given(&self) -> usize {
+    pub fn signals(&self) -> usize {
         self.count() + 1
+    }
+
+    pub fn memory(&self) -> usize {
+        self.signals() + self.n_signals
+    }
+
+    pub fn finite(&self) -> usize {
+        self.memory() + self.n_memory
+    }
+
+    pub fn given(&self) -> usize {
+        self.finite() + 1
     }
 
     pub fn n_rows(&self) -> usize {
@@ -83,9 +121,9 @@ impl Layout {
 }
 
 impl CompiledTask {
-    /// Compiles the actions of a task whose worlds lanes advance.
+    /// Compiles the actions of a task whose worlds lanes advance, but for a diagram.
     pub fn new(plan: &Plan) -> Result<(Self, StepsBy), Obstacle> {
-        if let Some(part) = plan.lanes_refused() {
+        if let Some(part) = plan.obstacle_to_programs() {
             return Err(Obstacle::new(format!("there is {part}")));
         }
         let (scene, method, layout) = (&plan.loaded.scene, plan.method, Layout::of(plan));
@@ -93,6 +131,7 @@ impl CompiledTask {
         let after_state = layout.n_rows() - layout.acted();
         let command = plant::worlds(&models, method, after_state, |worlds, rows| commands(plan, worlds, rows))?;
         let step = plant::step(&models, method, plan.loaded.experiment.step)?;
+        let control = ControlPrograms::record(plan, layout)?;
         let is_compiled = |formula: &Formula| {
             let recorded = record(plan.task.slots.len(), 1, |values| vec![formula.eval(values, &mut Vec::new())]);
             recorded.is_ok()
@@ -115,22 +154,38 @@ impl CompiledTask {
             // x − x is 0, or NaN where x is not finite
             let state = [worlds.coordinates(), worlds.velocities(), worlds.rotors()].concat();
             let zeros: Vec<Recorded> = found.iter().chain(&state).map(|x| *x - *x).collect();
-            found.insert(results::FINITE, sum(&zeros));
+            let before = rows[layout.finite() - layout.acted()];
+            found.insert(results::FINITE, before + sum(&zeros));
             if !(reward_is_compiled && end_is_compiled && other_observations.is_empty()) {
                 found.extend(&values[..plan.probes.len()]);
             }
             found
         })?;
-        let programs: Vec<Program> = [command, step, judge].iter().map(Program::with_folded_parameters).collect();
-        let Native { programs, elapsed, is_cached } = native::compile(&programs.iter().collect::<Vec<_>>())?;
+        let of_control = control.iter().flat_map(|control| &control.programs);
+        let programs = [&command, &step, &judge].into_iter().chain(of_control);
+        let programs: Vec<Program> = programs.map(Program::with_folded_parameters).collect();
+        let Native { mut programs, elapsed, is_cached } = native::compile(&programs.iter().collect::<Vec<_>>())?;
+        let of_control = programs.split_off(3);
         let [command, step, judge] = <[NativeProgram; 3]>::try_from(programs).expect("one for each");
-        let made = Self { command, step, judge, layout, reward_is_compiled, end_is_compiled, other_observations };
+        let control = control.map(|ControlPrograms { latch, evaluate, start, signals, memory, .. }| {
+            let initial = [signals, memory].concat();
+            Control { programs: of_control, latch, evaluate, start, initial }
+        });
+        let made =
+            Self { command, step, judge, control, layout, reward_is_compiled, end_is_compiled, other_observations };
         Ok((made, StepsBy::Compiled { elapsed, is_cached }))
     }
 
     /// Number of worlds that are advanced together.
     pub fn width(&self) -> usize {
         self.step.width()
+    }
+
+    /// Largest number of results of the diagram's programs.
+    fn n_controlled(&self) -> usize {
+        let layout = self.layout;
+        let latch = layout.n_commands + layout.n_memory;
+        if self.control.is_some() { latch.max(1 + layout.n_signals) } else { 0 }
     }
 
     /// True if formulas are left to be evaluated world by world.
@@ -159,7 +214,7 @@ fn commands(plan: &Plan, worlds: &mut LaneWorlds<Recorded>, rows: &[Recorded]) -
     let acted: Vec<Recorded> = plan.task.actions.iter().zip(given).map(|(action, x)| action.space.acting(*x)).collect();
     let first = plan.probes.len();
     values[first..first + n_given].copy_from_slice(&acted);
-    let mut commands = worlds.view(false).commands.to_vec();
+    let mut commands: Vec<Recorded> = plan.commands().into_iter().map(Recorded::splat).collect();
     for (action, command) in plan.of_actions.iter().enumerate() {
         if let Some(command) = command {
             commands[*command] = acted[action];
@@ -171,19 +226,21 @@ fn commands(plan: &Plan, worlds: &mut LaneWorlds<Recorded>, rows: &[Recorded]) -
     [commands, acted].concat()
 }
 
-/// Numbers that formulas see: signals, actions, random numbers with names, time and parameters. `rows`: actions as they
-/// act, random numbers, number of actions.
+/// Numbers that formulas see: signals, actions, random numbers with names, time and parameters. `rows` are those after
+/// the commands, up to the signals of the diagram at least.
 fn values(plan: &Plan, worlds: &mut LaneWorlds<Recorded>, rows: &[Recorded]) -> Vec<Recorded> {
+    let layout = Layout::of(plan);
     let seen = worlds.view(plan.needs_kinematics);
     let view = View::of(&seen);
     let of = |probe: &Probe| match *probe {
         Probe::Command(k) => view.commands[k],
+        Probe::Signal(k) => rows[layout.signals() - layout.acted() + k],
         probe => of_state(&view, probe).expect("the plan refuses other signals"),
     };
     let mut values: Vec<Recorded> = plan.probes.iter().map(of).collect();
-    let (count, before) = rows.split_last().expect("the number of actions");
-    values.extend(before);
-    values.push(*count * Recorded::splat(plan.period()));
+    let n_known = layout.count() - layout.acted();
+    values.extend(&rows[..n_known]);
+    values.push(rows[n_known] * Recorded::splat(plan.period()));
     values.extend(plan.task.parameters.iter().map(|x| Recorded::splat(*x)));
     values
 }

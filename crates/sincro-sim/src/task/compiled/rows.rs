@@ -21,6 +21,8 @@ pub(in super::super) struct CompiledScratch {
     saved: Vec<f64>,
     /// Commands and actions as they act.
     commanded: Vec<f64>,
+    /// Results of the diagram's programs.
+    controlled: Vec<f64>,
     /// Results: see [`results`].
     pub results: Vec<f64>,
 }
@@ -33,6 +35,7 @@ impl CompiledScratch {
         Self {
             saved: of(layout.n_rows()),
             commanded: of(layout.n_commands + layout.n_actions),
+            controlled: vec![0.0; task.n_controlled() * task.width()],
             results: of(results::OBSERVATIONS + plan.n_observations() + n_signals),
         }
     }
@@ -72,7 +75,8 @@ impl Rows {
     }
 
     /// Puts a world into a state at the start of an episode, before its first action.
-    pub fn start(&mut self, lane: usize, state: &State<f64>, commands: &[f64], named: &[f64]) {
+    pub fn start(&mut self, task: &CompiledTask, lane: usize, state: &State<f64>, named: &[f64]) {
+        let of_diagram = task.control.as_ref().map_or(&[][..], |control| &control.initial);
         let mut k = lane;
         let mut set = |numbers: &[f64]| {
             for x in numbers {
@@ -83,10 +87,38 @@ impl Rows {
         set(&state.q);
         set(&state.v);
         set(&state.rotors);
-        set(commands);
+        set(&state.commands);
         (0..self.layout.n_actions).for_each(|_| set(&[0.0]));
         set(named);
         set(&[0.0]);
+        set(of_diagram);
+        set(&[0.0]);
+    }
+
+    /// Evaluates the diagram at the start of an episode, in the worlds of a mask; false if a signal is not finite.
+    pub fn start_diagram(&mut self, task: &CompiledTask, mask: &[bool], scratch: &mut CompiledScratch) -> bool {
+        let Some(control) = &task.control else { return true };
+        let (layout, width) = (self.layout, self.width);
+        let known = &self.rows[..layout.given() * width];
+        let found = &mut scratch.controlled[..(1 + layout.n_signals) * width];
+        if !control.programs[control.start].evaluate(known, &[], found) {
+            return false;
+        }
+        let (finite, signals) = found.split_at(width);
+        let signals_of_rows = &mut self.rows[layout.signals() * width..];
+        for lane in (0..width).filter(|lane| mask[*lane]) {
+            for k in (0..layout.n_signals).map(|k| k * width + lane) {
+                signals_of_rows[k] = unsigned_zero(signals[k]);
+            }
+        }
+        (0..width).all(|lane| !mask[lane] || finite[lane] == 0.0)
+    }
+
+    /// Signals and memory of the diagram of a world.
+    pub fn read_diagram(&self, lane: usize, signals: &mut [f64], memory: &mut [f64]) {
+        for (k, x) in signals.iter_mut().chain(memory).enumerate() {
+            *x = self.row(self.layout.signals() + k)[lane];
+        }
     }
 
     /// State of a world.
@@ -134,12 +166,43 @@ impl Rows {
             if !task.command.evaluate(&self.rows, &[], &mut scratch.commanded) {
                 return false;
             }
-            for (to, x) in self.rows[layout.n_state * width..].iter_mut().zip(&scratch.commanded) {
-                *to = unsigned_zero(*x);
-            }
+            copy_unsigned(&mut self.rows[layout.n_state * width..], &scratch.commanded);
         }
-        let moved = &mut self.rows[..layout.acted() * width];
-        (0..n_steps).all(|_| task.step.evaluate_in_place(moved, &[]))
+        (0..n_steps as usize).all(|step| {
+            self.latch(task, step, scratch)
+                && task.step.evaluate_in_place(&mut self.rows[..layout.acted() * width], &[])
+                && self.evaluate(task, step, scratch)
+        })
+    }
+
+    /// Commands and memory of the diagram before base step `step` of an action.
+    #[inline]
+    fn latch(&mut self, task: &CompiledTask, step: usize, scratch: &mut CompiledScratch) -> bool {
+        let Some(control) = &task.control else { return true };
+        let (layout, width) = (self.layout, self.width);
+        let found = &mut scratch.controlled[..(layout.n_commands + layout.n_memory) * width];
+        if !control.programs[control.latch[step]].evaluate(&self.rows[..layout.given() * width], &[], found) {
+            return false;
+        }
+        let (commands, memory) = found.split_at(layout.n_commands * width);
+        copy_unsigned(&mut self.rows[layout.n_state * width..], commands);
+        copy_unsigned(&mut self.rows[layout.memory() * width..], memory);
+        true
+    }
+
+    /// Signals of the diagram after base step `step` of an action.
+    #[inline]
+    fn evaluate(&mut self, task: &CompiledTask, step: usize, scratch: &mut CompiledScratch) -> bool {
+        let Some(control) = &task.control else { return true };
+        let (layout, width) = (self.layout, self.width);
+        let found = &mut scratch.controlled[..(1 + layout.n_signals) * width];
+        if !control.programs[control.evaluate[step]].evaluate(&self.rows[..layout.given() * width], &[], found) {
+            return false;
+        }
+        let (finite, signals) = found.split_at(width);
+        copy_unsigned(&mut self.rows[layout.finite() * width..], finite);
+        copy_unsigned(&mut self.rows[layout.signals() * width..], signals);
+        true
     }
 
     /// Counts the action of all worlds but those that `is_over`: these stay where they were.
@@ -153,7 +216,7 @@ impl Rows {
         }
         if any_over {
             for lane in (0..width).filter(|lane| is_over[*lane]) {
-                for k in 0..layout.acted() {
+                for k in (0..layout.acted()).chain(layout.signals()..layout.given()) {
                     self.rows[k * width + lane] = scratch.saved[k * width + lane];
                 }
             }
@@ -165,5 +228,13 @@ impl Rows {
         let known = &self.rows[..self.layout.given() * self.width];
         task.judge.evaluate(known, &[], &mut scratch.results)
             && scratch.result(results::FINITE, self.width).iter().all(|x| *x == 0.0)
+    }
+}
+
+/// Copies numbers without the signs of zeros.
+#[inline]
+fn copy_unsigned(to: &mut [f64], from: &[f64]) {
+    for (to, x) in to.iter_mut().zip(from) {
+        *to = unsigned_zero(*x);
     }
 }

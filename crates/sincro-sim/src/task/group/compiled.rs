@@ -2,6 +2,8 @@
 
 pub(super) use crate::task::compiled::CompiledScratch;
 
+use sincro_dynamics::state::State;
+
 use super::{Buffers, Group, Scratch, Worlds};
 use crate::task::Autoreset;
 use crate::task::compiled::{CompiledTask, Rows, results};
@@ -159,12 +161,11 @@ impl Group {
             }
             self.draw(plan, k, scratch);
             let Some(CompiledWorlds { rows, .. }) = &mut self.compiled else { return };
-            rows.start(k, &scratch.drawn.state, &scratch.default_commands, &scratch.drawn.named);
+            rows.start(task, k, &scratch.drawn.state, &scratch.drawn.named);
         }
-        let (Some(CompiledWorlds { rows, .. }), Some(compiled)) = (&self.compiled, &mut scratch.compiled) else {
-            return;
-        };
-        if rows.judge(task, compiled) {
+        let Some(CompiledWorlds { rows, .. }) = &mut self.compiled else { return };
+        let Some(compiled) = &mut scratch.compiled else { return };
+        if rows.start_diagram(task, &scratch.begins_anew, compiled) && rows.judge(task, compiled) {
             copy_observations(task, plan.n_observations(), compiled, out.observations, Some(&scratch.begins_anew));
             if task.other_observations.is_empty() {
                 return;
@@ -173,6 +174,11 @@ impl Group {
         } else {
             // a start that the programs cannot judge
             self.leave_rows(plan);
+            for (number, begins_anew) in self.episodes.numbers.iter_mut().zip(&scratch.begins_anew) {
+                *number -= u64::from(*begins_anew);
+            }
+            self.start(plan, scratch);
+            self.look(plan);
         }
         for k in (0..task.width()).filter(|k| scratch.begins_anew[*k]) {
             self.write(plan, k, out.observations, &mut scratch.stack);
@@ -181,21 +187,38 @@ impl Group {
 
     /// Moves the state of the worlds into the rows; false where there are none, or the worlds cannot be there now.
     fn enter_rows(&mut self, plan: &Plan, task: &CompiledTask) -> bool {
-        let (Some(compiled), Worlds::Lanes(bundle)) = (&mut self.compiled, &mut self.worlds) else { return false };
+        let Some(compiled) = &mut self.compiled else { return false };
         if compiled.are_current {
             return true;
         }
-        // a world that is over has moved on behind what it shows
+        // a world that is over may have moved on behind what it shows
         if self.episodes.is_over.contains(&true) || self.is_finite.contains(&false) {
             return false;
         }
         let (rows, layout) = (&mut compiled.rows, task.layout);
-        bundle.copy_state(plan, rows.state_mut());
+        match &mut self.worlds {
+            Worlds::Lanes(bundle) => {
+                bundle.copy_state(plan, rows.state_mut());
+                for (k, commands) in self.commands.chunks_exact(layout.n_commands.max(1)).enumerate() {
+                    commands.iter().enumerate().for_each(|(i, x)| rows.set(k, layout.n_state + i, *x));
+                }
+            }
+            Worlds::Single(worlds) => {
+                for (k, world) in worlds.iter().enumerate() {
+                    let Some((state, diagram)) = world.state() else { return false };
+                    let State { q, v, rotors, commands, .. } = state;
+                    for (i, x) in q.iter().chain(v).chain(rotors).chain(commands).enumerate() {
+                        rows.set(k, i, *x);
+                    }
+                    let of_diagram =
+                        diagram.into_iter().flat_map(|diagram| diagram.signals.iter().chain(&diagram.memory));
+                    of_diagram.enumerate().for_each(|(i, x)| rows.set(k, layout.signals() + i, *x));
+                    rows.set(k, layout.finite(), 0.0);
+                }
+            }
+        }
         let known = layout.n_actions + layout.n_named;
         for (k, actions) in self.episodes.actions.iter().enumerate() {
-            for (i, x) in self.commands[k * layout.n_commands..][..layout.n_commands].iter().enumerate() {
-                rows.set(k, layout.n_state + i, *x);
-            }
             for (i, x) in self.values[k * self.n_slots + self.n_signals..][..known].iter().enumerate() {
                 rows.set(k, layout.acted() + i, *x);
             }
@@ -207,23 +230,48 @@ impl Group {
 
     /// Moves the state of the worlds out of the rows, if it is there.
     pub(super) fn leave_rows(&mut self, plan: &Plan) {
-        let (Some(compiled), Worlds::Lanes(bundle)) = (&mut self.compiled, &mut self.worlds) else { return };
+        let Some(compiled) = &mut self.compiled else { return };
         let Some(task) = plan.compiled.as_ref().filter(|_| core::mem::take(&mut compiled.are_current)) else { return };
         let (rows, layout, n) = (&compiled.rows, task.layout, self.n_signals);
         let mut state = plan.loaded.scene.initial.clone();
         for k in 0..task.width() {
             rows.read_state(k, &mut state);
-            bundle.place(plan, k, &state);
             self.episodes.actions[k] = rows.row(layout.count())[k] as u64;
             for (i, x) in self.commands[k * layout.n_commands..][..layout.n_commands].iter_mut().enumerate() {
                 *x = rows.row(layout.n_state + i)[k];
             }
+            match &mut self.worlds {
+                Worlds::Lanes(bundle) => bundle.place(plan, k, &state),
+                Worlds::Single(worlds) => {
+                    let commands = &self.commands[k * layout.n_commands..][..layout.n_commands];
+                    worlds[k].resume(self.episodes.actions[k] * plan.task.ticks, |now, diagram| {
+                        now.q.copy_from_slice(&state.q);
+                        now.v.copy_from_slice(&state.v);
+                        now.rotors.copy_from_slice(&state.rotors);
+                        now.commands.copy_from_slice(commands);
+                        if let Some(diagram) = diagram {
+                            rows.read_diagram(k, &mut diagram.signals, &mut diagram.memory);
+                        }
+                    });
+                }
+            }
         }
-        bundle.set_commands(plan, &self.commands);
-        bundle.observe(plan, &mut self.signals, &mut self.is_finite);
-        for k in (0..task.width()).filter(|k| self.is_finite[*k]).collect::<Vec<_>>() {
-            self.values[k * self.n_slots..][..n].copy_from_slice(&self.signals[k * n..(k + 1) * n]);
-            self.see_actions(plan, task, k);
+        match &mut self.worlds {
+            Worlds::Lanes(bundle) => {
+                bundle.set_commands(plan, &self.commands);
+                bundle.observe(plan, &mut self.signals, &mut self.is_finite);
+            }
+            Worlds::Single(worlds) => {
+                for (k, world) in worlds.iter_mut().enumerate() {
+                    self.is_finite[k] = world.observe(&mut self.signals[k * n..(k + 1) * n]);
+                }
+            }
+        }
+        for k in 0..task.width() {
+            if self.is_finite[k] {
+                self.values[k * self.n_slots..][..n].copy_from_slice(&self.signals[k * n..(k + 1) * n]);
+                self.see_actions(plan, task, k);
+            }
         }
     }
 }

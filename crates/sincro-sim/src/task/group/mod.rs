@@ -124,9 +124,8 @@ impl Group {
         for of_world in values.chunks_mut(n_slots) {
             of_world[n_slots - plan.task.parameters.len()..].copy_from_slice(&plan.task.parameters);
         }
-        let commands = plan.commands();
-        let n_commands = commands.len();
-        let worlds = match plan.lanes_refused() {
+        let commands = &plan.loaded.scene.initial.commands;
+        let worlds = match plan.recursions_refused() {
             None => Worlds::Lanes(LaneBundle::default()),
             Some(_) => Worlds::Single((0..n_worlds).map(|_| SingleWorld::new()).collect()),
         };
@@ -138,7 +137,7 @@ impl Group {
             values,
             signals: vec![0.0; n_worlds * n_signals],
             is_finite: vec![true; n_worlds],
-            commands: commands.iter().copied().cycle().take(n_worlds * n_commands).collect(),
+            commands: commands.repeat(n_worlds),
             n_slots,
             n_signals,
         }
@@ -200,7 +199,7 @@ impl Group {
             let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots];
             plan.acting(&actions[k * n_actions..][..n_actions], &mut of_world[self.n_signals..][..n_actions]);
         }
-        self.command(plan, &mut scratch.stack);
+        self.command(plan, &scratch.default_commands, &mut scratch.stack);
         self.advance(plan, scratch);
         for (actions, was_over) in self.episodes.actions.iter_mut().zip(&scratch.was_over) {
             *actions += u64::from(!was_over);
@@ -253,11 +252,12 @@ impl Group {
     }
 
     /// Commands of all worlds, from their actions and the signals last seen.
-    fn command(&mut self, plan: &Plan, stack: &mut Vec<f64>) {
+    fn command(&mut self, plan: &Plan, default: &[f64], stack: &mut Vec<f64>) {
         let n = plan.n_commands();
         for k in 0..self.n_worlds() {
             let of_world = &self.values[k * self.n_slots..(k + 1) * self.n_slots];
             let commands = &mut self.commands[k * n..(k + 1) * n];
+            commands.copy_from_slice(default);
             for (action, command) in plan.of_actions.iter().enumerate() {
                 if let Some(command) = command {
                     commands[*command] = of_world[self.n_signals + action];
@@ -275,9 +275,8 @@ impl Group {
             Worlds::Lanes(bundle) => bundle.advance(plan, &self.commands),
             Worlds::Single(worlds) => {
                 for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| !scratch.was_over[*k]) {
-                    let own = plan.of_actions.iter().flatten().chain(plan.of_formulas.iter().map(|(c, _)| c));
-                    for command in own {
-                        scratch.single_commands[*command] = Some(self.commands[k * n + command]);
+                    for command in plan.own_commands() {
+                        scratch.single_commands[command] = Some(self.commands[k * n + command]);
                     }
                     world.advance(plan, &scratch.single_commands);
                 }
@@ -313,7 +312,7 @@ impl Group {
         of_world[self.n_signals..][..n_actions].fill(0.0);
         of_world[self.n_signals + n_actions..][..drawn.named.len()].copy_from_slice(&drawn.named);
         let n = plan.n_commands();
-        self.commands[k * n..(k + 1) * n].copy_from_slice(&scratch.default_commands);
+        self.commands[k * n..(k + 1) * n].copy_from_slice(&drawn.state.commands);
     }
 
     /// Reads the signals of all worlds.
