@@ -7,8 +7,10 @@
 //!   `.tar.gz` and `.deb`; fails if one is too large. `--glibc 2.28`: for systems with that glibc or a newer one (needs
 //!   `cargo-zigbuild`).
 //! - `judge NAME`: compares with other programs and public files, and writes the page of it.
+//! - `book-links`: preprocessor that `mdbook build` calls; see `book.toml`.
 //! - `api-sample`: prints 30 public items with their documentation, drawn at random, for a person to grade.
 
+mod book;
 mod dist;
 mod examples;
 mod glossary;
@@ -30,9 +32,12 @@ fn main() -> ExitCode {
         Some("tidy") => exit(tidy::check(&root())),
         Some("dist") => exit(dist()),
         Some("judge") => exit(judge::run(&root(), std::env::args().nth(2).as_deref())),
+        Some("book-links") => exit(book::preprocess()),
         Some("api-sample") => exit(sample::print(&root())),
         _ => {
-            eprintln!("usage: cargo xtask check | tidy | bless | dist [--glibc VERSION] | judge NAME | api-sample");
+            eprintln!(
+                "usage: cargo xtask check | tidy | bless | dist [--glibc VERSION] | judge NAME | book-links | api-sample"
+            );
             ExitCode::from(2)
         }
     }
