@@ -1,11 +1,9 @@
 //! Problems on the terminal: the line of the file, what is wrong in it, how to mend it.
 
-use std::fmt;
 use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::Arc;
 
-use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 use sincro::{Loaded, RunFailure};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_scene::document::Document;
@@ -14,22 +12,13 @@ use sincro_sim::file::FileError;
 use sincro_sim::result_folder::FolderError;
 
 use crate::Exit;
+use crate::snippet::render;
 
 /// Prints all problems to standard error.
 pub(crate) fn print_diagnostics(diagnostics: &[Diagnostic]) {
-    let theme = match std::io::stderr().is_terminal() {
-        true if is_without_colour() => GraphicalTheme::unicode_nocolor(),
-        true => GraphicalTheme::unicode(),
-        false => plain(),
-    };
-    let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_context_lines(1);
+    let has_colour = std::io::stderr().is_terminal() && !is_without_colour();
     for diagnostic in &grouped(diagnostics) {
-        let mut text = String::new();
-        let shown = Shown::new(diagnostic);
-        if handler.render_report(&mut text, &shown).is_err() {
-            text = diagnostic.to_string();
-        }
-        eprintln!("{}", text.trim_end());
+        eprintln!("{}", render(diagnostic, has_colour));
     }
 }
 
@@ -73,13 +62,6 @@ fn without_owner(message: &str) -> &str {
 /// Returns true if the variable `NO_COLOR` asks for no colour.
 fn is_without_colour() -> bool {
     std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty())
-}
-
-/// Without colour, for pipes and files.
-fn plain() -> GraphicalTheme {
-    let mut theme = GraphicalTheme::unicode_nocolor();
-    theme.characters = miette::ThemeCharacters::ascii();
-    theme
 }
 
 /// Prints the problems and a summary; the command ends with bad input.
@@ -166,64 +148,6 @@ pub(crate) fn refuse_camera(name: &str, cameras: &[String]) -> Exit {
 /// `1 error`, `2 errors`.
 pub(crate) fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
-/// A problem as miette sees it.
-#[derive(Debug)]
-struct Shown<'a> {
-    diagnostic: &'a Diagnostic,
-    source: Option<NamedSource<Text>>,
-}
-
-/// A file's text, shared.
-#[derive(Debug)]
-struct Text(Arc<SourceText>);
-
-impl SourceCode for Text {
-    fn read_span<'a>(
-        &'a self,
-        span: &miette::SourceSpan,
-        before: usize,
-        after: usize,
-    ) -> Result<Box<dyn miette::SpanContents<'a> + 'a>, miette::MietteError> {
-        self.0.text.as_str().read_span(span, before, after)
-    }
-}
-
-impl<'a> Shown<'a> {
-    fn new(diagnostic: &'a Diagnostic) -> Self {
-        let source =
-            diagnostic.source.as_ref().map(|s| NamedSource::new(s.path.display().to_string(), Text(s.clone())));
-        Self { diagnostic, source }
-    }
-}
-
-impl fmt::Display for Shown<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let word = if self.diagnostic.is_error() { "error" } else { "warning" };
-        write!(f, "{word}: {}", self.diagnostic.message)
-    }
-}
-
-impl std::error::Error for Shown<'_> {}
-
-impl miette::Diagnostic for Shown<'_> {
-    fn severity(&self) -> Option<miette::Severity> {
-        Some(if self.diagnostic.is_error() { miette::Severity::Error } else { miette::Severity::Warning })
-    }
-
-    fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
-        self.diagnostic.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source.as_ref().map(|s| s as &dyn SourceCode)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let span = self.diagnostic.span.clone()?;
-        Some(Box::new([LabeledSpan::new(None, span.start, span.end - span.start)].into_iter()))
-    }
 }
 
 #[cfg(test)]

@@ -56,6 +56,8 @@ pub mod results;
 mod run;
 #[cfg(feature = "adapters")]
 pub mod serve;
+#[cfg(feature = "run")]
+mod snippet;
 #[cfg(feature = "adapters")]
 pub mod view;
 

@@ -35,6 +35,8 @@ pub(crate) const fn item<B: Block + Described>() -> Item {
 }
 
 /// All kinds of block of the library, category by category.
+// the tables are statics and this is not inlined: blocks are compiled here alone, not in each crate that asks for them
+#[inline(never)]
 pub fn all() -> impl Iterator<Item = &'static Item> {
     let categories = [
         sources::BLOCKS,

@@ -4,8 +4,8 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::program::Operation;
 use super::recorder;
-use crate::Real;
 use crate::elementary::{self, Bits};
+use crate::{Real, Task};
 
 /// Number of a recording ([`record`](super::record)): the result of one operation of the program. Outside of a
 /// recording only the zero of [`Default`] exists.
@@ -89,6 +89,12 @@ impl Real for Recorded {
     /// More than one, so that an algorithm takes its branch-free way for lanes. The true number of lanes is that of
     /// the recording.
     const LANES: usize = 2;
+
+    // a recording is made once for a scene: one compiled copy of a task for all its callers
+    #[inline(never)]
+    fn run_hot<T: Task>(task: T) -> T::Output {
+        task.run()
+    }
 
     fn splat(x: f64) -> Self {
         recorder::push(Operation::Constant(x))

@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
 /// A block diagram: blocks, and wires between their ports. SI units and radians.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(title = "sincro diagram")]
+#[cfg_attr(test, schemars(title = "sincro diagram"))]
 pub(crate) struct DiagramFile {
     /// Sample time of all blocks that have none of their own; leave it out if there are continuous blocks [s].
     #[allow(dead_code)] // read from the document, with its positions
@@ -30,7 +32,8 @@ pub(crate) struct DiagramFile {
 }
 
 /// A diagram that can be used as a block: its name is the block's type.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DefinitionFile {
     /// What blocks of this type give as `type`.
@@ -60,7 +63,8 @@ pub(crate) struct DefinitionFile {
 }
 
 /// A block.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct BlockFile {
     /// Letters, digits, `_` and `-`.
     pub name: String,
@@ -78,7 +82,8 @@ pub(crate) struct BlockFile {
 }
 
 /// A number, or a formula of the parameters.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 #[allow(dead_code)] // read from the document, with its positions
 pub(crate) enum NumberOrFormula {

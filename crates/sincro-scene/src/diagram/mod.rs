@@ -29,6 +29,8 @@ use read::{DiagramReader, Origin};
 pub use reference::reference;
 use robot_model::Models;
 pub use schema::diagram_schema;
+#[cfg(test)]
+pub(crate) use schema::with_blocks;
 pub use wiring::{MeasuredSignals, Wiring};
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Location};

@@ -7,17 +7,18 @@ use serde_json::{Map, Value, json};
 use sincro_blocks::kind::{Kind, Parameter, ValueKind};
 use sincro_blocks::library;
 
-use super::{DiagramFile, robot};
-use crate::schema::generate;
+use super::robot;
+use crate::schema::parse;
 
 /// Returns the JSON Schema of `diagram.toml`, generated from the blocks; made once.
 pub fn diagram_schema() -> &'static Value {
-    static SCHEMA: LazyLock<Value> = LazyLock::new(|| with_blocks(generate::<DiagramFile>()));
+    static SCHEMA: LazyLock<Value> =
+        LazyLock::new(|| with_blocks(parse(include_str!("../schema/generated/diagram.json"))));
     &SCHEMA
 }
 
 /// Adds to the schema of the structure, for each type of block, the parameters that it takes.
-fn with_blocks(mut schema: Value) -> Value {
+pub(crate) fn with_blocks(mut schema: Value) -> Value {
     let kinds = library::all().map(|item| item.kind).chain(robot::all().map(|item| item.kind));
     let rules: Vec<Value> = kinds.map(rule).collect();
     if let Some(block) = schema.pointer_mut("/$defs/BlockFile").and_then(Value::as_object_mut) {

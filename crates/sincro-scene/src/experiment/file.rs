@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -9,14 +10,15 @@ use serde_json::Value;
 use super::check::Measure;
 
 /// An experiment: what is run, recorded and checked. SI units and radians.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(title = "sincro experiment")]
+#[cfg_attr(test, schemars(title = "sincro experiment"))]
 pub(crate) struct ExperimentFile {
     /// Version of the format: 2, or 1 where it is left out.
     #[allow(dead_code)] // read from the document
     #[serde(default = "one")]
-    #[schemars(range(min = 1))]
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub format: u64,
     /// Title of the report.
     pub title: String,
@@ -30,25 +32,25 @@ pub(crate) struct ExperimentFile {
     #[allow(dead_code)] // read from the document, with its position
     pub diagram: Option<String>,
     /// How long is simulated: a whole number of steps [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub duration: f64,
     /// Base step: commands are held over it, rows are recorded at its ends [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub step: f64,
     /// V-REP's simulation time step, at which child scripts are called and remote clients step: a whole number of base steps; one base
     /// step if left out [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub simulation_step: Option<f64>,
     /// Base steps for each recorded row.
     #[serde(default = "one")]
-    #[schemars(range(min = 1))]
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub record_every: u64,
     /// How the equations of motion are integrated.
     #[serde(default)]
     pub integrator: IntegratorFile,
     /// Local tolerance of the variable-step methods.
     #[serde(default = "fine")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub accuracy: f64,
     /// How the error bar of the recorded signals is found.
     #[serde(default)]
@@ -57,7 +59,7 @@ pub(crate) struct ExperimentFile {
     #[serde(default)]
     pub seed: u64,
     /// Names of the signals to be recorded, such as `/shoulder.position` or `energy.total`.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub record: Vec<String>,
     /// Names and numbers for formulas.
     #[serde(default)]
@@ -81,7 +83,8 @@ pub(crate) struct ExperimentFile {
 }
 
 /// How the equations of motion are integrated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum IntegratorFile {
     /// Chosen for the scene; second order or better.
@@ -100,7 +103,8 @@ pub(crate) enum IntegratorFile {
 }
 
 /// How the error bar of the recorded signals is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ErrorBarFile {
     /// By a second run with a finer step or tolerance.
@@ -111,16 +115,17 @@ pub(crate) enum ErrorBarFile {
 }
 
 /// One expectation.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("allOf" = [
+#[cfg_attr(test, schemars(extend("allOf" = [
     {"oneOf": [{"required": ["signal"]}, {"required": ["signals"]}]},
     {"oneOf": [
         {"required": ["value"]}, {"required": ["reference"]}, {"required": ["at_most"]}, {"required": ["at_least"]},
         {"required": ["diverges"]}
     ]},
     {"not": {"required": ["at", "window"]}}
-]))]
+])))]
 pub(crate) struct CheckFile {
     /// What the report calls it.
     pub name: String,
@@ -148,25 +153,26 @@ pub(crate) struct CheckFile {
     /// last row.
     pub target: Option<NumberOrFormula>,
     /// Of `settling-time`: half the width of the band around the target, as a share of the step's height; default 0.02.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub band: Option<f64>,
     /// The one time that is looked at [s]; in a sweep, the one value of the parameter.
     pub at: Option<f64>,
     /// First and last time that are looked at [s], default all; in a sweep, values of the parameter.
     pub window: Option<[f64; 2]>,
     /// With `value` or `reference`: largest difference that holds, in the unit of what is checked (without unit if `relative`).
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub tolerance: Option<f64>,
     /// Whether the difference is divided by max(|expected|, floor).
     #[serde(default)]
     pub relative: bool,
     /// Least divisor of a relative difference.
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub floor: Option<f64>,
 }
 
 /// A number or a formula.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum NumberOrFormula {
     /// A number.
@@ -176,9 +182,10 @@ pub(crate) enum NumberOrFormula {
 }
 
 /// A column of a CSV file.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["time", "parameter"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["time", "parameter"]})))]
 pub(crate) struct ReferenceFile {
     /// CSV file, its path relative to the folder.
     pub file: String,
@@ -197,7 +204,8 @@ pub(crate) struct ReferenceFile {
 }
 
 /// What of a series is compared.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MeasureFile {
     /// Every row; the largest difference counts.
@@ -253,9 +261,10 @@ impl From<MeasureFile> for Measure {
 }
 
 /// A bound at which the run ends. Recorded rows are looked at.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["above"]}, {"required": ["below"]}, {"required": ["beyond"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["above"]}, {"required": ["below"]}, {"required": ["beyond"]}])))]
 pub(crate) struct StopFile {
     /// The recorded signal.
     pub signal: String,
@@ -268,9 +277,10 @@ pub(crate) struct StopFile {
 }
 
 /// Repeats the run over a parameter and records final values.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["range"]}, {"required": ["values"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["range"]}, {"required": ["values"]}])))]
 pub(crate) struct SweepFile {
     /// What is varied: a path as for `--set`.
     pub parameter: String,
@@ -280,7 +290,7 @@ pub(crate) struct SweepFile {
     /// Evenly spaced values.
     pub range: Option<RangeFile>,
     /// The values themselves.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub values: Option<Vec<f64>>,
     /// What must come out over the whole sweep.
     #[serde(default)]
@@ -288,7 +298,8 @@ pub(crate) struct SweepFile {
 }
 
 /// Evenly spaced values, ends included.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RangeFile {
     /// First value.
@@ -300,7 +311,8 @@ pub(crate) struct RangeFile {
 }
 
 /// The same experiment with other settings, drawn over the main run.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VariantFile {
     /// Short name for the report and the command line.
@@ -320,7 +332,8 @@ pub(crate) struct VariantFile {
 }
 
 /// A plot of the report.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlotFile {
     /// Title of the plot.
@@ -330,7 +343,7 @@ pub(crate) struct PlotFile {
     pub kind: PlotKindFile,
     /// Recorded signals, one line each, with the variants over them; `NAME:SIGNAL` is that of one variant. Of a path, the vector whose
     /// three components are recorded, such as `/drone.position`.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub signals: Vec<String>,
     /// Drawn over the first signal; default what the checks compare it with.
     pub reference: Option<ReferenceFile>,
@@ -342,7 +355,8 @@ pub(crate) struct PlotFile {
 }
 
 /// What a plot draws.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum PlotKindFile {
     /// Signals over time.
@@ -353,7 +367,8 @@ pub(crate) enum PlotKindFile {
 }
 
 /// Difference from what.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum DifferenceFile {
     /// Of the main run from what is expected.

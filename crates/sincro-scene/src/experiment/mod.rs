@@ -17,6 +17,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+#[cfg(test)]
 pub(crate) use file::ExperimentFile;
 pub(crate) use grid::short;
 pub(crate) use resolve::resolve;

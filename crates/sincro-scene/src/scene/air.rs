@@ -1,5 +1,6 @@
 //! The air of a scene: wind, and drag elements on bodies; as written, and as the builder takes them.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::aero::wind::{Gust, Profile, Scales, TurbulenceSpec, Wind, horizontal_speed};
@@ -10,7 +11,8 @@ use crate::document::Document;
 use crate::tree::join;
 
 /// Wind: felt by rotors and drag elements.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WindFile {
     /// Mean velocity, world axes [m/s].
@@ -26,9 +28,10 @@ pub(crate) struct WindFile {
 }
 
 /// Mean wind over height; the ground is at z = 0 of the world.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["linear"]}, {"required": ["logarithmic"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["linear"]}, {"required": ["logarithmic"]}])))]
 pub(crate) struct ProfileFile {
     /// Proportional to height.
     pub linear: Option<LinearFile>,
@@ -37,34 +40,37 @@ pub(crate) struct ProfileFile {
 }
 
 /// A wind that grows with height.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinearFile {
     /// Height at which the wind is `mean` [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub reference: f64,
 }
 
 /// A wind over rough ground.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LogarithmicFile {
     /// Height at which the wind is `mean` [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub reference: f64,
     /// Roughness of the ground: 0.046 for approach and landing, 0.61 elsewhere [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub roughness: f64,
 }
 
 /// A gust of 1 − cosine.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GustFile {
     /// Where it begins [s].
     pub start: f64,
     /// Time to the peak [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub rise: f64,
     /// Velocity at the peak, world axes [m/s].
     pub peak: [f64; 3],
@@ -74,9 +80,10 @@ pub(crate) struct GustFile {
 }
 
 /// Dryden's turbulence: scales of the standard near the ground, or given outright.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["low_altitude"]}, {"required": ["deviation"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["low_altitude"]}, {"required": ["deviation"]}])))]
 pub(crate) struct TurbulenceFile {
     /// Scales after MIL-F-8785C near the ground.
     pub low_altitude: Option<LowAltitudeFile>,
@@ -85,7 +92,7 @@ pub(crate) struct TurbulenceFile {
     /// Lengths along the mean wind, across it and upwards, with `deviation` [m].
     pub length: Option<[f64; 3]>,
     /// Velocity at which the vehicle crosses the turbulence; default that of the mean wind, with `convected` its horizontal part and no other [m/s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub airspeed: Option<f64>,
     /// True for a frozen field that the horizontal mean wind carries past: rotors side by side then feel different air.
     #[serde(default)]
@@ -93,21 +100,23 @@ pub(crate) struct TurbulenceFile {
 }
 
 /// Where turbulence is met near the ground.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LowAltitudeFile {
     /// Mean wind at 20 feet, 6.1 m [m/s].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub wind_at_20_feet: f64,
     /// Height for which lengths and deviations are taken, 3.048 to 304.8 [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub height: f64,
 }
 
 /// Drag of a body: −½ρ·|u|·area·u − linear·u along each axis of its own frame, with u the velocity of its origin in the air.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]})))]
 pub(crate) struct DragFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
     pub name: String,
@@ -121,10 +130,10 @@ pub(crate) struct DragFile {
     /// Rotation in the parent as a quaternion (w, x, y, z), of any length but zero.
     pub quaternion_wxyz: Option<[f64; 4]>,
     /// Drag coefficient by area along x, y and z [m²].
-    #[schemars(extend("items" = {"type": "number", "minimum": 0.0}))]
+    #[cfg_attr(test, schemars(extend("items" = {"type": "number", "minimum": 0.0})))]
     pub area: Option<[f64; 3]>,
     /// Linear coefficient along x, y and z [N·s/m].
-    #[schemars(extend("items" = {"type": "number", "minimum": 0.0}))]
+    #[cfg_attr(test, schemars(extend("items" = {"type": "number", "minimum": 0.0})))]
     pub linear: Option<[f64; 3]>,
 }
 

@@ -1,5 +1,6 @@
 //! Cameras of a scene: where one looks from. They ride on what carries them and are no part of the model.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
@@ -11,14 +12,15 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
 
 /// A camera: looks along z of its frame, y is up in the picture. The first one of a scene is the one that pictures and the viewer begin with.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("allOf" = [
+#[cfg_attr(test, schemars(extend("allOf" = [
     {"not": {"required": ["rotation_deg", "quaternion_wxyz"]}},
     {"not": {"required": ["look_at", "rotation_deg"]}},
     {"not": {"required": ["look_at", "quaternion_wxyz"]}},
     {"not": {"required": ["field_of_view_deg", "orthographic_height"]}}
-]))]
+])))]
 pub(crate) struct CameraFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
     pub name: String,
@@ -36,7 +38,7 @@ pub(crate) struct CameraFile {
     pub quaternion_wxyz: Option<[f64; 4]>,
     /// Angle between the upper and the lower edge of the picture [deg].
     #[serde(default = "field_of_view")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub field_of_view_deg: f64,
     /// Columns and rows of its pictures: it is then a vision sensor, whose pictures clients and scripts read.
     pub resolution: Option<[u32; 2]>,

@@ -1,5 +1,6 @@
 //! Gravity and density of the air over the position: formulas, and that they fit where the bodies start.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sincro_dynamics::actuation::GravityField;
@@ -15,7 +16,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
 
 /// Gravitational acceleration: the same everywhere, or over the position.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum GravityFile {
     /// The same everywhere, world axes [m/s²].
@@ -25,7 +27,8 @@ pub(crate) enum GravityFile {
 }
 
 /// Gravitational acceleration as formulas of the position in the world, at the centre of mass of each body.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GravityFieldFile {
     /// Formulas of x, y, z [m], in quotes: the acceleration along the axes of the world [m/s²].
@@ -35,17 +38,19 @@ pub(crate) struct GravityFieldFile {
 }
 
 /// Density of the air: a number, or a formula of the position.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum AirDensityFile {
     /// The same everywhere [kg/m³].
-    Uniform(#[schemars(range(min = 0.0))] f64),
+    Uniform(#[cfg_attr(test, schemars(range(min = 0.0)))] f64),
     /// Over the position.
     Formula(AirDensityFormulaFile),
 }
 
 /// Density of the air as a formula of the position in the world.
-#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AirDensityFormulaFile {
     /// Formula of x, y, z [m], in quotes, such as "1.225*exp(-z/8500)" [kg/m³].

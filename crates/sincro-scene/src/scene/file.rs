@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,20 +12,22 @@ use super::air::{DragFile, WindFile};
 use super::camera::CameraFile;
 use super::field::{AirDensityFile, GravityFile};
 use super::pose_start::InitialPoseFile;
+use super::reuse_file::{DefaultFile, InstanceFile};
 use super::rotor::RotorFile;
 use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
 use super::spring_damper::SpringDamperFile;
 
 /// A scene: joints, bodies, frames and forces in a tree of named objects. SI units and radians; z is up.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(title = "sincro scene")]
+#[cfg_attr(test, schemars(title = "sincro scene"))]
 pub(crate) struct SceneFile {
     /// Version of the format: 2, or 1 where it is left out.
     #[allow(dead_code)] // read from the document
     #[serde(default = "first_format")]
-    #[schemars(range(min = 1))]
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub format: u64,
     /// Scene files whose objects are added to those of this one, their paths relative to the folder.
     #[allow(dead_code)] // written out before
@@ -90,7 +93,7 @@ pub(crate) struct SceneFile {
     pub contact_pair: Vec<ContactPairFile>,
     /// Approach slower than this does not bounce [m/s].
     #[serde(default = "rest_speed")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub rest_speed: f64,
     /// Whether a run may start with objects that overlap: they are then pushed apart in its first step.
     #[serde(default)]
@@ -100,103 +103,9 @@ pub(crate) struct SceneFile {
     pub air_density: AirDensityFile,
 }
 
-/// Another scene file below a frame of its own: `/NAME` is the frame, `/NAME/…` are the objects of the file.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]}))]
-#[allow(dead_code)] // written out before
-pub(crate) struct InstanceFile {
-    /// Scene file, its path relative to the folder.
-    pub file: String,
-    /// Name of the frame; default that of the file. Copies, and instances of one name, get an index, counted from 1.
-    pub name: Option<String>,
-    /// Path of the body, joint or frame that carries it; `/` is the world.
-    #[serde(default = "world")]
-    pub parent: String,
-    /// Origin of its frame in the parent frame [m].
-    #[serde(default)]
-    pub position: [f64; 3],
-    /// Roll, pitch and yaw of the frame in its parent: R = Rz(yaw)·Ry(pitch)·Rx(roll) [deg].
-    pub rotation_deg: Option<[f64; 3]>,
-    /// Rotation of the frame in its parent as a quaternion (w, x, y, z), of any length but zero.
-    pub quaternion_wxyz: Option<[f64; 4]>,
-    /// Values of the file's `parameters`; formulas may use `i`, `ix`, `iy`, `iz`, the numbers of the copy, from 0.
-    #[serde(default)]
-    pub parameters: BTreeMap<String, InstanceParameterFile>,
-    /// Copies of it.
-    pub repeat: Option<RepeatFile>,
-}
-
-/// Number or formula, evaluated for each copy.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
-#[allow(dead_code)] // written out before
-pub(crate) enum InstanceParameterFile {
-    /// A number.
-    Number(f64),
-    /// A formula of the parameters, `i`, `ix`, `iy` and `iz`.
-    Formula(String),
-}
-
-/// Copies along a line, or in a grid.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[allow(dead_code)] // written out before
-pub(crate) struct RepeatFile {
-    /// Number of copies along the line, or along x, y and z.
-    pub count: CountFile,
-    /// From one to the next: of a line the whole vector, of a grid along each axis [m].
-    pub step: [f64; 3],
-}
-
-/// Number of copies.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
-#[allow(dead_code)] // written out before
-pub(crate) enum CountFile {
-    /// Along a line.
-    Line(u64),
-    /// Along x, y and z.
-    Grid([u64; 3]),
-}
-
-/// Keys of all objects of a kind that do not give them. Of two defaults for one object the later one wins.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[allow(dead_code)] // written out before
-pub(crate) struct DefaultFile {
-    /// List of the objects: `joint`, `body`, `rotor` ….
-    pub of: DefaultOfFile,
-    /// Paths of the objects, with `*` for a part of one name and `**` for anything; default all.
-    pub group: Option<String>,
-    /// The keys, as they stand in the objects.
-    pub keys: BTreeMap<String, serde_json::Value>,
-}
-
-/// Lists of objects.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum DefaultOfFile {
-    /// Joints.
-    Joint,
-    /// Bodies.
-    Body,
-    /// Frames.
-    Frame,
-    /// Forces.
-    Force,
-    /// Rotors.
-    Rotor,
-    /// Drag elements.
-    Drag,
-    /// Sensors.
-    Sensor,
-    /// Cameras.
-    Camera,
-}
-
 /// One value, or a list of them with one entry a degree of freedom.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum OneOrList<T> {
     /// For a joint with one degree of freedom.
@@ -215,9 +124,10 @@ impl<T> OneOrList<T> {
 }
 
 /// A joint and what acts in it.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]})))]
 pub(crate) struct JointFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
     pub name: String,
@@ -262,7 +172,8 @@ pub(crate) struct JointFile {
 }
 
 /// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum JointKindFile {
     /// Not at all.
@@ -284,7 +195,8 @@ pub(crate) enum JointKindFile {
 }
 
 /// Where a joint starts.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Default, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InitialFile {
     /// Coordinates: a number, universal 2, planar 3 (x, y, angle), ball 4 (quaternion w, x, y, z), free 7 (x, y, z, then w, x, y, z) [rad] or [m].
@@ -294,7 +206,8 @@ pub(crate) struct InitialFile {
 }
 
 /// Rigid stops of a joint.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LimitsFile {
     /// Smallest coordinate; none if left out [rad] or [m].
@@ -303,35 +216,36 @@ pub(crate) struct LimitsFile {
     pub upper: Option<f64>,
     /// Speed of leaving a stop over speed of arriving.
     #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
     pub restitution: f64,
 }
 
 /// How the surface of a body answers to contact. Of two bodies: friction is the geometric mean, restitution and lengths the larger, compliances add.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactFile {
     /// Coulomb's coefficient, sliding and sticking.
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub friction: f64,
     /// Newton's coefficient: speed of leaving over speed of arriving.
     #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
     pub restitution: f64,
     /// Lever arm of rolling resistance: its torque is at most this times the normal force [m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub rolling_friction: f64,
     /// Lever arm of the friction torque about the normal [m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub spinning_friction: f64,
     /// Force a metre of penetration; rigid if left out or inf [N/m].
-    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true)))]
     pub stiffness: Option<f64>,
     /// Of a compliant contact: force = stiffness·δ·(1 + dissipation·δ̇) [s/m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub dissipation: Option<f64>,
     /// Bodies of the same group (other than 0) do not touch each other.
     #[serde(default)]
@@ -339,7 +253,8 @@ pub(crate) struct ContactFile {
 }
 
 /// What keeps two objects together.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ClosureFile {
     /// Letters, digits, `_` and `-`; its path is `/` and the name.
@@ -349,7 +264,7 @@ pub(crate) struct ClosureFile {
     /// Paths of two bodies or frames, or `/`: their origins are kept together.
     pub between: [String; 2],
     /// Kind `distance`: the distance [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub length: Option<f64>,
     /// Kinds `hinge`, `slider` and `cylindrical`: axis that the two frames share, in the axes of each; `planar`: normal of the plane; `universal`: axis of the cross in the first frame; default z.
     pub axis: Option<[f64; 3]>,
@@ -358,7 +273,8 @@ pub(crate) struct ClosureFile {
 }
 
 /// How two objects are kept together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ClosureKindFile {
     /// Their origins coincide: a ball joint.
@@ -380,7 +296,8 @@ pub(crate) enum ClosureKindFile {
 }
 
 /// Two joints of one degree of freedom that move together: second = ratio·first + offset; exactly, or with a `stiffness` through an elastic mesh with backlash.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CouplingFile {
     /// Letters, digits, `_` and `-`; its path is `/` and the name.
@@ -393,18 +310,19 @@ pub(crate) struct CouplingFile {
     #[serde(default)]
     pub offset: f64,
     /// Stiffness of the teeth at the second joint, above 0; without it the gear is rigid [N·m/rad] or [N/m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub stiffness: Option<f64>,
     /// With `stiffness`: damping while the teeth touch; default 0 [N·m·s/rad] or [N·s/m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub damping: Option<f64>,
     /// With `stiffness`: free travel of the second joint while the first is held; default 0 [rad] or [m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub backlash: Option<f64>,
 }
 
 /// Contact law between two bodies; what is left out is combined from their two surfaces.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactPairFile {
     /// Paths of the two bodies; `*` stands for any characters within a name, `**` for any at all. The last pair that fits two bodies counts.
@@ -413,27 +331,28 @@ pub(crate) struct ContactPairFile {
     #[serde(default = "yes")]
     pub touches: bool,
     /// Coulomb's coefficient, sliding and sticking.
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
     /// Newton's coefficient: speed of leaving over speed of arriving.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
     pub restitution: Option<f64>,
     /// Lever arm of rolling resistance: its torque is at most this times the normal force [m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub rolling_friction: Option<f64>,
     /// Lever arm of the friction torque about the normal [m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub spinning_friction: Option<f64>,
     /// Force a metre of penetration; rigid if inf [N/m].
-    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true)))]
     pub stiffness: Option<f64>,
     /// Of a compliant contact: force = stiffness·δ·(1 + dissipation·δ̇) [s/m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub dissipation: Option<f64>,
 }
 
 /// Friction of a joint: one limit, or a table of a limit at rest and one in motion.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum FrictionFile {
     /// Coulomb friction, the same at rest and in motion [N·m] or [N].
@@ -449,34 +368,36 @@ fn of_table<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<StribeckFile,
 }
 
 /// Friction that is larger at rest, or grows with the load: limit = sliding + (static − sliding)·exp(−(q̇/stribeck_velocity)²) + load_coefficient·N.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StribeckFile {
     /// Limit in fast motion without load [N·m] or [N].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub sliding: f64,
     /// Limit at rest without load, at least that in motion; by default the same [N·m] or [N].
     #[serde(rename = "static")]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub at_rest: Option<f64>,
     /// Speed at which the excess over `sliding` has fallen to 37 % [rad/s] or [m/s].
     #[serde(default = "stribeck_velocity")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub stribeck_velocity: f64,
     /// Friction over the force N that the bearing transmits, of revolute joints (friction coefficient times radius of the pin) [m] and prismatic ones [1].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub load_coefficient: f64,
 }
 
 /// A linear spring.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["law", "table"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["law", "table"]})))]
 pub(crate) struct SpringFile {
     /// Torque a radian, or force a metre; default 0 with a `law` or a `table` [N·m/rad] or [N/m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub stiffness: Option<f64>,
     /// Coordinate without torque [rad] or [m].
     #[serde(default)]
@@ -495,7 +416,8 @@ impl SpringFile {
 }
 
 /// A motor.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MotorFile {
     /// What it does with its command.
@@ -503,45 +425,46 @@ pub(crate) struct MotorFile {
     /// Command as a signal, held over each base step; default 0. Torque, velocity, position, or voltage, as the mode says.
     pub command: Option<SignalFile>,
     /// Largest torque or force, above 0; none if left out or inf [N·m] or [N]. A joint that nothing drives has mode `free`.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true)))]
     pub max_torque: Option<f64>,
     /// Mode `position`: velocity a unit of error [1/s].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub kp: Option<f64>,
     /// Mode `position`: largest velocity; none if left out or inf [rad/s] or [m/s].
-    #[schemars(range(min = 0.0), extend("x-infinite" = true))]
+    #[cfg_attr(test, schemars(range(min = 0.0), extend("x-infinite" = true)))]
     pub max_velocity: Option<f64>,
     /// Mode `spring` [N·m/rad] or [N/m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub stiffness: Option<f64>,
     /// Mode `spring`; default 0 [N·m·s/rad] or [N·s/m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub damping: Option<f64>,
     /// Mode `voltage`: resistance of the winding, above 0 [Ω].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub resistance: Option<f64>,
     /// Mode `voltage`: inductance of the winding; default 0, the current then follows at once [H].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub inductance: Option<f64>,
     /// Mode `voltage`: torque of the motor for each ampere, above 0 [N·m/A].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub torque_constant: Option<f64>,
     /// Mode `voltage`: induced voltage for each rad/s of the motor; default `torque_constant` [V·s/rad].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub back_emf_constant: Option<f64>,
     /// Mode `voltage`: turns of the motor for each turn of the joint, or angle of the motor over displacement [rad/m]; default 1.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub gear_ratio: Option<f64>,
     /// Mode `voltage`: inertia of the motor's rotor, which gear_ratio² times is added to the armature of the joint; default 0 [kg·m²].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub rotor_inertia: Option<f64>,
     /// Mode `voltage`: voltage of the supply, above 0; no limit if left out or inf [V].
-    #[schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true)))]
     pub max_voltage: Option<f64>,
 }
 
 /// What a motor does with its command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum MotorModeFile {
     /// Nothing: the joint turns freely.
@@ -559,9 +482,10 @@ pub(crate) enum MotorModeFile {
 }
 
 /// A rigid body.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]})))]
 pub(crate) struct BodyFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
     pub name: String,
@@ -576,10 +500,10 @@ pub(crate) struct BodyFile {
     /// Rotation of the frame in its parent as a quaternion (w, x, y, z), of any length but zero.
     pub quaternion_wxyz: Option<[f64; 4]>,
     /// Of its shapes, from which mass and inertia are computed [kg/m³].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub density: Option<f64>,
     /// With `inertia`, or with shapes that say how it is distributed [kg].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub mass: Option<f64>,
     /// In the body frame, with `mass` and `inertia`; default the origin [m].
     pub center_of_mass: Option<[f64; 3]>,
@@ -596,7 +520,8 @@ pub(crate) struct BodyFile {
 }
 
 /// Inertia about the centre of mass, body axes.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InertiaFile {
     /// Moment about x [kg·m²].
@@ -617,16 +542,17 @@ pub(crate) struct InertiaFile {
 }
 
 /// A solid of a body.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend(
+#[cfg_attr(test, schemars(extend(
     "oneOf" = [
         {"required": ["cuboid"]}, {"required": ["cylinder"]}, {"required": ["capsule"]}, {"required": ["cone"]},
         {"required": ["sphere"]}, {"required": ["plane"]}, {"required": ["hull"]}, {"required": ["mesh"]},
         {"required": ["height_field"]}, {"required": ["torus"]}
     ],
     "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
-))]
+)))]
 pub(crate) struct ShapeFile {
     /// A box.
     pub cuboid: Option<CuboidFile>,
@@ -656,62 +582,68 @@ pub(crate) struct ShapeFile {
     /// Rotation of the shape in the body as a quaternion (w, x, y, z), of any length but zero.
     pub quaternion_wxyz: Option<[f64; 4]>,
     /// In place of the body's density [kg/m³].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub density: Option<f64>,
     /// Colour in pictures, `#rrggbb`.
-    #[schemars(extend("pattern" = "^#[0-9a-fA-F]{6}$"))]
+    #[cfg_attr(test, schemars(extend("pattern" = "^#[0-9a-fA-F]{6}$")))]
     pub color: Option<String>,
 }
 
 /// A box.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CuboidFile {
     /// Full lengths of the edges along x, y and z [m].
-    #[schemars(extend("items" = {"type": "number", "exclusiveMinimum": 0.0}))]
+    #[cfg_attr(test, schemars(extend("items" = {"type": "number", "exclusiveMinimum": 0.0})))]
     pub size: [f64; 3],
 }
 
 /// A solid of revolution about z.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RoundFile {
     /// Radius [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub radius: f64,
     /// Length along z [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub length: f64,
 }
 
 /// A torus about z; its hole has no contact.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TorusFile {
     /// Radius of the circle in the middle of the tube [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub major_radius: f64,
     /// Radius of the tube, at most `major_radius` [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub tube_radius: f64,
 }
 
 /// A ball.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SphereFile {
     /// Radius [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub radius: f64,
 }
 
 /// A half space below z = 0.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneFile {}
 
 /// The convex hull of points.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HullFile {
     /// Corners, four or more that span a volume [m].
@@ -719,7 +651,8 @@ pub(crate) struct HullFile {
 }
 
 /// A closed triangle mesh.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MeshFile {
     /// STL (binary or text) or OBJ file, its path relative to the folder.
@@ -732,16 +665,17 @@ pub(crate) struct MeshFile {
 }
 
 /// Heights over a grid centred on the frame of the shape.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["heights"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["heights"]}])))]
 pub(crate) struct HeightFieldFile {
     /// CSV file of numbers without a line of names, its path relative to the folder: a line is a row along x, the first one at the least y.
     pub file: Option<String>,
     /// The same rows given here [m].
     pub heights: Option<Vec<Vec<f64>>>,
     /// Extent along x and y, from the first height to the last [m].
-    #[schemars(extend("items" = {"type": "number", "exclusiveMinimum": 0.0}))]
+    #[cfg_attr(test, schemars(extend("items" = {"type": "number", "exclusiveMinimum": 0.0})))]
     pub size: [f64; 2],
     /// What heights are multiplied by.
     #[serde(default = "one")]
@@ -753,9 +687,10 @@ fn one() -> f64 {
 }
 
 /// A named point without mass.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]})))]
 pub(crate) struct FrameFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
     pub name: String,
@@ -775,15 +710,16 @@ pub(crate) struct FrameFile {
 }
 
 /// Something that only shows.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend(
+#[cfg_attr(test, schemars(extend(
     "oneOf" = [
         {"required": ["cuboid"]}, {"required": ["cylinder"]}, {"required": ["capsule"]}, {"required": ["cone"]},
         {"required": ["sphere"]}, {"required": ["torus"]}, {"required": ["mesh"]}
     ],
     "not" = {"required": ["rotation_deg", "quaternion_wxyz"]}
-))]
+)))]
 pub(crate) struct VisualFile {
     /// A box.
     pub cuboid: Option<CuboidFile>,
@@ -807,12 +743,13 @@ pub(crate) struct VisualFile {
     /// Rotation in the body as a quaternion (w, x, y, z), of any length but zero.
     pub quaternion_wxyz: Option<[f64; 4]>,
     /// Colour, `#rrggbb`.
-    #[schemars(extend("pattern" = "^#[0-9a-fA-F]{6}$"))]
+    #[cfg_attr(test, schemars(extend("pattern" = "^#[0-9a-fA-F]{6}$")))]
     pub color: Option<String>,
 }
 
 /// Triangles that only show.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VisualMeshFile {
     /// STL (binary or text) or OBJ file, its path relative to the folder.
@@ -822,7 +759,8 @@ pub(crate) struct VisualMeshFile {
 }
 
 /// An external force and torque at the origin of a body or frame.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ForceFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
@@ -844,7 +782,8 @@ pub(crate) struct ForceFile {
 }
 
 /// Whose axes components are along.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum InFrameFile {
     /// The world's: they keep their direction.
@@ -858,7 +797,7 @@ pub(crate) fn standard_gravity() -> GravityFile {
     GravityFile::Uniform([0.0, 0.0, -9.81])
 }
 
-fn world() -> String {
+pub(super) fn world() -> String {
     "/".into()
 }
 
@@ -887,9 +826,10 @@ fn no_signals() -> [SignalFile; 3] {
 }
 
 /// A script on an object, called inside the step.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["code"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["code"]}])))]
 pub(crate) struct ScriptFile {
     /// Path of the object that it belongs to.
     pub object: String,
@@ -914,16 +854,17 @@ pub(crate) struct ScriptFile {
     pub files: Vec<String>,
     /// Memory that it may take, 2^20 bytes each.
     #[serde(default = "script_memory")]
-    #[schemars(range(min = 1))]
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub max_memory_mib: u32,
     /// Lua instructions that one call may take.
     #[serde(default = "script_instructions")]
-    #[schemars(range(min = 1000))]
+    #[cfg_attr(test, schemars(range(min = 1000)))]
     pub max_instructions: u64,
 }
 
 /// How a script is called.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ScriptStyleFile {
     /// `new` if it has a function `sysCall_…` after its first run, else `old`.
@@ -936,7 +877,8 @@ pub(crate) enum ScriptStyleFile {
 }
 
 /// Kinds of scripts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ScriptKindFile {
     /// Of the simulation.
@@ -947,7 +889,8 @@ pub(crate) enum ScriptKindFile {
 }
 
 /// A parameter of a script.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum ScriptParameterFile {
     /// A number.

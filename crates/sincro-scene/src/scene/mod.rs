@@ -19,6 +19,7 @@ mod pieces;
 mod placement;
 mod pose_start;
 mod proximity;
+mod reuse_file;
 mod rotor;
 mod schema;
 mod script;

@@ -1,5 +1,6 @@
 //! Start of joints by poses of frames: inverse kinematics at load.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::inverse_kinematics::{PoseTarget, pose_coordinates};
@@ -17,9 +18,10 @@ use crate::suggest;
 const REACHED: f64 = 1e-9;
 
 /// Pose of a frame at the start: the joints that carry it are put there, from their `initial` on.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["rotation_deg", "quaternion_wxyz"]})))]
 pub(crate) struct InitialPoseFile {
     /// Path of the body or frame.
     pub frame: String,

@@ -1,5 +1,6 @@
 //! Proximity sensors of the file: the volume that they look into, and what they see.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::geometry::{FieldOfView, Volume};
@@ -11,9 +12,10 @@ use crate::sensor::{SensorKind, SensorSpec};
 use crate::suggest;
 
 /// The closest point, inside a volume, of bodies that the sensor is not fixed to. It looks along its own z.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["ray"]}, {"required": ["cylinder"]}, {"required": ["disc"]}, {"required": ["cone"]}, {"required": ["pyramid"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["ray"]}, {"required": ["cylinder"]}, {"required": ["disc"]}, {"required": ["cone"]}, {"required": ["pyramid"]}])))]
 pub(crate) struct ProximityFile {
     /// A line.
     pub ray: Option<RayFile>,
@@ -26,49 +28,53 @@ pub(crate) struct ProximityFile {
     /// Rectangular, with flat ends.
     pub pyramid: Option<PyramidFile>,
     /// How far it sees, from its near end on [m].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub range: f64,
     /// Where its volume begins before it [m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub offset: f64,
     /// Paths of the bodies that it sees; left out: all that it is not fixed to.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub with: Option<Vec<String>>,
     /// Standard deviation of the distance [m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub noise: f64,
 }
 
 /// A ray has no measures.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RayFile {}
 
 /// A cylinder or truncated cone.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CylinderVolumeFile {
     /// At its near end [m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub radius: f64,
     /// At its far end; default the same [m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub far_radius: Option<f64>,
 }
 
 /// An opening.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AngleFile {
     /// Between its outermost directions, at most 180 [deg].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub angle_deg: f64,
 }
 
 /// A box or truncated pyramid.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PyramidFile {
     /// Widths along x and y at its near end [m].

@@ -1,5 +1,6 @@
 //! Rotors: as written, and as the builder takes them.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::aero::rotor::{
@@ -15,16 +16,17 @@ use crate::series;
 use crate::tree::join;
 
 /// A rotor: thrust along z of its own frame, and the reaction of its torque.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend(
+#[cfg_attr(test, schemars(extend(
     "oneOf" = [
         {"required": ["blade"]}, {"required": ["constant"]}, {"required": ["table"]}, {"required": ["stock"]},
         {"required": ["printed"]}
     ],
     "not" = {"required": ["rotation_deg", "quaternion_wxyz"]},
     "allOf" = [{"not": {"required": ["joint", "speed"]}}, {"not": {"required": ["joint", "lag"]}}]
-))]
+)))]
 pub(crate) struct RotorFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
     pub name: String,
@@ -54,7 +56,7 @@ pub(crate) struct RotorFile {
     /// The speed follows `speed` with a first-order lag.
     pub lag: Option<LagFile>,
     /// Moment of inertia of the turning part about its axis, for its gyroscopic moment on the airframe [kg·m²].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     #[serde(default)]
     pub inertia: f64,
     /// The ground at z = 0 holds the induced velocity back; of `blade` only.
@@ -65,7 +67,8 @@ pub(crate) struct RotorFile {
 }
 
 /// Which way a rotor turns, seen from above (against the thrust).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum SpinFile {
     /// Counter-clockwise.
@@ -75,7 +78,8 @@ pub(crate) enum SpinFile {
 }
 
 /// Blades of a rotor, untwisted and of one chord.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BladeFile {
     /// Radius of the disc [m].
@@ -95,18 +99,20 @@ pub(crate) struct BladeFile {
 }
 
 /// Constant coefficients of a rotor.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ConstantRotorFile {
     /// Thrust over speed squared [N·s²/rad²].
     pub thrust: f64,
     /// Torque over speed squared [N·m·s²/rad²].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub torque: f64,
 }
 
 /// Coefficients measured over the advance ratio: linear between the rows, constant outside.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RotorTableFile {
     /// CSV file, its path relative to the folder.
@@ -125,7 +131,8 @@ pub(crate) struct RotorTableFile {
 }
 
 /// V-REP's stock propeller.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StockFile {
     /// Particles a second; default 430.
@@ -139,11 +146,12 @@ pub(crate) struct StockFile {
 }
 
 /// A first-order lag: Ω' = (speed − Ω)/time_constant.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LagFile {
     /// Time to 63 % of a step [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub time_constant: f64,
     /// Speed at the start [rad/s].
     #[serde(default)]

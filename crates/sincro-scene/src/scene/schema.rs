@@ -4,11 +4,10 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use super::SceneFile;
-use crate::schema::generate;
+use crate::schema::parse;
 
 /// Returns the JSON Schema of `scene.toml`, generated from the types that read it; made once.
 pub fn scene_schema() -> &'static Value {
-    static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<SceneFile>);
+    static SCHEMA: LazyLock<Value> = LazyLock::new(|| parse(include_str!("../schema/generated/scene.json")));
     &SCHEMA
 }

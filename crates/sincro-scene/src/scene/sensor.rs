@@ -1,5 +1,6 @@
 //! Sensors of the file: what they measure, how often, how wrong.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -11,13 +12,14 @@ use crate::sensor::{Errors, SensorKind, SensorSpec};
 use crate::suggest;
 
 /// A sensor on a body or frame: sampled at its own rate, held in between.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("allOf" = [
+#[cfg_attr(test, schemars(extend("allOf" = [
     {"not": {"required": ["rotation_deg", "quaternion_wxyz"]}},
     {"oneOf": [{"required": ["imu"]}, {"required": ["pose"]}, {"required": ["velocity"]}, {"required": ["height"]},
         {"required": ["contact"]}, {"required": ["proximity"]}]}
-]))]
+])))]
 pub(crate) struct SensorFile {
     /// Letters, digits, `_` and `-`; the path is the parent's path, `/` and the name.
     pub name: String,
@@ -31,7 +33,7 @@ pub(crate) struct SensorFile {
     /// Rotation of its axes in the parent as a quaternion (w, x, y, z), of any length but zero.
     pub quaternion_wxyz: Option<[f64; 4]>,
     /// Time between two samples: a whole number of base steps; default one [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub sample_time: Option<f64>,
     /// Accelerometer and gyro, in its own axes.
     pub imu: Option<ImuFile>,
@@ -48,7 +50,8 @@ pub(crate) struct SensorFile {
 }
 
 /// Accelerometer, which measures acceleration without gravity (at rest: g upwards), and gyro.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ImuFile {
     /// Of the accelerometer, own axes [m/s²].
@@ -56,43 +59,46 @@ pub(crate) struct ImuFile {
     pub accelerometer_bias: [f64; 3],
     /// Of the accelerometer; a sample deviates by this over the root of the sample time [m/s²/√Hz].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub accelerometer_noise_density: f64,
     /// Of the gyro, own axes [rad/s].
     #[serde(default)]
     pub gyro_bias: [f64; 3],
     /// Of the gyro; a sample deviates by this over the root of the sample time [rad/s/√Hz].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub gyro_noise_density: f64,
 }
 
 /// Position and attitude, as satellites or cameras give them.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PoseFile {
     /// Standard deviation of each coordinate [m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub position_noise: f64,
     /// Standard deviation of a small turn about each of its axes [rad].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub angle_noise: f64,
 }
 
 /// A vector with noise.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NoisyFile {
     /// Standard deviation of each component [m/s].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub noise: f64,
 }
 
 /// Height, as a barometer gives it.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HeightFile {
     /// Added to every sample [m].
@@ -100,28 +106,29 @@ pub(crate) struct HeightFile {
     pub bias: f64,
     /// Standard deviation of a sample [m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub noise: f64,
 }
 
 /// What touches the body that carries it.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactSensorFile {
     /// Paths of the bodies whose touch it feels; left out: of all.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub with: Option<Vec<String>>,
     /// Normal force of a point above which it counts as touching [N].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub threshold: f64,
     /// Standard deviation of each component of the force [N].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub force_noise: f64,
     /// Standard deviation of each component of the torque [N·m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub torque_noise: f64,
 }
 

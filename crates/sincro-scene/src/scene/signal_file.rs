@@ -1,5 +1,6 @@
 //! Signals as they are written, and what the builder makes of them.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 use sincro_dynamics::signal::Signal;
@@ -10,7 +11,8 @@ use crate::folder::Folder;
 use crate::series;
 
 /// A number that depends on time: a number, or a table with one kind of signal.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum SignalFile {
     /// The same at all times.
@@ -30,12 +32,13 @@ impl Serialize for SignalFile {
 }
 
 /// Exactly one kind of signal.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [
+#[cfg_attr(test, schemars(extend("oneOf" = [
     {"required": ["constant"]}, {"required": ["step"]}, {"required": ["ramp"]}, {"required": ["sine"]},
     {"required": ["pulse"]}, {"required": ["table"]}
-]))]
+])))]
 pub(crate) struct SignalKindFile {
     /// The same at all times.
     pub constant: Option<f64>,
@@ -52,7 +55,8 @@ pub(crate) struct SignalKindFile {
 }
 
 /// A jump.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StepFile {
     /// Instant of the jump [s].
@@ -66,7 +70,8 @@ pub(crate) struct StepFile {
 }
 
 /// A straight rise.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RampFile {
     /// Where it begins [s].
@@ -78,14 +83,15 @@ pub(crate) struct RampFile {
     #[serde(default)]
     pub from: f64,
     /// Where it ends, constant from then on; never if left out or inf [s].
-    #[schemars(extend("x-infinite" = true))]
+    #[cfg_attr(test, schemars(extend("x-infinite" = true)))]
     pub until: Option<f64>,
 }
 
 /// offset + amplitude·sin(ω·t + phase).
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["angular_frequency"]}, {"required": ["frequency_hz"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["angular_frequency"]}, {"required": ["frequency_hz"]}])))]
 pub(crate) struct SineFile {
     /// Peak value.
     pub amplitude: f64,
@@ -102,14 +108,15 @@ pub(crate) struct SineFile {
 }
 
 /// A train of pulses.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PulseFile {
     /// From one rising edge to the next [s].
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub period: f64,
     /// Length of a pulse [s].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub width: f64,
     /// Value between pulses.
     #[serde(default)]
@@ -123,9 +130,10 @@ pub(crate) struct PulseFile {
 }
 
 /// Points in a CSV file, or given here.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["times"]}]))]
+#[cfg_attr(test, schemars(extend("oneOf" = [{"required": ["file"]}, {"required": ["times"]}])))]
 pub(crate) struct TableFile {
     /// CSV file, its path relative to the folder.
     pub file: Option<String>,
@@ -134,10 +142,10 @@ pub(crate) struct TableFile {
     /// Column of values in the file.
     pub column: Option<String>,
     /// Increasing times, in place of a file [s].
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub times: Option<Vec<f64>>,
     /// Values at these times.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(test, schemars(length(min = 1)))]
     pub values: Option<Vec<f64>>,
     /// What is between the points.
     #[serde(default)]
@@ -145,7 +153,8 @@ pub(crate) struct TableFile {
 }
 
 /// What is between points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum InterpolationFile {
     /// Straight lines.

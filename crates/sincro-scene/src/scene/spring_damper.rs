@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::actuation::force_law::FORMULA_NAMES;
@@ -22,9 +23,10 @@ use crate::document::Document;
 const NO_LENGTH: f64 = 1e-12;
 
 /// Spring, damper and actuator along the line between two points; a positive force pushes them apart.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("not" = {"required": ["law", "table"]}))]
+#[cfg_attr(test, schemars(extend("not" = {"required": ["law", "table"]})))]
 pub(crate) struct SpringDamperFile {
     /// Letters, digits, `_` and `-`; its path is `/` and the name.
     pub name: String,
@@ -34,15 +36,15 @@ pub(crate) struct SpringDamperFile {
     #[serde(default)]
     pub points: [[f64; 3]; 2],
     /// Length without deflection; default the length at the start [m].
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub free_length: Option<f64>,
     /// Force −stiffness·x, x the length less the free length [N/m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub stiffness: f64,
     /// Force −damping·v, v the rate of the length [N·s/m].
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub damping: f64,
     /// Constant force, positive where it pushes the ends apart [N].
     #[serde(default)]
@@ -59,13 +61,14 @@ pub(crate) struct SpringDamperFile {
 }
 
 /// Actuator along a line.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LineActuatorFile {
     /// Command as a signal, held over each base step; default 0. Positive where it pushes the ends apart [N].
     pub command: Option<SignalFile>,
     /// Largest force; none if left out or inf [N].
-    #[schemars(range(min = 0.0), extend("x-infinite" = true))]
+    #[cfg_attr(test, schemars(range(min = 0.0), extend("x-infinite" = true)))]
     pub max_force: Option<f64>,
 }
 

@@ -1,65 +1,25 @@
 //! The JSON Schemas of the files, generated from the types that read them, and the checker that walks a file against
 //! them.
 //!
-//! Editors check with the same schemas (`schemas/*.schema.json`), so that what an editor underlines and what
-//! `sincro check` says is one thing. A test keeps the files equal to the types.
+//! Code that generates them takes as long to compile as all else that reads files, so a test does it, and what it gives
+//! is committed: `generated/*.json`, which the program reads, and `schemas/*.schema.json`, which editors check with, so
+//! that what an editor underlines and what `sincro check` says is one thing. The test keeps them equal to the types.
 
 pub(crate) mod describe;
 mod editors;
+#[cfg(test)]
+mod generate;
 mod validate;
 
-use schemars::JsonSchema;
-use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
 
 pub use describe::{description, units};
 pub use editors::{FORMAT, for_editors};
 pub use validate::validate;
 
-/// JSON Schema of a type that reads a file, in the form that the files are checked with.
-pub(crate) fn generate<T: JsonSchema>() -> Value {
-    let generator = SchemaSettings::draft2020_12().into_generator();
-    let mut schema = generator.into_root_schema_for::<T>().to_value();
-    simplify(&mut schema);
-    schema
-}
-
-/// TOML has no null: an optional key is one that may be left out. Formats such as `double` say nothing more.
-fn simplify(value: &mut Value) {
-    match value {
-        Value::Array(list) => list.iter_mut().for_each(simplify),
-        Value::Object(table) => {
-            table.values_mut().for_each(simplify);
-            simplify_table(table);
-        }
-        _ => {}
-    }
-}
-
-fn simplify_table(table: &mut Map<String, Value>) {
-    if table.get("format").is_some_and(Value::is_string) {
-        table.remove("format");
-    }
-    if table.get("default").is_some_and(Value::is_null) {
-        table.remove("default");
-    }
-    // an array of a fixed number of components that may be signals has no default worth showing
-    if let Some(Value::Array(types)) = table.get_mut("type") {
-        types.retain(|t| t != "null");
-        if let [only] = &types[..] {
-            let only = only.clone();
-            table.insert("type".into(), only);
-        }
-    }
-    let Some(Value::Array(choices)) = table.get_mut("anyOf") else { return };
-    choices.retain(|c| c.get("type") != Some(&Value::from("null")));
-    if let [Value::Object(only)] = &choices[..] {
-        let only = only.clone();
-        table.remove("anyOf");
-        for (key, value) in only {
-            table.entry(key).or_insert(value);
-        }
-    }
+/// JSON Schema from its committed text.
+pub(crate) fn parse(text: &str) -> Value {
+    serde_json::from_str(text).expect("a committed schema is JSON")
 }
 
 /// Returns the alternative forms of the value that `schema` describes, as plain schemas: references are resolved in
@@ -109,14 +69,17 @@ pub(crate) fn exclusive_keys(one_of: &Value) -> Option<Vec<&str>> {
 mod tests {
     use super::*;
     use crate::diagram::diagram_schema;
+    use crate::diagram::{DiagramFile, with_blocks};
+    use crate::experiment::ExperimentFile;
     use crate::experiment::experiment_schema;
+    use crate::scene::SceneFile;
     use crate::scene::scene_schema;
     use std::path::Path;
 
-    /// The committed schema must be the one the types give; `SINCRO_BLESS=1` rewrites it.
-    fn assert_committed(name: &str, schema: &Value) {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schemas").join(name);
-        let text = format!("{:#}\n", for_editors(schema));
+    /// The committed file must be what the types give; `SINCRO_BLESS=1` rewrites it.
+    fn assert_committed(path: &str, schema: &Value) {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+        let text = format!("{schema:#}\n");
         if std::env::var_os("SINCRO_BLESS").is_some() {
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             std::fs::write(&path, &text).unwrap();
@@ -127,9 +90,16 @@ mod tests {
 
     #[test]
     fn committed_schemas_are_those_of_the_types() {
-        assert_committed("scene.schema.json", scene_schema());
-        assert_committed("experiment.schema.json", experiment_schema());
-        assert_committed("diagram.schema.json", diagram_schema());
+        let own = [
+            ("scene", generate::generate::<SceneFile>()),
+            ("experiment", generate::generate::<ExperimentFile>()),
+            ("diagram", generate::generate::<DiagramFile>()),
+        ];
+        for (name, schema) in own {
+            assert_committed(&format!("src/schema/generated/{name}.json"), &schema);
+            let whole = if name == "diagram" { with_blocks(schema) } else { schema };
+            assert_committed(&format!("../../schemas/{name}.schema.json"), &for_editors(&whole));
+        }
     }
 
     #[test]

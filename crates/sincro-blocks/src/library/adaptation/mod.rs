@@ -8,4 +8,4 @@ pub use normalized_gradient::NormalizedGradient;
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[item::<NormalizedGradient>(), item::<EllipsoidProjection>()];
+pub(super) static BLOCKS: &[Item] = &[item::<NormalizedGradient>(), item::<EllipsoidProjection>()];

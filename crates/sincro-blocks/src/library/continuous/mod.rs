@@ -27,7 +27,7 @@ pub use transport_delay::TransportDelay;
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[
+pub(super) static BLOCKS: &[Item] = &[
     item::<Integrator>(),
     item::<TransferFunction>(),
     item::<StateSpace>(),

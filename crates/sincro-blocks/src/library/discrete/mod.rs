@@ -32,7 +32,7 @@ pub use zero_order_hold::ZeroOrderHold;
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[
+pub(super) static BLOCKS: &[Item] = &[
     item::<UnitDelay>(),
     item::<Delay>(),
     item::<ZeroOrderHold>(),

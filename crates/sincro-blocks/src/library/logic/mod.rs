@@ -18,5 +18,5 @@ pub use logic::{Logic, Operator};
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] =
+pub(super) static BLOCKS: &[Item] =
     &[item::<Compare>(), item::<IntervalTest>(), item::<Logic>(), item::<Edge>(), item::<Latch>(), item::<Counter>()];

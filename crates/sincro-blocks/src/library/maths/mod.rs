@@ -38,7 +38,7 @@ pub use trigonometry::{Trigonometric, Trigonometry};
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[
+pub(super) static BLOCKS: &[Item] = &[
     item::<Sum>(),
     item::<Gain>(),
     item::<MatrixGain>(),

@@ -10,4 +10,4 @@ pub use matrix_product::MatrixProduct;
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[item::<MatrixProduct>(), item::<MatrixConcatenate>(), item::<Diagonal>()];
+pub(super) static BLOCKS: &[Item] = &[item::<MatrixProduct>(), item::<MatrixConcatenate>(), item::<Diagonal>()];

@@ -27,7 +27,7 @@ pub use table::Extrapolation;
 use super::{Item, item};
 use crate::reader::Reader;
 
-pub(super) const BLOCKS: &[Item] = &[
+pub(super) static BLOCKS: &[Item] = &[
     item::<Saturation>(),
     item::<RateLimiter>(),
     item::<DeadZone>(),

@@ -12,7 +12,7 @@ pub use blocks::{
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[
+pub(super) static BLOCKS: &[Item] = &[
     item::<EulerToQuaternion>(),
     item::<QuaternionToEuler>(),
     item::<EulerToMatrix>(),

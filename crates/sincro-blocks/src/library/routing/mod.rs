@@ -16,5 +16,5 @@ pub use switch::Switch;
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] =
+pub(super) static BLOCKS: &[Item] =
     &[item::<Mux>(), item::<Demux>(), item::<Selector>(), item::<Switch>(), item::<MultiportSwitch>(), item::<Merge>()];

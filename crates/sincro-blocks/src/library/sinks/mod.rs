@@ -8,4 +8,4 @@ pub use terminator::Terminator;
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[item::<Scope>(), item::<Terminator>()];
+pub(super) static BLOCKS: &[Item] = &[item::<Scope>(), item::<Terminator>()];

@@ -26,7 +26,7 @@ pub use table::Table;
 
 use super::{Item, item};
 
-pub(super) const BLOCKS: &[Item] = &[
+pub(super) static BLOCKS: &[Item] = &[
     item::<Constant>(),
     item::<Step>(),
     item::<Ramp>(),
