@@ -7,13 +7,16 @@ use std::sync::atomic::AtomicBool;
 use sincro_figures::campaign;
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
+use sincro_sim::campaign::judge;
 use sincro_sim::result_folder::{ResultFolder, find_result};
+use sincro_sim::results::Override as Setting;
 use sincro_viewer::live::{Engine, KeptRun, Source};
 use sincro_viewer::replay::FORMAT;
 
 pub use sincro_viewer::server::{Server, ViewerContent};
 
 use crate::load::{extensions, load, scene_name};
+use crate::results;
 use crate::run::RunRequest;
 
 /// Error of [`replay`]: a folder cannot be shown as a finished run.
@@ -77,35 +80,56 @@ pub fn live(scene: &Path, overrides: Vec<Override>) -> Result<ViewerContent, Dia
 }
 
 /// Writes a live run into the next numbered folder of its scene below `results`, as `sincro run` does: the run is
-/// computed again from the files and settings. Returns a sentence with the path of the report, and whether the trace
-/// hash is the same.
+/// computed again from the files and settings. One that was branched from others, or pulled by hand, is computed again
+/// with them, from its start; it cannot be refined, so its signals have no error bars, and variants are left out.
+/// Returns a sentence with the path of the report, and whether the trace hash is the same.
 ///
 /// # Errors
 ///
 /// A sentence: the scene does not load any more, or a file cannot be written.
 pub fn keep(scene: &Path, results: &Path, kept: &KeptRun) -> Result<String, String> {
-    let mut settings = kept.settings.clone();
+    let folder = ResultFolder::numbered(&results.join(scene_name(scene))).map_err(|error| error.to_string())?;
+    let trace = match kept.is_from_files() {
+        true => run_again(scene, kept, folder.path())?,
+        false => replay_again(scene, kept, folder.path())?,
+    };
+    let path = folder.publish().map_err(|error| error.to_string())?;
+    let report = path.join("report.html");
+    match trace == kept.trace {
+        true => Ok(format!("saved as {}, with the same trace hash {trace}", report.display())),
+        false => Ok(format!(
+            "saved as {}; its trace hash {trace} is not that of the run in this window, {}: a file of the scene has changed",
+            report.display(),
+            kept.trace
+        )),
+    }
+}
+
+/// Runs a scene with the settings of a live run into a folder; returns the trace hash.
+fn run_again(scene: &Path, kept: &KeptRun, out: &Path) -> Result<String, String> {
+    let mut settings = kept.settings().to_vec();
     if let Some(duration) = kept.duration {
         settings.push(Override::new("duration", &duration.to_string()));
     }
     let mut loaded = load(scene, &settings).map_err(|diagnostics| diagnostics.to_string())?;
     loaded.experiment.variants.clear();
     loaded.experiment.sweep = None;
-    let folder = ResultFolder::numbered(&results.join(scene_name(scene))).map_err(|error| error.to_string())?;
     let request = RunRequest { scene, overrides: &settings, loaded: &loaded, index: None };
-    let campaign = request.run_into(folder.path(), &AtomicBool::new(false), &mut |_, _| {});
-    let campaign = campaign.map_err(|error| error.to_string())?;
-    let path = folder.publish().map_err(|error| error.to_string())?;
-    let report = path.join("report.html");
-    match campaign.report.trace_hash == kept.trace {
-        true => Ok(format!("saved as {}, with the same trace hash {}", report.display(), kept.trace)),
-        false => Ok(format!(
-            "saved as {}; its trace hash {} is not that of the run in this window, {}: a file of the scene has changed",
-            report.display(),
-            campaign.report.trace_hash,
-            kept.trace
-        )),
-    }
+    let campaign = request.run_into(out, &AtomicBool::new(false), &mut |_, _| {});
+    Ok(campaign.map_err(|error| error.to_string())?.report.trace_hash)
+}
+
+/// Repeats a live run with all that was done to it into a folder; returns the trace hash.
+fn replay_again(scene: &Path, kept: &KeptRun, out: &Path) -> Result<String, String> {
+    let (mut loaded, simulated) = kept.replay(scene, extensions(), &out.join("signals.csv"))?;
+    loaded.experiment.variants.clear();
+    loaded.experiment.sweep = None;
+    let mut campaign = judge(scene, &loaded, simulated);
+    let setting = |set: &Override| Setting { path: set.path.value.clone(), value: set.value.value.clone() };
+    campaign.report.settings.overrides = kept.settings().iter().map(setting).collect();
+    campaign.report.write(out).map_err(|error| error.to_string())?;
+    results::write(&loaded, &campaign, out, None).map_err(|error| error.to_string())?;
+    Ok(campaign.report.trace_hash)
 }
 
 /// Finds a camera of what is shown by its path or the last part of that, and returns its path.

@@ -122,6 +122,18 @@ impl Recording {
         Ok(end)
     }
 
+    /// Continues with another lock-step, `after`, which has the state of the last one, `before`, at the same tick, but
+    /// for what was changed from outside. The energy that the change added or took counts in no balance.
+    pub fn resume(&mut self, before: &mut LockStep, after: &mut LockStep) {
+        let stored = |lockstep: &mut LockStep| {
+            let t = lockstep.t();
+            let seen = lockstep.world().observe(t);
+            seen.energy().total() - seen.state.totals[0] + seen.state.totals[1]
+        };
+        let added = stored(after) - stored(before);
+        self.ledger.start.0 += added;
+    }
+
     fn record_keyframe(&mut self, lockstep: &mut LockStep, is_last: bool) {
         let (tick, t) = (lockstep.tick(), lockstep.t());
         if let Some(trajectory) = self.trajectory.as_mut().filter(|trajectory| trajectory.is_due(tick) || is_last) {

@@ -13,6 +13,7 @@ use sincro_sim::replay::{SceneView, properties};
 use sincro_sim::{Extensions, load, load_without_variants};
 
 use super::command::Command;
+use super::history::KeptRun;
 use super::live_state::{LiveState, RunLog};
 use super::track::{Taken, Track};
 use crate::replay::{FORMAT, Replay, plots, record};
@@ -44,17 +45,6 @@ pub struct Source {
 /// Function that writes a live run as a result: it returns a sentence with the path for the viewer, or one about what
 /// prevents it.
 pub type ResultWriter = Box<dyn Fn(&KeptRun) -> Result<String, String> + Send>;
-
-/// Live run that is to be written as a result: what is needed to compute it again, bit for bit.
-#[derive(Clone, Debug)]
-pub struct KeptRun {
-    /// Overrides of the scene's files that the run had.
-    pub settings: Vec<Override>,
-    /// Simulated time that the run reached `[s]`; none: that of the experiment.
-    pub duration: Option<f64>,
-    /// Trace hash of the run (hexadecimal), which the repeated run must have.
-    pub trace: String,
-}
 
 /// Results that one engine writes; whoever has the link may ask for them, and disks are not endless.
 const MAX_KEPT: usize = 100;
@@ -254,7 +244,7 @@ impl Engine {
     }
 
     fn restart(&mut self) -> Result<(), String> {
-        let settings = self.present().settings.clone();
+        let settings = self.present().settings().to_vec();
         let loaded = load_without_variants(&self.source.folder, &settings, self.source.extensions)
             .map_err(|diagnostics| diagnostics.to_string())?;
         let track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
@@ -294,7 +284,7 @@ impl Engine {
             .map_err(|diagnostics| diagnostics.to_string())?;
         let mut track = Track::new(loaded, settings).map_err(|diagnostics| diagnostics.to_string())?;
         if let Some(snapshot) = &snapshot {
-            track = track.from(snapshot, joints)?;
+            track = track.from(&self.tracks[run], snapshot, joints)?;
         }
         let mut words: Vec<String> = set.iter().map(|(path, value)| format!("{path} = {value}")).collect();
         let start = track.lockstep.t();
@@ -365,7 +355,7 @@ fn header(track: &Track, id: usize, name: &str, about: &str) -> String {
     let view: &SceneView = &track.view;
     serde_json::json!({
         "type": "run", "id": id, "name": name, "about": about, "view": view, "columns": track.columns,
-        "references": references.collect::<Vec<_>>(), "properties": properties(&track.loaded, &track.settings),
+        "references": references.collect::<Vec<_>>(), "properties": properties(&track.loaded, track.settings()),
     })
     .to_string()
 }

@@ -7,12 +7,14 @@
 
 mod command;
 mod engine;
+mod history;
 mod live_state;
 mod thinned;
 mod track;
 
 pub use command::Command;
-pub use engine::{Engine, KeptRun, ResultWriter, Source};
+pub use engine::{Engine, ResultWriter, Source};
+pub use history::{KeptRun, Segment};
 pub use live_state::{EngineState, LiveState, RunLog};
 
 /// A refusal as a viewer gets it.

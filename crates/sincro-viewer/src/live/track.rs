@@ -13,7 +13,7 @@ use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
 use sincro_sim::trace::Trace;
 
-use super::engine::KeptRun;
+use super::history::{KeptRun, Segment, advance, go_on};
 use super::thinned::Thinned;
 use crate::replay::stop_words;
 
@@ -26,7 +26,6 @@ const MAX_ROW_BYTES: u64 = 256 << 20;
 /// A run under way.
 pub(super) struct Track {
     pub loaded: Loaded,
-    pub settings: Vec<Override>,
     pub lockstep: LockStep,
     pub trace: Trace,
     pub view: SceneView,
@@ -41,8 +40,10 @@ pub(super) struct Track {
     /// States at the frames.
     snapshots: Thinned<Snapshot>,
     push: Option<ExternalForce<f64>>,
-    /// Intervention after which the files and settings alone do not give this run; empty if there was none.
-    intervention: &'static str,
+    /// Parts of the runs that it was branched from, in the order of time.
+    before: Vec<Segment>,
+    /// Its own part.
+    segment: Segment,
 }
 
 /// Content that a frame adds to the live state.
@@ -66,7 +67,6 @@ impl Track {
         let (view, layout) = (SceneView::new(&loaded.scene), trajectory.layout);
         let trace = lockstep.trace();
         let mut new = Self {
-            settings,
             lockstep,
             trace,
             view,
@@ -78,40 +78,31 @@ impl Track {
             every,
             snapshots: Thinned::new(usize::MAX),
             push: None,
-            intervention: "",
+            before: Vec::new(),
+            segment: Segment::new(settings),
             loaded,
         };
         new.record();
         Ok(new)
     }
 
-    /// From a frame of another run. `joints` are put elsewhere, everything at rest.
-    pub fn from(mut self, snapshot: &Snapshot, joints: &[(usize, f64)]) -> Result<Self, String> {
-        let own = self.lockstep.snapshot(self.trace);
-        let lengths = |s: &Snapshot| {
-            let (state, diagram) = (&s.state, s.diagram.as_ref());
-            let of_state = [&state.q, &state.v, &state.commands, &state.drives, &state.totals].map(Vec::len);
-            (of_state, diagram.map(|d| [d.signals.len(), d.continuous.len(), d.memory.len()]))
-        };
-        if lengths(&own) != lengths(snapshot) {
-            return Err("this change alters what the scene consists of: run it from 0 s".into());
-        }
-        self.lockstep.restore(snapshot);
-        self.intervention =
-            if joints.is_empty() { "begins within another run" } else { "begins where joints were placed" };
+    /// From the state `snapshot` of another run. `joints` are put elsewhere, everything at rest.
+    pub fn from(mut self, other: &Self, snapshot: &Snapshot, joints: &[(usize, f64)]) -> Result<Self, String> {
+        go_on(&mut self.lockstep, snapshot, joints)?;
+        let tick = snapshot.state.tick;
+        self.before = other.before.clone();
+        self.before.push(other.segment.clone());
+        self.before.iter_mut().for_each(|segment| segment.pushes.retain(|(from, _)| *from < tick));
+        (self.segment.from, self.segment.joints) = (Some(tick), joints.to_vec());
         self.trace = snapshot.trace;
-        if let Some((index, _)) = joints.iter().find(|(index, _)| *index >= snapshot.state.q.len()) {
-            return Err(format!("there is no coordinate {index}"));
-        }
-        if !joints.is_empty() {
-            let mut state = self.lockstep.state().clone();
-            joints.iter().for_each(|(index, value)| state.q[*index] = *value);
-            self.lockstep.set_state(state, &[]);
-            self.lockstep.stop();
-        }
         self.stop.clear();
         self.record();
         Ok(self)
+    }
+
+    /// Overrides of the scene's files.
+    pub fn settings(&self) -> &[Override] {
+        &self.segment.settings
     }
 
     /// Evaluates the diagram at the present state.
@@ -121,25 +112,21 @@ impl Track {
         }
     }
 
-    /// Settings from which this run can be computed again.
+    /// Returns the history from which this run can be computed again.
     ///
     /// # Errors
     ///
-    /// A sentence: an intervention is in no file.
+    /// A sentence: there is nothing yet.
     pub fn kept(&self) -> Result<KeptRun, String> {
-        if !self.intervention.is_empty() {
-            let what = self.intervention;
-            return Err(format!(
-                "this run {what}, which no file says: it cannot be repeated as a result. Its plots can be saved as CSV; \
-                 a run from the start can be saved whole"
-            ));
-        }
-        let (tick, experiment) = (self.lockstep.tick(), &self.loaded.experiment);
-        if tick == 0 {
+        let (end, experiment) = (self.lockstep.tick(), &self.loaded.experiment);
+        if end == 0 {
             return Err("nothing has been simulated yet: let it run first".into());
         }
-        let duration = (tick < experiment.n_steps && self.stop.is_empty()).then_some(tick as f64 * experiment.step);
-        Ok(KeptRun { settings: self.settings.clone(), duration, trace: self.trace.to_string() })
+        let duration = (end < experiment.n_steps && self.stop.is_empty()).then_some(end as f64 * experiment.step);
+        let mut segments = self.before.clone();
+        segments.push(self.segment.clone());
+        segments.iter_mut().for_each(|segment| segment.pushes.retain(|(from, _)| *from < end));
+        Ok(KeptRun { segments, end, duration, trace: self.trace.to_string() })
     }
 
     pub fn is_done(&self) -> bool {
@@ -148,11 +135,7 @@ impl Track {
 
     /// One base step; whether a frame is due then.
     pub fn advance(&mut self) -> bool {
-        if let Some(push) = self.push {
-            self.lockstep.world().apply_external_force(push);
-        }
-        let advanced = self.lockstep.advance();
-        self.lockstep.world().clear_external_forces();
+        let advanced = advance(&mut self.lockstep, self.push);
         let is_world_halt = matches!(advanced, Err(sincro_sim::run::Halt::World { .. }));
         if !is_world_halt {
             self.lockstep.hash_into(&mut self.trace);
@@ -191,8 +174,13 @@ impl Track {
 
     /// Seizes an object at a point of the world, which then goes with it; the force keeps its direction in the world.
     pub fn set_push(&mut self, push: Option<(usize, [f64; 3], [f64; 3])>) -> Result<(), String> {
-        self.push = None;
-        let Some((object, point, force)) = push else { return Ok(()) };
+        let tick = self.lockstep.tick();
+        let Some((object, point, force)) = push else {
+            if self.push.take().is_some() {
+                self.segment.pushes.push((tick, None));
+            }
+            return Ok(());
+        };
         let found = self.view.objects.get(object).ok_or_else(|| format!("there is no object {object}"))?;
         let Some(mover) = found.mover else {
             return Err(format!("`{}` is fixed in the world: no force moves it", found.path));
@@ -200,8 +188,10 @@ impl Track {
         let (link, t) = (self.layout.links()[mover], self.lockstep.t());
         let x_wl = self.lockstep.observe(t).0.scratch().link_poses()[link];
         let point = x_wl.inverse().point(Vec3(point));
-        self.intervention = "was pulled by hand";
         self.push = Some(ExternalForce { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });
+        // of several within a step the last acts
+        self.segment.pushes.retain(|(from, _)| *from < tick);
+        self.segment.pushes.push((tick, self.push));
         Ok(())
     }
 }
