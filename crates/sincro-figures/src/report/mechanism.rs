@@ -46,7 +46,7 @@ const JOINT_COLUMNS: [(&str, &str); 7] = [
     ("", "Carried by"),
     ("", "Axis"),
     ("", "Coordinates"),
-    ("", "At the start"),
+    ("", "At the start [m, rad]"),
     ("", "Actuation"),
 ];
 
@@ -57,7 +57,7 @@ fn joint(row: &JointRow) -> String {
         cell("Carried by", "", &code(&row.parent)),
         cell("Axis", "", &escape_raised(&row.axes)),
         cell("Coordinates", "unit", &escape(&row.coordinates)),
-        cell("At the start", "", &escape_raised(&row.start)),
+        cell("At the start [m, rad]", "", &escape_raised(&row.start)),
         cell("Actuation", "", &escape_raised(&row.actuation)),
     ]
     .concat()
