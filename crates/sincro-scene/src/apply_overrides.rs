@@ -7,12 +7,12 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::{Document, escape};
 use crate::experiment::experiment_schema;
 use crate::names::{self, Match, ending, fits, nearest_path};
-use crate::normalize::unit_suffix;
 use crate::overrides::Override;
 use crate::scene::scene_schema;
 use crate::schema::{alternatives, property, property_names};
 use crate::suggest;
 use crate::tree;
+use crate::vocabulary::unit_suffix;
 
 /// File of a scene folder that a setting changes; see [`Override::target`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

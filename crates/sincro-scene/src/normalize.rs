@@ -22,28 +22,13 @@ use crate::document::{Document, escape};
 use crate::schema::describe::{description, units, words};
 use crate::schema::{FORMAT, alternatives, property};
 use crate::suggest;
-use crate::vocabulary;
+use crate::vocabulary::{self, SUFFIXES, unit_suffix};
 
 /// Parameters of an experiment, for formulas in its files: name and value.
 pub type Parameters = BTreeMap<String, f64>;
 
-/// Units that a key can carry as a suffix: suffix, unit of the key without it, factor.
-const SUFFIXES: [(&str, &str, f64); 4] = [
-    ("_deg", "rad", std::f64::consts::PI / 180.0),
-    ("_rpm", "rad/s", std::f64::consts::PI / 30.0),
-    ("_deg_s", "rad/s", std::f64::consts::PI / 180.0),
-    ("_deg_per_s", "rad/s", std::f64::consts::PI / 180.0),
-];
-
 /// Keys of signals that are values; times and rates of change are not in degrees.
 const SIGNAL_VALUES: [&str; 9] = ["constant", "from", "to", "slope", "amplitude", "offset", "low", "high", "values"];
-
-/// The key and the suffix of a key that carries another unit.
-pub(crate) fn unit_suffix(key: &str) -> Option<(&str, &'static str)> {
-    // the longest suffix wins
-    let found = SUFFIXES.iter().filter_map(|(suffix, ..)| Some((key.strip_suffix(suffix)?, *suffix)));
-    found.max_by_key(|(_, suffix)| suffix.len())
-}
 
 /// Rewrites a document for its schema; notes formulas that cannot be computed and units that a key does not have.
 pub(crate) fn normalize(document: &mut Document, schema: &Value, parameters: &Parameters) -> Diagnostics {

@@ -385,7 +385,23 @@ fn read_diagram(experiment: &Document, folder: &Folder, diagnostics: &mut Diagno
     let name = experiment.located("/diagram")?;
     let read = folder.read_named(&name).map_err(Diagnostics::from);
     let document = read.and_then(|source| Document::parse(&source));
-    document.map_err(|found| diagnostics.merge(found)).ok()
+    let mut document = document.map_err(|found| diagnostics.merge(found)).ok()?;
+    name_types(&mut document);
+    Some(document)
+}
+
+/// Blocks of a diagram that say `kind`, as objects of a scene do, are understood.
+fn name_types(document: &mut Document) {
+    let length = |document: &Document, list: &str| document.get(list).and_then(Value::as_array).map_or(0, Vec::len);
+    let mut lists = vec!["/block".to_owned()];
+    lists.extend((0..length(document, "/diagram")).map(|k| format!("/diagram/{k}/block")));
+    for list in lists {
+        for k in 0..length(document, &list) {
+            if document.get(&format!("{list}/{k}/type")).is_none() {
+                document.rename(&format!("{list}/{k}/kind"), "type");
+            }
+        }
+    }
 }
 
 /// Compiles a diagram. It is validated even if scene or experiment have problems, but connected only to a scene that

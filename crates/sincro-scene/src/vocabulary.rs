@@ -1,4 +1,4 @@
-//! Other names of keys and words: those of URDF, MJCF, SDF, Simulink and everyday speech.
+//! Units in names of keys, and other names of keys and words: those of URDF, MJCF, SDF, Simulink and everyday speech.
 //!
 //! A name that can mean only one thing is understood; one that needs a thought is answered with the right word.
 
@@ -56,7 +56,7 @@ const WORDS: [(&str, &str); 22] = [
 ];
 
 /// Keys that are answered: written, key that the table must know, advice.
-const ADVICE: [(&str, &str, &str); 18] = [
+const ADVICE: [(&str, &str, &str); 27] = [
     ("rpy", "rotation_deg", "write `rotation_deg = [roll, pitch, yaw]`, in degrees"),
     ("rotation", "rotation_deg", "write `rotation_deg = [roll, pitch, yaw]`, in degrees, or `quaternion_wxyz`"),
     ("orientation", "rotation_deg", "write `rotation_deg = [roll, pitch, yaw]`, in degrees, or `quaternion_wxyz`"),
@@ -74,7 +74,24 @@ const ADVICE: [(&str, &str, &str); 18] = [
     ("collision", "contact", "write `contact = { friction = … }`: the shapes of a body with it touch others"),
     ("child", "parent", "a body names the joint that carries it: `parent = \"/joint\"`"),
     ("end", "duration", "write `duration`"),
+    ("angle", "rotation_deg", "write `rotation_deg = [roll, pitch, yaw]`, in degrees"),
+    ("angle", "position", "write `position` [rad] or `position_deg`"),
+    ("angle_deg", "position", "write `position_deg`"),
+    ("speed", "velocity", "write `velocity`, `velocity_rpm` or `velocity_deg_s`"),
+    ("of", "file", "write `file = \"…\"`: another scene file, its path relative to the folder"),
+    ("scene", "file", "write `file = \"…\"`: another scene file, its path relative to the folder"),
+    ("count", "repeat", "write `repeat = { count = …, step = [x, y, z] }`"),
+    ("step", "repeat", "write `repeat = { count = …, step = [x, y, z] }`"),
+    ("spacing", "repeat", "write `repeat = { count = …, step = [x, y, z] }`"),
     ("frequency", "frequency_hz", "write `frequency_hz` [Hz], or `angular_frequency` [rad/s]"),
+];
+
+/// Units that a key can carry as a suffix: suffix, unit of the key without it, factor.
+pub(crate) const SUFFIXES: [(&str, &str, f64); 4] = [
+    ("_deg", "rad", std::f64::consts::PI / 180.0),
+    ("_rpm", "rad/s", std::f64::consts::PI / 30.0),
+    ("_deg_s", "rad/s", std::f64::consts::PI / 180.0),
+    ("_deg_per_s", "rad/s", std::f64::consts::PI / 180.0),
 ];
 
 /// The key that is meant by one that a table does not know.
@@ -88,8 +105,27 @@ pub(crate) fn words(written: &str) -> impl Iterator<Item = &'static str> {
     WORDS.iter().filter(move |(name, _)| *name == written).map(|(_, meant)| *meant)
 }
 
+/// The word of a list that is meant by one near to another word for it, such as `hing` for `revolute`.
+pub(crate) fn near_word(written: &str, known: &[&str]) -> Option<&'static str> {
+    let others = WORDS.iter().filter(|(_, meant)| known.contains(meant));
+    let near = crate::suggest::nearest(written, others.clone().map(|(name, _)| *name))?;
+    others.clone().find(|(name, _)| *name == near).map(|(_, meant)| *meant)
+}
+
 /// Advice on a key that a table does not know; `known` are those that it knows.
 pub(crate) fn advice(written: &str, known: &[&str]) -> Option<&'static str> {
     let found = ADVICE.iter().find(|(name, needed, _)| *name == written && known.contains(needed));
     found.map(|(.., advice)| *advice)
+}
+
+/// The key and the suffix of a key that carries another unit.
+pub(crate) fn unit_suffix(key: &str) -> Option<(&str, &'static str)> {
+    // the longest suffix wins
+    let found = SUFFIXES.iter().filter_map(|(suffix, ..)| Some((key.strip_suffix(suffix)?, *suffix)));
+    found.max_by_key(|(_, suffix)| suffix.len())
+}
+
+/// The unit of a key that may carry a suffix of [`unit_suffix`]; empty for any other text.
+pub(crate) fn unit_of_suffix(suffix: &str) -> &'static str {
+    SUFFIXES.iter().find(|(known, ..)| *known == suffix).map_or("", |(_, unit, _)| unit)
 }

@@ -142,7 +142,7 @@ axis"#,
         "scene.toml",
         "spring = {",
         "spring = 3 #",
-        r#"scene.toml:7:10: error: `spring` is the number 3, expected a table or a list of tables
+        r#"scene.toml:7:10: error: `spring` is the number 3, expected a table of `law`, `rest`, `stiffness`, `table` or a list of tables
   help: Spring: τ = −stiffness·(q − rest); a list for several degrees of freedom."#,
     ),
     (

@@ -2,12 +2,14 @@
 
 use serde_json::{Map, Value};
 
-use super::{alternatives, exclusive_keys};
+use super::{alternatives, exclusive_keys, property_names};
 use crate::document::NonJson;
 use crate::suggest::quoted;
 
 /// Longest text of a value that is quoted whole.
 const QUOTED: usize = 40;
+/// Keys of an expected table that are listed.
+const MAX_KEYS: usize = 6;
 
 /// Description of the value found, such as `the string "abc"` or `a list of 3`.
 pub(super) fn found(value: &Value, odd: Option<&NonJson>) -> String {
@@ -57,7 +59,11 @@ fn one_expected(root: &Value, choice: &Map<String, Value>, unit: &str) -> String
         Some("array") => list(root, choice, unit),
         Some("object") => match choice.get("oneOf").and_then(exclusive_keys) {
             Some(keys) => format!("a table with one of {}", quoted(&keys)),
-            None => "a table".into(),
+            None => match property_names(choice)[..] {
+                [] => "a table".into(),
+                ref keys if keys.len() > MAX_KEYS => "a table".into(),
+                ref keys => format!("a table of {}", quoted(keys)),
+            },
         },
         _ => "something else".into(),
     }

@@ -10,7 +10,7 @@ use super::{alternatives, exclusive_keys, property, property_names};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, NonJson, escape, unescape};
 use crate::suggest::{self, quoted};
-use crate::vocabulary;
+use crate::vocabulary::{self, unit_of_suffix, unit_suffix};
 
 /// Units that keys may carry as a suffix, wherever they come from.
 const UNITS: [&str; 14] =
@@ -84,7 +84,7 @@ impl<'a> Walker<'a> {
     fn text(&mut self, pointer: &str, text: &str, schema: &Value, choice: &Map<String, Value>) {
         let Some(words) = describe::words(choice) else { return };
         if !words.contains(&text) {
-            let near = suggest::nearest(text, words.iter().copied());
+            let near = suggest::nearest(text, words.iter().copied()).or_else(|| vocabulary::near_word(text, &words));
             let help = near.map_or_else(|| self.help_of(schema), |near| Some(format!("did you mean `{near}`?")));
             let message = format!("`{}` is {text:?}, expected one of {}", shown(pointer), quoted(&words));
             self.error_at_value(pointer, message, help);
@@ -181,12 +181,24 @@ impl<'a> Walker<'a> {
         if let Some(advice) = vocabulary::advice(key, &known) {
             return advice.to_owned();
         }
+        if let Some(near) = self.near_with_suffix(key, choice) {
+            return format!("did you mean `{near}`?");
+        }
         let suffix = |key: &str| UNITS.iter().find(|unit| key.ends_with(**unit)).copied();
         let near = suggest::nearest(key, known.iter().copied()).filter(|near| suffix(near) != suffix(key));
         let Some(near) = near else { return suggest::help(key, &known, "keys here") };
         let of_key = property(choice, near).map(|schema| describe::description(self.root, schema)).unwrap_or_default();
         let unit = describe::units(of_key).join(" or ");
         if unit.is_empty() { format!("there is `{near}`") } else { format!("there is `{near}`, in {unit}") }
+    }
+
+    /// The key near to one with the suffix of a unit, with that suffix, if it may have it: `position_deg` for
+    /// `positon_deg`.
+    fn near_with_suffix(&self, key: &str, choice: &Map<String, Value>) -> Option<String> {
+        let (plain, suffix) = unit_suffix(key)?;
+        let near = suggest::nearest(plain, property_names(choice))?;
+        let units = describe::units(describe::description(self.root, property(choice, near)?));
+        units.contains(&unit_of_suffix(suffix)).then(|| format!("{near}{suffix}"))
     }
 
     fn help_of(&self, schema: &Value) -> Option<String> {
