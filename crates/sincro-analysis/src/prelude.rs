@@ -5,5 +5,6 @@ pub use crate::linear::{
     dlqr, lqr,
 };
 pub use crate::linearize::{
-    Linearization, Request, Trim, TrimRequest, Trimmed, fastest_poles, linearize, operating_point, trim,
+    Linearization, Request, Trim, TrimRequest, Trimmed, UnstableLoop, fastest_poles, linearize, operating_point, trim,
+    unstable_loop,
 };

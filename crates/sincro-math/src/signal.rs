@@ -112,7 +112,8 @@ impl Signal {
     }
 
     /// Highest frequency `[Hz]` of the signal up to time `until` `[s]`, for choosing a step size: of a sine, or of a
-    /// table that is read at ticks only (`is_sampled`); else 0, since jumps and corners are located as time events.
+    /// table or pulses that are read at ticks only (`is_sampled`); else 0, since jumps and corners are located as time
+    /// events. That of pulses is half the inverse of the time at `low` or `high`, whichever is shorter.
     #[must_use]
     pub fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
         match self {
@@ -121,6 +122,10 @@ impl Signal {
             }
             Self::Table { times, values, .. } if is_sampled => {
                 crate::series::highest_frequency(times, |k| values[k], until)
+            }
+            Self::Pulse { period, width, low, high, start } if is_sampled && low != high && *start < until => {
+                let shorter = if width < period { width.min(period - width) } else { f64::INFINITY };
+                0.5 / shorter
             }
             _ => 0.0,
         }
@@ -248,5 +253,11 @@ mod tests {
         assert_eq!(table.highest_frequency(0.6, true), 0.0);
         assert_eq!(table.highest_frequency(4.0, false), 0.0);
         assert_eq!(Signal::Constant(1.0).highest_frequency(1.0, true), 0.0);
+        // the pause is shorter than the pulse; read at ticks it may be missed
+        let pulse = |width| Signal::Pulse { period: 0.5, width, low: 0.0, high: 1.0, start: 0.2 };
+        assert_eq!(pulse(0.375).highest_frequency(1.0, true), 4.0);
+        assert_eq!(pulse(0.125).highest_frequency(1.0, true), 4.0);
+        let silent = [pulse(0.5).highest_frequency(1.0, true), pulse(0.1).highest_frequency(1.0, false)];
+        assert_eq!((silent, pulse(0.1).highest_frequency(0.1, true)), ([0.0, 0.0], 0.0));
     }
 }

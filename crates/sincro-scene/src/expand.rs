@@ -19,7 +19,7 @@ use crate::names::{fits, resolve_objects};
 use crate::normalize::{Parameters, compute, normalize, parameters_of};
 use crate::scene::scene_schema;
 use crate::schema::validate;
-use crate::tree::{KINDS, join, raw_objects};
+use crate::tree::{KINDS, RawObject, join, raw_objects};
 
 /// Deepest nesting of files.
 const MAX_DEPTH: usize = 16;
@@ -65,7 +65,7 @@ impl Expander<'_> {
         self.diagnostics.merge(normalize(document, scene_schema(), parameters));
         self.diagnostics.merge(resolve_objects(document));
         self.instances(document, parameters);
-        defaults(document);
+        defaults(document, &mut self.diagnostics);
         // formulas and units of defaults are those of the objects they went to
         self.diagnostics.merge(normalize(document, scene_schema(), parameters));
         self.diagnostics.merge(resolve_objects(document));
@@ -359,7 +359,7 @@ fn prefix(document: &mut Document, path: &str) {
 }
 
 /// Fills up the objects with the defaults of the file; the last default that fits wins over those before.
-fn defaults(document: &mut Document) {
+fn defaults(document: &mut Document, diagnostics: &mut Diagnostics) {
     let n = document.get("/default").and_then(Value::as_array).map_or(0, Vec::len);
     if n == 0 {
         return;
@@ -375,10 +375,15 @@ fn defaults(document: &mut Document) {
         let keys: Vec<String> = keys.keys().cloned().collect();
         let group = document.text(&format!("{pointer}/group")).unwrap_or("**").to_owned();
         let source = document.clone();
-        for object in objects.iter().filter(|o| o.pointer.split('/').nth(1) == Some(of.as_str())) {
-            if !fits(&group, &object.path) {
-                continue;
-            }
+        let is_of = |object: &&RawObject| object.pointer.split('/').nth(1) == Some(of.as_str());
+        let fitting: Vec<&RawObject> = objects.iter().filter(is_of).filter(|o| fits(&group, &o.path)).collect();
+        if fitting.is_empty() && document.get(&format!("{pointer}/group")).is_some() {
+            let at = document.at(&format!("{pointer}/group"));
+            let diagnostic = Diagnostic::error(&at, format!("no {of} has a path of the form `{group}`")).as_warning();
+            let help = "the default reaches nothing; `*` stands for characters within a name, `**` for any at all";
+            diagnostics.push(diagnostic.with_help(help));
+        }
+        for object in fitting {
             for key in &keys {
                 let (from, to) =
                     (format!("{pointer}/keys/{}", escape(key)), format!("{}/{}", object.pointer, escape(key)));

@@ -68,6 +68,8 @@ pub mod sensor;
 pub(crate) mod series;
 pub mod suggest;
 pub mod tree;
+mod unused;
 mod vocabulary;
+mod words;
 
 pub use sincro_camera as camera;

@@ -21,6 +21,7 @@ use crate::scene::{self, Scene, scene_schema};
 use crate::schema::validate;
 use crate::script::ScriptParser;
 use crate::tree;
+use crate::unused;
 
 /// The file that makes a folder an experiment.
 const EXPERIMENT: &str = "experiment.toml";
@@ -312,7 +313,16 @@ fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> R
     });
     let experiment = experiment.flatten();
     let against = (experiment.as_ref(), scene.as_ref().zip(scene_document.as_ref()));
-    let controller = diagram.and_then(|diagram| compile_diagram(&diagram, folder, against, loaders, &mut diagnostics));
+    let controller =
+        diagram.as_ref().and_then(|diagram| compile_diagram(diagram, folder, against, loaders, &mut diagnostics));
+    if let (Some(scene), Some(scene_document), Some(diagram)) = (&scene, &scene_document, &diagram) {
+        diagnostics.merge(unused::warn_of_blocks(diagram, &document));
+        // a scene file of another folder belongs to more experiments than this, and `simulation_step` is for clients
+        let is_own = !document.text("/scene").is_some_and(|file| file.contains(".."));
+        if is_own && document.get("/simulation_step").is_none() {
+            diagnostics.merge(unused::warn_of_objects(scene, [&document, scene_document, diagram]));
+        }
+    }
     let experiment = match (experiment, &controller, &scene) {
         (Some(experiment), Some(controller), Some(scene)) => Some(with_scopes(experiment, controller, scene)),
         (experiment, ..) => experiment,

@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use sincro_analysis::linearize::unstable_loop;
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::experiment::check::{Check, Expected};
 use sincro_scene::overrides::Override;
@@ -112,6 +113,10 @@ impl RunRequest<'_> {
         let mut campaign = run_campaign(scene, overrides, loaded, Some(out), interrupt, progress)?;
         let set = overrides.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
         campaign.report.settings.overrides = set.collect();
+        if let Some(found) = unstable_loop(loaded) {
+            campaign.main.simulated.warnings.insert(0, found.to_string());
+            campaign.report.warnings.insert(0, found.to_string());
+        }
         mark_references(&mut campaign, loaded, overrides);
         campaign.report.write(out).map_err(RunFailure::Results)?;
         write(loaded, &campaign, out, self.index).map_err(RunFailure::Results)?;

@@ -19,12 +19,14 @@ mod point;
 mod reduction;
 mod sampled;
 mod trim;
+mod unstable_loop;
 mod words;
 
 pub use open_loop::{OpenLoop, open_loops, openable_signals};
 pub use point::{Request, operating_point};
 pub use sampled::{SampledLoop, linearize_sampled};
 pub use trim::{Trim, TrimRequest, Trimmed, trim};
+pub use unstable_loop::{UnstableLoop, unstable_loop};
 pub use words::{ReducedElement, ReducedKind, Reduction};
 
 use sincro_dynamics::initial::constraint_residuals;

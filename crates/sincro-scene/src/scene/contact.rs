@@ -1,8 +1,8 @@
 //! Contact, limits, closures and couplings: from what is written to the builder's specifications.
 
 use sincro_dynamics::constraint::LoopJointKind;
-use sincro_dynamics::contact::{Material, PairLaw, Surface};
-use sincro_dynamics::model::{GearSpec, LoopJointSpec, ModelBuilder, NodeId};
+use sincro_dynamics::contact::{Material, PairLaw, Surface, WORLD};
+use sincro_dynamics::model::{GearSpec, LoopJointSpec, Model, ModelBuilder, NodeId};
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
 use super::body;
@@ -20,6 +20,7 @@ use crate::document::Document;
 use crate::folder::Folder;
 use crate::names::fits;
 use crate::suggest;
+use crate::tree;
 
 /// Contact geometry and material of a body.
 #[derive(Default)]
@@ -359,6 +360,39 @@ pub(super) fn warn_of_idle(file: &SceneFile, document: &Document, diagnostics: &
                 "bodies of one group (other than 0) do not touch each other",
             )
         };
+        diagnostics.push(Diagnostic::error(&at, message).as_warning().with_help(help));
+    }
+}
+
+/// Warns of surfaces among others that can touch none of them, for another reason than [`warn_of_idle`] finds: all
+/// others are fixed to them, or joined to them directly, or excluded by a `[[contact_pair]]`.
+pub(super) fn warn_of_excluded(
+    model: &Model<f64>,
+    file: &SceneFile,
+    document: &Document,
+    diagnostics: &mut Diagnostics,
+) {
+    let set = model.constraints();
+    let is_fixed = |k: usize| set.colliders[k].link == WORLD;
+    let touches = |k: usize| set.pairs.iter().any(|pair| !pair.is_ignored && (pair.a == k || pair.b == k));
+    // a heap of scenery touches nothing, and nobody expects it to
+    if set.colliders.len() < 2 || (0..set.colliders.len()).all(is_fixed) {
+        return;
+    }
+    for (k, body) in file.body.iter().enumerate().filter(|(_, body)| body.contact.is_some()) {
+        let path = tree::join(&body.parent, &body.name);
+        let mut own = (0..set.colliders.len()).filter(|k| set.colliders[*k].name == path).peekable();
+        let is_known = diagnostics
+            .0
+            .iter()
+            .any(|found| found.message.starts_with(&format!("`{}` can touch nothing", body.name)) && !found.is_error());
+        if own.peek().is_none() || is_known || own.any(touches) {
+            continue;
+        }
+        let at = document.key_at(&format!("/body/{k}/contact"));
+        let message = format!("`{}` can touch nothing of what has a `contact`", body.name);
+        let help = "bodies do not touch what they are fixed to or joined to directly, those of their group, and those \
+                    that a `[[contact_pair]]` lets them pass through; two fixed bodies do not touch either";
         diagnostics.push(Diagnostic::error(&at, message).as_warning().with_help(help));
     }
 }

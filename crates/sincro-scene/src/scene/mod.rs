@@ -60,6 +60,7 @@ use crate::folder::Folder;
 use crate::scenery::Scenery;
 use crate::script::{Script, ScriptParser};
 use crate::sensor::SensorSpec;
+use crate::words::is_named;
 use file::{ForceFile, InFrameFile};
 use signal_file::SignalReader;
 use start::Start;
@@ -458,6 +459,8 @@ impl Assembly {
         let start = Start { model: &model, initial: &initial, file, objects: &self.objects, document };
         start.check(&commands, &mut diagnostics);
         self.warn_of_idle_forces(&model, &mut diagnostics);
+        self.warn_of_fixed_bodies(&model, document, !scripts.is_empty(), &mut diagnostics);
+        contact::warn_of_excluded(&model, file, document, &mut diagnostics);
         if model.wind().is_some() && model.rotors().is_empty() && model.drags().is_empty() {
             let diagnostic =
                 Diagnostic::error(&document.at("/wind"), "nothing in this scene feels the wind").as_warning();
@@ -535,6 +538,35 @@ impl Assembly {
                 let message = format!("{word} `{}` acts on something that is fixed in the world", object.path);
                 let diagnostic = Diagnostic::error(&object.location, message).as_warning();
                 diagnostics.push(diagnostic.with_help("it moves nothing; hang its parent on a joint"));
+            }
+        }
+    }
+
+    /// Warns of bodies whose mass has no effect: they are fixed in the world, and nothing hangs on them or can touch
+    /// them.
+    fn warn_of_fixed_bodies(
+        &self,
+        model: &Model<f64>,
+        document: &Document,
+        has_scripts: bool,
+        diagnostics: &mut Diagnostics,
+    ) {
+        // scenery may be there to be seen, or to be found by scripts
+        let is_seen = |o: &Object| matches!(o.kind, ObjectKind::Sensor | ObjectKind::Camera { sensor: Some(_), .. });
+        if has_scripts || self.objects.iter().any(is_seen) {
+            return;
+        }
+        for (k, object) in self.objects.iter().enumerate() {
+            let ObjectKind::Body { mass } = &object.kind else { continue };
+            let is_fixed = model.names().frame(&object.path).is_some_and(|frame| frame.link.is_none());
+            let is_alone = object.contact.is_none() && self.objects.iter().all(|child| child.parent != Some(k));
+            // closures, springs and sensors of distances name it
+            if is_fixed && is_alone && mass.mass > 0.0 && !is_named(document, &object.name) {
+                let message = format!("body `{}` has mass and is fixed in the world: it never moves", object.path);
+                let diagnostic = Diagnostic::error(&object.location, message).as_warning();
+                diagnostics.push(diagnostic.with_help(
+                    "hang it on a joint (`kind = \"free\"` lets it fall); scenery needs no mass, only shapes",
+                ));
             }
         }
     }

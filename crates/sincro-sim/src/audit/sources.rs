@@ -1,7 +1,9 @@
-//! Sines, chirps and sampled series above half the rate at which a run reads them: it sees another, slower signal.
+//! Sines, chirps and sampled series above half the rate at which a run reads them: it sees another, slower signal; and
+//! pulses that are shorter than the time between two readings: it may miss them.
 //!
 //! Commands are read at ticks, blocks of a diagram at their sample times, and what acts inside the step at least once a
-//! base step. Steps, pulses and ramps are exempt: their jumps and corners are located as events.
+//! base step. Steps and ramps are exempt, and so are pulses inside the step: their jumps and corners are located as
+//! events.
 
 use sincro_blocks::program::Rate;
 use sincro_dynamics::actuation::{Motor, SpringDamper};

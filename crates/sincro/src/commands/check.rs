@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use sincro::{Loaded, load};
+use sincro_analysis::linearize::unstable_loop;
 use sincro_blocks::program::Rate;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::catalogue;
@@ -106,7 +107,7 @@ fn print(loaded: &Loaded) {
             s.values.len()
         ))
     );
-    for warning in warnings {
+    for warning in warnings.into_iter().chain(unstable_loop(loaded).map(|found| found.to_string())) {
         say!("warning: {warning}");
     }
 }

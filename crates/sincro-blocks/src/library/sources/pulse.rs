@@ -57,6 +57,15 @@ impl Block for Pulse {
         self.cycle().next(t, 0.0).min(self.cycle().next(t, self.width))
     }
 
+    fn highest_frequency(&self, until: f64, is_sampled: bool) -> f64 {
+        let n = self.low.len().max(self.high.len());
+        let moves = (0..n).any(|i| of(&self.low, i) != of(&self.high, i)) && self.width < self.period;
+        match is_sampled && moves && self.start < until {
+            true => 0.5 / self.width.min(self.period - self.width),
+            false => 0.0,
+        }
+    }
+
     fn label(&self) -> String {
         format!("{} s / {} s", short(self.width), short(self.period))
     }
