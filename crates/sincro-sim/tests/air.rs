@@ -201,7 +201,7 @@ area"#,
     (
         "air_density = 1.2",
         "air_density = -1.2",
-        r#"scene.toml:2:15: error: `air_density` is -1.2, expected a number in kg/m³ or a table, at least 0
+        r#"scene.toml:2:15: error: `air_density` is -1.2, expected a number in kg/m³ or a table of `formula`, at least 0
   help: Density of the air, for rotors and drag [kg/m³]; or a table with a formula of the position."#,
     ),
     (

@@ -81,7 +81,9 @@ fn sources_of_a_diagram_are_looked_at_at_their_own_rates() {
         ("type = \"chirp\"\nfrom_hz = 1.0\nto_hz = 401.0\nduration = 1.0", "", Some(201.0)),
         ("type = \"chirp\"\nfrom_hz = 1.0\nto_hz = 101.0\nduration = 1.0", "", None),
         (&format!("type = \"table\"\n{table}"), "", Some(125.0)),
-        ("type = \"pulse\"\nperiod = 0.004\nwidth = 0.001", "", None),
+        // a pulse that may fall between two readings, and one that cannot
+        ("type = \"pulse\"\nperiod = 0.004\nwidth = 0.001", "", Some(500.0)),
+        ("type = \"pulse\"\nperiod = 0.4\nwidth = 0.1", "", None),
     ] {
         let wire = "wires = [\"source -> /shoulder/rod/tip/wrist\"]";
         let diagram = format!("{wire}\n[[block]]\nname = \"source\"\n{source}\n{sample_time}");
