@@ -33,6 +33,12 @@ pub(crate) fn remove(handle: *mut c_void) {
 
 /// Calls a function with an instance, then sends its messages. A panic ends the instance, not the process.
 pub(crate) fn with(handle: *mut c_void, call: impl FnOnce(&mut Component) -> Status) -> Status {
+    let mut call = Some(call);
+    // one copy of what follows, not one for each function of the interface: the library goes into every FMU
+    guarded_call(handle, &mut |component| call.take().map_or(Status::Fatal, |call| call(component)))
+}
+
+fn guarded_call(handle: *mut c_void, call: &mut dyn FnMut(&mut Component) -> Status) -> Status {
     let found = COMPONENTS.read().unwrap_or_else(PoisonError::into_inner).get(&(handle as usize)).cloned();
     let Some(component) = found else { return Status::Error };
     let mut locked = match component.try_lock() {

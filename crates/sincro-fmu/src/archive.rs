@@ -15,6 +15,9 @@ const MAX_RATIO: u64 = 200;
 /// Unpacked size up to which the ratio does not matter `[bytes]`: 64 MiB.
 const HARMLESS_BYTES: u64 = 64 << 20;
 
+/// Compression level of deflate: the greatest.
+const BEST_DEFLATE: i64 = 9;
+
 /// File of an archive: its path inside, with `/` between the parts, and its content.
 pub type ArchiveFile = (String, Vec<u8>);
 
@@ -36,6 +39,7 @@ pub fn pack(files: &[ArchiveFile]) -> Result<Vec<u8>, String> {
     // no clock: the same files give the same archive
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(BEST_DEFLATE))
         .last_modified_time(zip::DateTime::default())
         .unix_permissions(0o644);
     for (name, bytes) in files {
