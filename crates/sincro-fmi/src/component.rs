@@ -417,6 +417,7 @@ impl Component {
         if out.is_empty() { Ok(()) } else { Err(self.refuse(format!("{call}: there are no event indicators"))) }
     }
 
+    /// Derivatives of the present instant. In co-simulation it is the communication point.
     pub(crate) fn directional_derivative(
         &mut self,
         unknowns: &[u32],
@@ -425,10 +426,28 @@ impl Component {
         sensitivity: &mut [f64],
         call: &str,
     ) -> Status {
-        if let Err(status) = self.require_exchange(call, &Self::WITH_STATES) {
+        if let Err(status) = self.require(call, &Self::WITH_DERIVATIVES) {
             return status;
         }
         let result = self.instance.directional_derivative((unknowns, knowns), seed, sensitivity);
         self.finish(result.map_err(|why| format!("{call}: {why}")))
     }
+
+    pub(crate) fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        sensitivity: &mut [f64],
+        call: &str,
+    ) -> Status {
+        if let Err(status) = self.require(call, &Self::WITH_DERIVATIVES) {
+            return status;
+        }
+        let result = self.instance.adjoint_derivative((unknowns, knowns), seed, sensitivity);
+        self.finish(result.map_err(|why| format!("{call}: {why}")))
+    }
+
+    const WITH_DERIVATIVES: [Mode; 5] =
+        [Mode::Initialization, Mode::Step, Mode::Event, Mode::ContinuousTime, Mode::Terminated];
 }

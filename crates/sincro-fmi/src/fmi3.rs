@@ -288,7 +288,6 @@ macro_rules! absent {
 absent! {
     fmi3GetNumberOfVariableDependencies(u32, *mut usize),
     fmi3GetVariableDependencies(u32, *mut usize, *mut u32, *mut usize, *mut i32, usize),
-    fmi3GetAdjointDerivative(*const u32, usize, *const u32, usize, *const f64, usize, *mut f64, usize),
     fmi3EnterConfigurationMode(),
     fmi3ExitConfigurationMode(),
     fmi3EvaluateDiscreteStates(),
@@ -333,39 +332,49 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
     with(c, |component| unsafe { deserialize(component, bytes, size, state, "fmi3DeserializeFMUState") })
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
-    c: Handle,
-    unknowns: *const u32,
-    n_unknowns: usize,
-    knowns: *const u32,
-    n_knowns: usize,
-    seed: *const f64,
-    n_seed: usize,
-    sensitivity: *mut f64,
-    n_sensitivity: usize,
-) -> Status {
-    const NAME: &str = "fmi3GetDirectionalDerivative";
-    with(c, |component| {
-        if n_seed != n_knowns || n_sensitivity != n_unknowns {
-            return component.refuse(format!("{NAME}: the lengths do not fit"));
+/// Functions that give partial derivatives; `is_adjoint`: the seed is one of the unknowns.
+macro_rules! derivatives {
+    ($($name:ident => $method:ident, $is_adjoint:literal);* $(;)?) => {$(
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            c: Handle,
+            unknowns: *const u32,
+            n_unknowns: usize,
+            knowns: *const u32,
+            n_knowns: usize,
+            seed: *const f64,
+            n_seed: usize,
+            sensitivity: *mut f64,
+            n_sensitivity: usize,
+        ) -> Status {
+            with(c, |component| {
+                let lengths = if $is_adjoint { (n_unknowns, n_knowns) } else { (n_knowns, n_unknowns) };
+                if (n_seed, n_sensitivity) != lengths {
+                    return component.refuse(concat!(stringify!($name), ": the lengths do not fit"));
+                }
+                // SAFETY: the importer's promise
+                let all = unsafe {
+                    (
+                        slice(unknowns, n_unknowns),
+                        slice(knowns, n_knowns),
+                        slice(seed, n_seed),
+                        slice_mut(sensitivity, n_sensitivity),
+                    )
+                };
+                match all {
+                    (Some(unknowns), Some(knowns), Some(seed), Some(sensitivity)) => {
+                        component.$method(unknowns, knowns, seed, sensitivity, stringify!($name))
+                    }
+                    _ => component.refuse(concat!(stringify!($name), ": a pointer is null or not aligned")),
+                }
+            })
         }
-        // SAFETY: the importer's promise
-        let all = unsafe {
-            (
-                slice(unknowns, n_unknowns),
-                slice(knowns, n_knowns),
-                slice(seed, n_seed),
-                slice_mut(sensitivity, n_sensitivity),
-            )
-        };
-        match all {
-            (Some(unknowns), Some(knowns), Some(seed), Some(sensitivity)) => {
-                component.directional_derivative(unknowns, knowns, seed, sensitivity, NAME)
-            }
-            _ => component.refuse(format!("{NAME}: {NULL}")),
-        }
-    })
+    )*};
+}
+
+derivatives! {
+    fmi3GetDirectionalDerivative => directional_derivative, false;
+    fmi3GetAdjointDerivative => adjoint_derivative, true;
 }
 
 #[unsafe(no_mangle)]

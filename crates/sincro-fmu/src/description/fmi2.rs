@@ -38,7 +38,11 @@ fn interfaces(xml: &mut Xml, of: &Description<'_>) {
         common(xml, "ModelExchange", false, &[flag("providesDirectionalDerivative", true)]);
     }
     if of.kinds.co_simulation {
-        common(xml, "CoSimulation", of.can_save, &[flag("canHandleVariableCommunicationStepSize", true)]);
+        let own = [
+            flag("canHandleVariableCommunicationStepSize", true),
+            flag("providesDirectionalDerivative", of.kinds.model_exchange),
+        ];
+        common(xml, "CoSimulation", of.can_save, &own);
     }
 }
 

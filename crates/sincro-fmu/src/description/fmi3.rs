@@ -33,7 +33,8 @@ fn interfaces(xml: &mut Xml, of: &Description<'_>) {
         xml.element(name, &attributes);
     };
     if of.kinds.model_exchange {
-        common(xml, "ModelExchange", false, &[flag("providesDirectionalDerivatives", true)]);
+        let own = [flag("providesDirectionalDerivatives", true), flag("providesAdjointDerivatives", true)];
+        common(xml, "ModelExchange", false, &own);
     }
     if of.kinds.co_simulation {
         common(
@@ -41,6 +42,8 @@ fn interfaces(xml: &mut Xml, of: &Description<'_>) {
             "CoSimulation",
             of.can_save,
             &[
+                flag("providesDirectionalDerivatives", of.kinds.model_exchange),
+                flag("providesAdjointDerivatives", of.kinds.model_exchange),
                 flag("canHandleVariableCommunicationStepSize", true),
                 number("fixedInternalStepSize", of.base_step),
                 flag("canReturnEarlyAfterIntermediateUpdate", true),

@@ -1,24 +1,22 @@
-//! Model exchange: the equations of a scene that does not switch, for an importer that integrates.
+//! Model exchange: the equations of a scene that does not switch, for an importer that integrates. In co-simulation
+//! they follow the lock-step, for states and derivatives at the communication points.
 //!
-//! The states are q, v, the speeds of rotors with a lag, and those of continuous blocks. Quaternions are four states
-//! with q̇ = ½ q ω; whatever their length, the pose is that of the unit quaternion. At a tick, which is an event in
-//! time where anything is sampled, the diagram measures, commands are latched and memory is updated, as in the
-//! lock-step.
+//! At a tick, which is an event in time where anything is sampled, the diagram measures, commands are latched and
+//! memory is updated, as in the lock-step.
 
 use sincro_blocks::program::Rate;
-use sincro_dynamics::coupled::{Coupled, CoupledSystem, NoCoupling};
-use sincro_dynamics::integrate::System;
-use sincro_dynamics::joint::JointKind;
-use sincro_dynamics::mechanism::Mechanism;
+use sincro_dynamics::coupled::{CoupledSystem, NoCoupling};
 use sincro_dynamics::signal::Signal;
-use sincro_dynamics::spatial::{Quat, Vec3};
 use sincro_dynamics::world::World;
-use sincro_scene::record::{Probe, Recorder, catalogue};
+use sincro_scene::record::{Entry, Probe, Recorder, catalogue};
 use sincro_sim::Loaded;
 use sincro_sim::controller::{Commands, Controller, Source};
 use sincro_sim::diagram_controller::DiagramController;
-use sincro_sim::run::{method_for, world_of};
+use sincro_sim::run::{LockStep, method_for, world_of};
 
+use super::derivatives::Duals;
+use super::equations::{Equations, Watch};
+use crate::tunable::{self, Tunable};
 use crate::variables::Catalogue;
 
 /// Times closer than this share of a base step are the same instant.
@@ -27,42 +25,45 @@ const SAME_INSTANT: f64 = 1e-9;
 /// The equations of a scene at one instant.
 #[derive(Debug)]
 pub(super) struct Exchange {
-    world: World,
-    mechanism: Mechanism<f64>,
-    control: Option<DiagramController<f64>>,
+    pub(super) world: World,
+    equations: Equations<f64>,
+    pub(super) control: Option<DiagramController<f64>>,
     commands: Vec<Signal>,
     /// Latched commands of the scene and of sampled blocks.
-    latched: Vec<f64>,
-    /// Quaternions: place in q, place of their angular velocity in v.
-    quaternions: Vec<(usize, usize)>,
-    /// Joints that are free: place in q, place in v. Their velocities are in their own axes.
-    free: Vec<(usize, usize)>,
+    pub(super) latched: Vec<f64>,
     recorder: Recorder,
-    /// Outputs that are means over a step in co-simulation, with their motors.
-    torques: Vec<(usize, usize)>,
+    /// Outputs, in their order.
+    pub(super) probes: Vec<Probe>,
     step: f64,
     /// The next tick whose event is due, if anything is sampled.
     next_tick: Option<u64>,
-    t: f64,
-    x: Vec<f64>,
-    y: Vec<f64>,
-    slope: Vec<f64>,
-    diagonal: Vec<f64>,
+    pub(super) t: f64,
+    pub(super) x: Vec<f64>,
     row: Vec<f64>,
+    /// The same equations on dual numbers, once derivatives were asked for.
+    pub(super) duals: Option<Box<Duals>>,
     is_evaluated: bool,
     is_observed: bool,
 }
 
 impl Exchange {
-    /// At the start; `commands` are the scene's, with inputs in their places.
+    /// At the start; `commands` are the scene's, with inputs in their places, `tuned` what was changed in the model.
     ///
     /// # Errors
     ///
-    /// A block gives what is not a number, or a recorded signal does not exist.
-    pub(super) fn new(loaded: &Loaded, catalogue_of: &Catalogue, commands: &[Signal]) -> Result<Self, String> {
+    /// A block gives what is not a number, a recorded signal does not exist, or a changed number is not allowed.
+    pub(super) fn new(
+        loaded: &Loaded,
+        catalogue_of: &Catalogue,
+        commands: &[Signal],
+        tuned: &[(Tunable, f64)],
+    ) -> Result<Self, String> {
         let model = &loaded.scene.model;
         let (method, _) = method_for(loaded);
         let mut world = world_of(&loaded.scene, &loaded.experiment, method, false);
+        for (what, value) in tuned {
+            tunable::set(&mut world, what, *value)?;
+        }
         let mut control = loaded.controller.as_ref().map(|c| DiagramController::<f64>::new(&c.wiring, model));
         if let Some(control) = &mut control {
             let found = control.evaluate(&mut world, 0, 0.0);
@@ -71,46 +72,53 @@ impl Exchange {
         let program = loaded.controller.as_ref().map(|c| c.wiring.program());
         let samples = program.is_some_and(|p| p.steps.iter().any(|step| matches!(step.rate, Rate::Sampled(_))));
         let changes = commands.iter().any(|signal| !matches!(signal, Signal::Constant(_)));
-        let mechanism = Mechanism::new((**model).clone(), true);
-        let z: Vec<f64> = control.as_ref().map_or(Vec::new(), |c| c.runner.state.continuous.clone());
-        let dim = mechanism.dim() + z.len();
-        let joints = &model.names().joints;
-        let quaternion = |kind: JointKind, q: usize, v: usize| match kind {
-            JointKind::Ball => Some((q, v)),
-            JointKind::Free => Some((q + 3, v)),
-            _ => None,
-        };
-        let quaternions = joints.iter().filter_map(|j| quaternion(j.kind, j.q_idx, j.v_idx)).collect();
-        let free = joints.iter().filter(|j| matches!(j.kind, JointKind::Free)).map(|j| (j.q_idx, j.v_idx)).collect();
         let entries =
             loaded.controller.as_ref().map(sincro_scene::diagram::ControlDiagram::entries).unwrap_or_default();
         let recorder = Recorder::new(&catalogue_of.recorded, model, &entries).map_err(|found| found.to_string())?;
-        let state = &world.state;
-        let x = [&state.q, &state.v, &state.rotors, &z].into_iter().flatten().copied().collect();
-        let latched = state.commands.clone();
+        let n_z = control.as_ref().map_or(0, |control| control.runner.state.continuous.len());
         let mut new = Self {
-            torques: torques(loaded, catalogue_of),
+            equations: Equations::new(world.model().clone(), &world.state, n_z),
+            latched: world.state.commands.clone(),
+            x: states(&world, control.as_ref()),
             world,
-            mechanism,
             control,
             commands: commands.to_vec(),
-            latched,
-            quaternions,
-            free,
             recorder,
+            probes: probes(loaded, catalogue_of, &entries),
             step: loaded.experiment.step,
             next_tick: (samples || changes).then_some(0),
             t: 0.0,
-            x,
-            y: vec![0.0; dim],
-            slope: vec![0.0; dim],
-            diagonal: vec![0.0; z.len()],
             row: Vec::new(),
+            duals: None,
             is_evaluated: false,
             is_observed: false,
         };
         new.latch(0.0);
         Ok(new)
+    }
+
+    /// Takes the state that a lock-step is in at a communication point, with the commands that act from there on.
+    pub(super) fn follow(&mut self, lockstep: &LockStep) {
+        self.world.state.clone_from(lockstep.state());
+        self.world.mark_changed();
+        self.control = lockstep.control().cloned();
+        self.commands.clone_from_slice(lockstep.signals_of_scene());
+        self.latched.copy_from_slice(&lockstep.state().commands);
+        self.t = lockstep.t();
+        self.x = states(&self.world, self.control.as_ref());
+        if let Some(control) = &mut self.control {
+            let next = control.next_time_event(self.t);
+            control.set_time_event(next);
+        }
+        self.forget_sampled();
+        self.latch(self.t);
+    }
+
+    /// Notes that samples have changed: dual numbers take them anew.
+    fn forget_sampled(&mut self) {
+        if let Some(duals) = &mut self.duals {
+            duals.is_current = false;
+        }
     }
 
     /// Commands of the scene and of the diagram at an instant.
@@ -160,22 +168,15 @@ impl Exchange {
 
     /// Puts the world where the states are.
     fn place(&mut self) {
-        let state = &mut self.world.state;
-        let (n_q, n_v) = (state.q.len(), state.v.len());
-        let (q, rest) = self.x.split_at(n_q);
-        let (v, rest) = rest.split_at(n_v);
-        let (rotors, z) = rest.split_at(state.rotors.len());
-        state.q.copy_from_slice(q);
-        state.v.copy_from_slice(v);
-        state.rotors.copy_from_slice(rotors);
-        for &(at, _) in &self.quaternions {
-            let unit = Quat::from_slice(&q[at..at + 4]).normalized();
-            unit.write(&mut state.q[at..at + 4]);
-        }
-        state.commands.copy_from_slice(&self.latched);
+        self.equations.place(&self.x, &self.latched);
+        let (state, placed) = (&mut self.world.state, &self.equations.state);
+        state.q.copy_from_slice(&placed.q);
+        state.v.copy_from_slice(&placed.v);
+        state.rotors.copy_from_slice(&placed.rotors);
+        state.commands.copy_from_slice(&placed.commands);
         self.world.mark_changed();
         if let Some(control) = &mut self.control {
-            control.runner.state.continuous.copy_from_slice(z);
+            control.runner.state.continuous.copy_from_slice(self.equations.diagram_states());
         }
     }
 
@@ -185,30 +186,20 @@ impl Exchange {
             return;
         }
         self.place();
-        self.mechanism.load(&self.world.state, &mut self.y);
-        self.mechanism.mark_locked();
-        let own = self.mechanism.dim();
-        let n_z = self.diagonal.len();
-        self.y[own..].copy_from_slice(&self.x[self.x.len() - n_z..]);
-        let (mechanism, diagonal) = (&mut self.mechanism, &mut self.diagonal[..]);
         match self.control.as_mut().filter(|control| control.is_continuous()) {
-            Some(system) => {
-                Coupled { mechanism, system, negated_jacobian_diagonal: diagonal }.slope(
-                    self.t,
-                    &self.y,
-                    &mut self.slope,
-                );
-            }
-            None => {
-                let mut none = NoCoupling;
-                Coupled { mechanism, system: &mut none, negated_jacobian_diagonal: diagonal }.slope(
-                    self.t,
-                    &self.y,
-                    &mut self.slope,
-                );
-            }
+            Some(system) => self.equations.evaluate(self.t, system),
+            None => self.equations.evaluate(self.t, &mut NoCoupling),
         }
         self.is_evaluated = true;
+    }
+
+    /// Evaluates the continuous blocks that nothing but outputs needs.
+    fn evaluate_signals(&mut self) {
+        let control = self.control.as_mut();
+        if control.is_some() && self.probes.iter().any(|probe| matches!(probe, Probe::Signal(_))) {
+            self.equations.evaluate(self.t, &mut Watch { control, probes: &[], values: &mut [] });
+            self.is_evaluated = false;
+        }
     }
 
     pub(super) fn derivatives(&mut self, out: &mut [f64]) -> Result<(), String> {
@@ -216,58 +207,25 @@ impl Exchange {
             return Err(format!("there are {} continuous states, not {}", self.x.len(), out.len()));
         }
         self.evaluate();
-        let (n_q, n_v) = (self.world.state.q.len(), self.world.state.v.len());
-        let own = self.mechanism.dim();
-        let (q, v) = (&self.x[..n_q], &self.x[n_q..n_q + n_v]);
-        let rotors = self.mechanism.layout().rotor_states();
-        if self.quaternions.is_empty() {
-            out[..n_q].copy_from_slice(v);
-        } else {
-            self.rates_of_coordinates(q, v, &mut out[..n_q]);
-        }
-        out[n_q..n_q + n_v].copy_from_slice(&self.slope[n_v..2 * n_v]);
-        let n_rotors = rotors.len();
-        out[n_q + n_v..n_q + n_v + n_rotors].copy_from_slice(&self.slope[rotors]);
-        out[n_q + n_v + n_rotors..].copy_from_slice(&self.slope[own..]);
+        self.equations.derivatives(&self.x, out);
         Ok(())
-    }
-
-    /// q̇ of a scene with quaternions.
-    fn rates_of_coordinates(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
-        for joint in &self.world.model().names().joints {
-            let (at, from) = (joint.q_idx, joint.v_idx);
-            if !matches!(joint.kind, JointKind::Ball | JointKind::Free) {
-                out[at..at + joint.n_v].copy_from_slice(&v[from..from + joint.n_v]);
-            }
-        }
-        for &(at, from) in &self.quaternions {
-            // q̇ = ½ q (0, ω), ω in the axes of the child
-            let ([w, x, y, z], [p, r, s]) =
-                ([q[at], q[at + 1], q[at + 2], q[at + 3]], [v[from], v[from + 1], v[from + 2]]);
-            out[at] = 0.5 * (-x * p - y * r - z * s);
-            out[at + 1] = 0.5 * (w * p + y * s - z * r);
-            out[at + 2] = 0.5 * (w * r - x * s + z * p);
-            out[at + 3] = 0.5 * (w * s + x * r - y * p);
-        }
-        for &(at, from) in &self.free {
-            let rotation = Quat::from_slice(&q[at + 3..at + 7]).normalized().matrix();
-            let velocity = rotation.mul_vec(Vec3([v[from + 3], v[from + 4], v[from + 5]]));
-            out[at..at + 3].copy_from_slice(&velocity.0);
-        }
     }
 
     /// Value of an output.
     pub(super) fn output(&mut self, k: usize) -> f64 {
         if !self.is_observed {
             self.evaluate();
-            self.world.state.commands.copy_from_slice(&self.mechanism.commands);
+            self.world.state.commands.copy_from_slice(&self.equations.mechanism.commands);
+            self.evaluate_signals();
             let seen = self.world.observe(self.t);
             let signals = self.control.as_ref().map_or(&[][..], DiagramController::signals);
             let row = self.recorder.row(&seen, signals, self.t, true);
             self.row.clear();
             self.row.extend_from_slice(row);
-            for &(output, motor) in &self.torques {
-                self.row[output + 1] = seen.motor_torque()[motor];
+            for (output, probe) in self.probes.iter().enumerate() {
+                if let Probe::MotorTorqueMean(motor) = *probe {
+                    self.row[output + 1] = seen.motor_torque()[motor];
+                }
             }
             self.is_observed = true;
         }
@@ -288,7 +246,7 @@ impl Exchange {
                 self.place();
                 if let Some(control) = &mut self.control {
                     // between ticks the world had the commands that continuous blocks give
-                    self.world.state.commands.copy_from_slice(&self.mechanism.commands);
+                    self.world.state.commands.copy_from_slice(&self.equations.mechanism.commands);
                     let found = control.evaluate(&mut self.world, tick, t);
                     found.map_err(|culprit| format!("block `{}` gave what is not a number", culprit.block))?;
                 }
@@ -308,16 +266,22 @@ impl Exchange {
             control.set_time_event(if of_diagram <= next { next } else { f64::INFINITY });
         }
         (self.is_evaluated, self.is_observed) = (false, false);
+        self.forget_sampled();
         Ok(next.is_finite().then_some(next))
     }
 }
 
-/// Outputs that are mean torques of motors in co-simulation: at one instant they are the torque now.
-fn torques(loaded: &Loaded, of: &Catalogue) -> Vec<(usize, usize)> {
-    let entries = catalogue(&loaded.scene.model);
-    let motor = |name: &str| match entries.iter().find(|entry| entry.name == name)?.probe {
-        Probe::MotorTorqueMean(motor) => Some(motor),
-        _ => None,
-    };
-    of.recorded.iter().enumerate().filter_map(|(k, name)| Some((k, motor(&name.value)?))).collect()
+/// Continuous states x of a world and its diagram.
+fn states(world: &World, control: Option<&DiagramController<f64>>) -> Vec<f64> {
+    let state = &world.state;
+    let z = control.map_or(&[][..], |control| &control.runner.state.continuous);
+    [&state.q[..], &state.v, &state.rotors, z].into_iter().flatten().copied().collect()
+}
+
+/// Outputs in their order. Mean torques of motors in co-simulation are, at one instant, the torques now.
+fn probes(loaded: &Loaded, of: &Catalogue, of_diagram: &[Entry]) -> Vec<Probe> {
+    let all = catalogue(&loaded.scene.model);
+    let probe = |name: &str| all.iter().chain(of_diagram).find(|entry| entry.name == name).map(|entry| entry.probe);
+    // float signals are of scripts, which no equations have
+    of.recorded.iter().enumerate().map(|(k, name)| probe(&name.value).unwrap_or(Probe::FloatSignal(k))).collect()
 }

@@ -4,6 +4,8 @@
 //! that its numbers are those of a run, to the bit. Inputs stand in place of constant commands of the scene and are
 //! latched at each base step. Outputs are computed when they are asked for, at most once an instant.
 
+mod derivatives;
+mod equations;
 mod exchange;
 mod state;
 
@@ -18,7 +20,7 @@ use sincro_sim::trace::Trace;
 use sincro_sim::{Extensions, Loaded, load_without_variants};
 
 use crate::manifest::Manifest;
-use crate::tunable;
+use crate::tunable::{self, Tunable};
 use crate::variables::{Catalogue, Role};
 use exchange::Exchange;
 pub use state::FmuState;
@@ -63,6 +65,10 @@ struct Run {
     ended: Option<String>,
     /// The equations, for model exchange.
     exchange: Option<Box<Exchange>>,
+    /// In co-simulation, the equations at the last communication point at which they were asked for.
+    followed: Option<Box<Exchange>>,
+    /// True if `followed` is at the present instant.
+    is_followed: bool,
 }
 
 /// Outcome of [`Instance::advance`], one base step.
@@ -185,6 +191,7 @@ impl Instance {
             (Role::Input(command), run) => {
                 if let Some(run) = run {
                     run.lockstep.hold_command(*command, value);
+                    run.is_followed = false;
                     if let Some(exchange) = &mut run.exchange {
                         exchange.hold_command(*command, value);
                     }
@@ -201,6 +208,7 @@ impl Instance {
                 let world = run.lockstep.world();
                 tunable::set(world, what, value).map_err(|why| format!("`{}`: {why}", variable.name))?;
                 run.is_observed = false;
+                (run.followed, run.is_followed) = (None, false);
             }
             (Role::Fixed(_), Some(_)) => {
                 return Err(format!("`{}` is a fixed parameter: set it before the simulation starts", variable.name));
@@ -231,10 +239,10 @@ impl Instance {
                 run.observe();
                 Ok(run.row[k + 1])
             }
-            Role::State(k) => Ok(self.exchange()?.states()[k]),
+            Role::State(k) => Ok(self.equations()?.states()[k]),
             Role::Derivative(k) => {
                 let mut all = vec![0.0; self.catalogue.n_states];
-                self.exchange()?.derivatives(&mut all)?;
+                self.equations()?.derivatives(&mut all)?;
                 Ok(all[k])
             }
             Role::Fixed(_) | Role::Tunable(..) | Role::Input(_) => Ok(self.values[vr as usize]),
@@ -336,10 +344,42 @@ impl Instance {
         self.begin()?;
         let run = self.run.as_mut().ok_or("the run has not begun")?;
         if run.exchange.is_none() {
-            let made = Exchange::new(&run.loaded, &self.catalogue, run.lockstep.signals_of_scene())?;
+            let made = Exchange::new(&run.loaded, &self.catalogue, run.lockstep.signals_of_scene(), &[])?;
             run.exchange = Some(Box::new(made));
         }
         run.exchange.as_deref_mut().ok_or_else(|| "there are no equations".into())
+    }
+
+    /// The equations at the present instant: those that the importer integrates, or those of the lock-step.
+    fn equations(&mut self) -> Result<&mut Exchange, String> {
+        if !self.has_states {
+            return Err("this FMU was exported without its equations: export it with --kind both".into());
+        }
+        self.begin()?;
+        let tuned: Vec<(Tunable, f64)> = match &self.run {
+            Some(run) if run.exchange.is_none() && run.followed.is_none() => self.tuned(&run.begun_with),
+            _ => Vec::new(),
+        };
+        let run = self.run.as_mut().ok_or("the run has not begun")?;
+        if run.exchange.is_none() && !run.is_followed {
+            if run.followed.is_none() {
+                let made = Exchange::new(&run.loaded, &self.catalogue, run.lockstep.signals_of_scene(), &tuned)?;
+                run.followed = Some(Box::new(made));
+            }
+            if let Some(followed) = &mut run.followed {
+                followed.follow(&run.lockstep);
+            }
+            run.is_followed = true;
+        }
+        run.exchange.as_deref_mut().or(run.followed.as_deref_mut()).ok_or_else(|| "there are no equations".into())
+    }
+
+    /// Tunable parameters that have changed since the run began.
+    fn tuned(&self, begun_with: &[f64]) -> Vec<(Tunable, f64)> {
+        let tunables =
+            self.catalogue.with_role(|role| if let Role::Tunable(_, what) = role { Some(what.clone()) } else { None });
+        let now = tunables.map(|(vr, _, what)| (vr as usize, what));
+        now.filter(|(k, _)| self.values[*k] != begun_with[*k]).map(|(k, what)| (what, self.values[k])).collect()
     }
 
     /// Sets the time `[s]` at which model exchange evaluates derivatives and outputs.
@@ -398,61 +438,6 @@ impl Instance {
         Ok(next.map(|t| t + self.start))
     }
 
-    /// Writes the derivatives of the unknowns (outputs, derivatives of states) in the direction `seed` of the knowns
-    /// (states, inputs) into `sensitivity`, by central differences. Both are given by value references; `seed[k]` is
-    /// the change of known k, `sensitivity[k]` that of unknown k, in their units. States and inputs keep their values.
-    ///
-    /// # Errors
-    ///
-    /// There is no variable of a reference, a known is neither a state nor an input, or a value cannot be computed.
-    ///
-    /// # Panics
-    ///
-    /// `sensitivity` is shorter than the unknowns.
-    pub fn directional_derivative(
-        &mut self,
-        (unknowns, knowns): (&[u32], &[u32]),
-        seed: &[f64],
-        sensitivity: &mut [f64],
-    ) -> Result<(), String> {
-        let before: Vec<f64> = knowns.iter().map(|vr| self.get(*vr)).collect::<Result<_, _>>()?;
-        let largest = seed.iter().zip(&before).fold(0.0, |l: f64, (s, x)| l.max(s.abs() / x.abs().max(1.0)));
-        if largest == 0.0 {
-            sensitivity.fill(0.0);
-            return Ok(());
-        }
-        let h = 6e-6 / largest;
-        let mut side = |sign: f64| -> Result<Vec<f64>, String> {
-            for ((vr, x), s) in knowns.iter().zip(&before).zip(seed) {
-                self.displace(*vr, x + sign * h * s)?;
-            }
-            unknowns.iter().map(|vr| self.get(*vr)).collect()
-        };
-        let (plus, minus) = (side(1.0), side(-1.0));
-        for (vr, x) in knowns.iter().zip(&before) {
-            self.displace(*vr, *x)?;
-        }
-        for (k, (plus, minus)) in plus?.iter().zip(&minus?).enumerate() {
-            sensitivity[k] = (plus - minus) / (2.0 * h);
-        }
-        Ok(())
-    }
-
-    /// Sets a state or an input.
-    fn displace(&mut self, vr: u32, value: f64) -> Result<(), String> {
-        let variable = self.catalogue.variables.get(vr as usize).ok_or_else(|| format!("there is no variable {vr}"))?;
-        match variable.role {
-            Role::State(k) => {
-                let exchange = self.exchange()?;
-                let mut x = exchange.states().to_vec();
-                x[k] = value;
-                exchange.set_states(&x)
-            }
-            Role::Input(_) => self.set(vr, value),
-            _ => Err(format!("`{}` is neither a state nor an input", variable.name)),
-        }
-    }
-
     /// Parameters that differ from what the FMU was exported with.
     fn changed_parameters(&self) -> Vec<Override> {
         let parameters = self.catalogue.with_role(|role| match role {
@@ -489,6 +474,8 @@ impl Run {
             n_told: 0,
             ended: None,
             exchange: None,
+            followed: None,
+            is_followed: false,
         };
         run.observe();
         Ok(run)
@@ -524,7 +511,7 @@ impl Run {
             return Step::Ended(reason.clone());
         }
         let advanced = self.lockstep.advance();
-        self.is_observed = false;
+        (self.is_observed, self.is_followed) = (false, false);
         let made = advanced.as_ref().map_or_else(Halt::is_after_step, |()| true);
         if made {
             self.lockstep.hash_into(&mut self.trace);

@@ -145,7 +145,7 @@ impl Run {
         self.lockstep.restore(&saved.snapshot);
         self.trace = saved.snapshot.trace;
         (self.is_observed, self.is_begun) = (false, true);
-        self.ended = None;
+        (self.followed, self.is_followed, self.ended) = (None, false, None);
         Ok(())
     }
 }
