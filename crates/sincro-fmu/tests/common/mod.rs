@@ -1,5 +1,8 @@
 //! FMUs that a C compiler makes from sources beside the tests, and the scene that they drive.
 
+// each test uses a part of it
+#![allow(dead_code)]
+
 use std::path::Path;
 use std::process::Command;
 
@@ -18,12 +21,18 @@ pub const SCENE: &str = "
     inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
 ";
 
-/// FMU of `NAME.c` with a model description.
+/// FMU of `NAME.c` beside the tests with a model description.
 pub fn compiled(name: &str, version: FmiVersion, description: &str) -> Vec<u8> {
+    compiled_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests"), name, version, description)
+}
+
+/// FMU of `NAME.c` in a folder with a model description.
+pub fn compiled_in(sources: &Path, name: &str, version: FmiVersion, description: &str) -> Vec<u8> {
     let folder = SceneFolder::new();
     let library = folder.join("fmu.so");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(format!("{name}.c"));
-    let status = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(source).status();
+    let source = sources.join(format!("{name}.c"));
+    let options = ["-shared", "-fPIC", "-ffp-contract=off", "-o"];
+    let status = Command::new("cc").args(options).arg(&library).arg(source).status();
     assert!(status.expect("there is a C compiler").success());
     let platform = Platform::here().expect("a platform that FMI names");
     let path = format!("binaries/{}/{name}.{}", platform.folder(version), platform.ending());
