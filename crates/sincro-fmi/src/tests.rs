@@ -417,7 +417,61 @@ fn model_exchange_gives_the_equations() {
         );
         assert_eq!(status, Status::Ok, "{}", last_message());
     }
-    assert!((sensitivity - 1.0_f64).abs() < 1e-9);
+    assert_eq!(sensitivity, 1.0);
+    // the transposed matrix of one entry is the same
+    let mut adjoint = 0.0;
+    // SAFETY: one unknown, one known
+    unsafe {
+        let (unknown, known) = (&raw const rate, &raw const velocity);
+        let status = fmi3GetAdjointDerivative(c, unknown, 1, known, 1, &raw const seed, 1, &raw mut adjoint, 1);
+        assert_eq!(status, Status::Ok, "{}", last_message());
+        assert_eq!(adjoint, 1.0);
+        let status = fmi3GetAdjointDerivative(c, unknown, 1, known, 1, &raw const seed, 2, &raw mut adjoint, 1);
+        assert_eq!(status, Status::Error);
+        let status = fmi3GetAdjointDerivative(c, unknown, 1, known, 1, null(), 1, &raw mut adjoint, 1);
+        assert_eq!(status, Status::Error);
+    }
+    fmi3FreeInstance(c);
+}
+
+#[test]
+fn derivatives_of_co_simulation_are_there_with_the_equations_alone() {
+    let derivative = |c: *mut c_void, unknown: u32, known: u32| {
+        let (seed, mut sensitivity) = (1.0, f64::NAN);
+        let (unknown, known) = (&raw const unknown, &raw const known);
+        // SAFETY: one unknown, one known
+        let status = unsafe {
+            fmi3GetDirectionalDerivative(c, unknown, 1, known, 1, &raw const seed, 1, &raw mut sensitivity, 1)
+        };
+        (status, sensitivity)
+    };
+    let fmu = Fmu::scene("acrobot", BOTH);
+    let c = fmu.started(&[]);
+    let of = |pick: fn(&sincro_fmu::variables::Role) -> bool| {
+        fmu.catalogue.with_role(|role| pick(role).then_some(())).map(|(vr, ..)| vr).next().unwrap()
+    };
+    use sincro_fmu::variables::Role;
+    let (rate, input) = (of(|role| matches!(role, Role::Derivative(2))), of(|role| matches!(role, Role::Input(_))));
+    let angle = of(|role| matches!(role, Role::State(1)));
+    let h = fmu.loaded.experiment.step;
+    let (status, at_start) = derivative(c, rate, input);
+    assert_eq!(status, Status::Ok, "{}", last_message());
+    for k in 0..20 {
+        assert_eq!(step(c, f64::from(k) * h, h).0, Status::Ok, "{}", last_message());
+    }
+    assert_ne!(get(c, angle), 0.0);
+    let (status, later) = derivative(c, rate, input);
+    assert_eq!(status, Status::Ok);
+    assert!(at_start != 0.0 && later != at_start, "{at_start} {later}");
+    fmi3FreeInstance(c);
+    // without the equations there is nothing to differentiate
+    let fmu = Fmu::scene("acrobot", CS);
+    let c = fmu.started(&[]);
+    assert_eq!(derivative(c, 0, 0).0, Status::Error);
+    let input = fmu.catalogue.with_role(|role| matches!(role, Role::Input(_)).then_some(())).next().unwrap().0;
+    let output = fmu.catalogue.with_role(|role| matches!(role, Role::Output(_)).then_some(())).next().unwrap().0;
+    assert_eq!(derivative(c, output, input).0, Status::Error);
+    assert!(last_message().contains("--kind both"), "{}", last_message());
     fmi3FreeInstance(c);
 }
 
