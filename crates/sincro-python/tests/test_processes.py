@@ -81,9 +81,9 @@ def test_worlds_of_a_task_step_in_a_forked_process():
     pytest.importorskip("gymnasium")
     import sincro.gym
 
-    envs = sincro.gym.make_vec("scenes/acrobot", 64, threads=2)
+    envs = sincro.gym.make_vec("scenes/acrobot", 256, threads=2)
     envs.reset(seed=1)
-    actions = np.ones(64, dtype=np.int64)
+    actions = np.ones(256, dtype=np.int64)
     envs.step(actions)
     reading, writing = os.pipe()
     child = os.fork()

@@ -170,6 +170,7 @@ impl NativeProgram {
         let mut outputs = vec![0.0; self.n_outputs * width];
         // a parameter has a value for each world: those of the first lanes
         let parameters = rows_of_parameters(program, 0, width);
+        let mut n_compared = 0;
         for round in 0..ROUNDS {
             let draw = |k: u64| {
                 let bits = splitmix64(round, k);
@@ -180,6 +181,7 @@ impl NativeProgram {
             if !self.evaluate(&inputs, &parameters, &mut outputs) {
                 continue;
             }
+            n_compared += 1;
             for lane in 0..width {
                 let of_lane: Vec<f64> = inputs.iter().skip(lane).step_by(width).copied().collect();
                 let wanted = program.evaluate(&of_lane, lane);
@@ -189,7 +191,7 @@ impl NativeProgram {
                 }
             }
         }
-        Ok(())
+        if n_compared == 0 { Err("what the compiler made refuses all inputs".to_owned()) } else { Ok(()) }
     }
 }
 

@@ -199,7 +199,7 @@ class SceneVectorEnv(VectorEnv):
 
     @property
     def compilation_refused(self) -> str | None:
-        """Why steps and formulas are not compiled by the system's C compiler; None if they are. The results are the same."""
+        """Reason for steps that are not compiled by the system's C compiler; None if they are. The results are the same."""
         return self._worlds.compilation_refused
 
     def reset(self, *, seed=None, options=None):

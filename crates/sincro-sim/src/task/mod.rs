@@ -37,7 +37,8 @@ use sincro_scene::diagnostic::Diagnostics;
 /// each; training takes thousands of steps.
 const WORTH_COMPILING: usize = 256;
 
-/// The same of worlds with a diagram, which are lock-steps else: it saves some microseconds a step of each.
+/// Number of worlds with a diagram from which a compilation pays: these are lock-steps else, and it saves some
+/// microseconds a step of each.
 const WORTH_COMPILING_A_DIAGRAM: usize = 16;
 
 /// Treatment of a world of a task whose episode has ended (autoreset mode of Gymnasium).
@@ -127,7 +128,11 @@ impl TaskWorlds {
         };
         let plan = Arc::new(plan);
         let width = if plan.lanes_refused().is_none() { sincro_math::lanes::width() } else { 1 };
-        let groups: Vec<Group> = (0..n).step_by(width).map(|first| Group::new(&plan, width.min(n - first))).collect();
+        let mut groups: Vec<Group> = (0..n / width).map(|_| Group::new(&plan, width)).collect();
+        // worlds that do not fill the lanes: lock-steps are shared out one by one
+        let rest = n % width;
+        let sizes = if plan.recursions_refused().is_some() { vec![1; rest] } else { vec![rest; usize::from(rest > 0)] };
+        groups.extend(sizes.into_iter().map(|n| Group::new(&plan, n)));
         let available = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { available } else { threads };
         let threads = Threads::new(&plan, threads.min(groups.len()), width);
@@ -159,8 +164,14 @@ impl TaskWorlds {
     ///
     /// If there is no such world.
     pub fn coordinates(&mut self, world: usize) -> Vec<f64> {
-        let width = self.groups[0].n_worlds();
-        self.groups[world / width].coordinates(&self.plan, world % width)
+        let mut first = 0;
+        for group in &mut self.groups {
+            if world < first + group.n_worlds() {
+                return group.coordinates(&self.plan, world - first);
+            }
+            first += group.n_worlds();
+        }
+        panic!("there is no world {world} among {}", self.n)
     }
 
     /// Begins new episodes in the worlds whose entry of `mask` is true, and writes their observations into
@@ -229,6 +240,9 @@ impl TaskWorlds {
 }
 
 fn compile_task(plan: &Plan, n: usize, compile: Compile) -> Result<(CompiledTask, StepsBy), Obstacle> {
+    if let Some(part) = plan.obstacle_to_programs() {
+        return Err(Obstacle::new(format!("there is {part}")));
+    }
     let worth = if plan.recursions_refused().is_none() { WORTH_COMPILING } else { WORTH_COMPILING_A_DIAGRAM };
     match compile {
         Compile::Never => Err(Obstacle::new("that is not wanted")),

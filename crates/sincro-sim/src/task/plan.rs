@@ -60,6 +60,14 @@ pub(super) fn unsigned_zero(x: f64) -> f64 {
     x + 0.0
 }
 
+/// Copies numbers without the signs of zeros.
+#[inline]
+pub(super) fn copy_unsigned(to: &mut [f64], from: &[f64]) {
+    for (to, x) in to.iter_mut().zip(from) {
+        *to = unsigned_zero(*x);
+    }
+}
+
 /// Coordinate or velocity that an episode starts with.
 #[derive(Clone, Copy, Debug)]
 enum StartAt {

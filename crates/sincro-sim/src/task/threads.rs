@@ -16,16 +16,32 @@ pub(super) struct Threads {
 /// Threads beyond the calling one.
 #[derive(Debug)]
 struct Pool {
-    pool: ThreadPool,
+    pool: Option<ThreadPool>,
     /// Process that they are part of: one that was forked from it has none of them.
     process: u32,
+}
+
+impl Pool {
+    /// The threads, in the process that has them.
+    fn threads(&self) -> Option<&ThreadPool> {
+        self.pool.as_ref().filter(|_| self.process == std::process::id())
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        if self.threads().is_none() {
+            // nobody is there to be told, and locks may be held for ever
+            core::mem::forget(self.pool.take());
+        }
+    }
 }
 
 impl Threads {
     /// `n` threads, for groups of up to `width` worlds. Where the system gives none, the calling thread does all.
     pub fn new(plan: &Plan, n: usize, width: usize) -> Self {
         let others = (n > 1).then(|| ThreadPoolBuilder::new().num_threads(n - 1).build().ok()).flatten();
-        let others = others.map(|pool| Pool { pool, process: std::process::id() });
+        let others = others.map(|pool| Pool { pool: Some(pool), process: std::process::id() });
         Self { scratches: (0..n.max(1)).map(|_| Scratch::new(plan, width)).collect(), others }
     }
 
@@ -37,7 +53,7 @@ impl Threads {
         mut share: impl FnMut(usize) -> T,
         work: impl Fn(&mut [Group], T, &mut Scratch) + Sync,
     ) {
-        let others = self.others.as_ref().filter(|others| others.process == std::process::id());
+        let others = self.others.as_ref().and_then(Pool::threads);
         let n = if others.is_some() { self.scratches.len() } else { 1 };
         let size = groups.len().div_ceil(n).max(1);
         let mut parts = groups.chunks_mut(size).zip(&mut self.scratches).map(|(groups, scratch)| {
@@ -45,7 +61,7 @@ impl Threads {
             (groups, part, scratch)
         });
         let Some((own_groups, own_part, own_scratch)) = parts.next() else { return };
-        let Some(Pool { pool, .. }) = others else { return work(own_groups, own_part, own_scratch) };
+        let Some(pool) = others else { return work(own_groups, own_part, own_scratch) };
         let work = &work;
         pool.in_place_scope(|scope| {
             for (groups, part, scratch) in parts {

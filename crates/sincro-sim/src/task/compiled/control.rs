@@ -31,8 +31,8 @@ pub(super) struct ControlPrograms {
     pub memory: Vec<f64>,
 }
 
-/// Number of actions after which a block has forgotten the start of the episode.
-const LATER: u64 = 1_237;
+/// Any action but the first of an episode: [`diagram::compile`] has seen that a block does the same at all of them.
+const LATER_ACTION: u64 = 1_237;
 
 impl ControlPrograms {
     /// Records the diagram of a task; none if there is none.
@@ -65,9 +65,23 @@ impl ControlPrograms {
         };
         let start = index(recording.evaluate(0)?);
         let (mut latch, mut evaluate) = (Vec::new(), Vec::new());
+        // blocks that are due together, and their programs; those of the first step know the start of the episode
+        let mut known: Vec<(Vec<bool>, usize, usize)> = Vec::new();
         for step in 0..n_steps {
-            latch.push(index(recording.latch(step)?));
-            evaluate.push(index(recording.evaluate(LATER * n_steps + step + 1)?));
+            let [now, after] = [step, step + 1].map(|step| recording.due(LATER_ACTION * n_steps + step));
+            let key = [now, after].concat();
+            let (latched, evaluated) = match known.iter().find(|(due, ..)| *due == key) {
+                Some((_, latched, evaluated)) if step > 1 => (*latched, *evaluated),
+                _ => {
+                    let latched = index(recording.latch(step)?);
+                    (latched, index(recording.evaluate(LATER_ACTION * n_steps + step + 1)?))
+                }
+            };
+            if step > 0 {
+                known.push((key, latched, evaluated));
+            }
+            latch.push(latched);
+            evaluate.push(evaluated);
         }
         Ok(Some(Self { programs, latch, evaluate, start, signals: compiled.signals, memory: compiled.memory }))
     }
@@ -107,6 +121,11 @@ impl Recording<'_> {
         runner
     }
 
+    /// For each block, true if it is evaluated at tick `tick`.
+    fn due(&self, tick: u64) -> Vec<bool> {
+        self.blocks.iter().map(|block| is_due(self.program.steps[block.step].rate, tick)).collect()
+    }
+
     /// Commands, then the memory after base step `step` of an action.
     fn latch(&self, step: u64) -> Result<Program, Obstacle> {
         self.worlds(|worlds, rows| {
@@ -127,7 +146,7 @@ impl Recording<'_> {
                 }
                 runner.state.memory
             };
-            let later = memory(LATER * self.plan.task.ticks + step);
+            let later = memory(LATER_ACTION * self.plan.task.ticks + step);
             if step > 0 {
                 return [commands, later].concat();
             }

@@ -1,7 +1,7 @@
 //! The actions of a task compiled for lanes: programs of commands, of the step, and of what the agent sees after it.
 //!
-//! Formulas whose functions are no arithmetic (`exp`, `hypot`, …) are evaluated world by world after the step; all
-//! others are part of the programs.
+//! Observations, reward and end whose functions are no arithmetic (`exp`, `hypot`, …) are evaluated world by world
+//! after the step; all other formulas are part of the programs, and a command of such functions keeps a task from them.
 
 mod control;
 mod rows;
@@ -121,11 +121,8 @@ impl Layout {
 }
 
 impl CompiledTask {
-    /// Compiles the actions of a task whose worlds lanes advance, but for a diagram.
+    /// Compiles the actions of a task: of worlds that lanes can advance, or could without their diagram.
     pub fn new(plan: &Plan) -> Result<(Self, StepsBy), Obstacle> {
-        if let Some(part) = plan.obstacle_to_programs() {
-            return Err(Obstacle::new(format!("there is {part}")));
-        }
         let (scene, method, layout) = (&plan.loaded.scene, plan.method, Layout::of(plan));
         let models = [&*scene.model];
         let after_state = layout.n_rows() - layout.acted();
@@ -153,7 +150,10 @@ impl CompiledTask {
             }
             // x − x is 0, or NaN where x is not finite
             let state = [worlds.coordinates(), worlds.velocities(), worlds.rotors()].concat();
-            let zeros: Vec<Recorded> = found.iter().chain(&state).map(|x| *x - *x).collect();
+            // a lock-step stops where any signal of the task is not finite
+            let n_signals = if plan.loaded.controller.is_some() { plan.probes.len() } else { 0 };
+            let all = found.iter().chain(&state).chain(&values[..n_signals]);
+            let zeros: Vec<Recorded> = all.map(|x| *x - *x).collect();
             let before = rows[layout.finite() - layout.acted()];
             found.insert(results::FINITE, before + sum(&zeros));
             if !(reward_is_compiled && end_is_compiled && other_observations.is_empty()) {

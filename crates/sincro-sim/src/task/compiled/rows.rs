@@ -3,14 +3,14 @@
 use sincro_dynamics::state::State;
 
 use super::{CompiledTask, Layout, results};
-use crate::task::plan::{Plan, unsigned_zero};
+use crate::task::plan::{Plan, copy_unsigned, unsigned_zero};
 
 /// Worlds of a bundle, one in each lane.
 #[derive(Debug)]
 pub(in super::super) struct Rows {
     layout: Layout,
     width: usize,
-    /// State, commands, actions, random numbers, number of actions, given actions: see [`Layout`].
+    /// All numbers of [`Layout`], in its order.
     rows: Vec<f64>,
 }
 
@@ -146,7 +146,7 @@ impl Rows {
         }
         scratch.saved.copy_from_slice(&self.rows);
         let done = self.advance(task, n_steps, scratch) && {
-            self.stop_time(is_over, scratch);
+            self.count_actions(is_over, scratch);
             self.judge(task, scratch)
         };
         if !done {
@@ -207,7 +207,7 @@ impl Rows {
 
     /// Counts the action of all worlds but those that `is_over`: these stay where they were.
     #[inline]
-    fn stop_time(&mut self, is_over: &[bool], scratch: &CompiledScratch) {
+    fn count_actions(&mut self, is_over: &[bool], scratch: &CompiledScratch) {
         let (layout, width) = (self.layout, self.width);
         let mut any_over = false;
         for (count, is_over) in self.row_mut(layout.count()).iter_mut().zip(is_over) {
@@ -228,13 +228,5 @@ impl Rows {
         let known = &self.rows[..self.layout.given() * self.width];
         task.judge.evaluate(known, &[], &mut scratch.results)
             && scratch.result(results::FINITE, self.width).iter().all(|x| *x == 0.0)
-    }
-}
-
-/// Copies numbers without the signs of zeros.
-#[inline]
-fn copy_unsigned(to: &mut [f64], from: &[f64]) {
-    for (to, x) in to.iter_mut().zip(from) {
-        *to = unsigned_zero(*x);
     }
 }

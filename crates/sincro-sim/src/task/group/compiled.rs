@@ -7,7 +7,7 @@ use sincro_dynamics::state::State;
 use super::{Buffers, Group, Scratch, Worlds};
 use crate::task::Autoreset;
 use crate::task::compiled::{CompiledTask, Rows, results};
-use crate::task::plan::{Formula, Plan, unsigned_zero};
+use crate::task::plan::{Formula, Plan, copy_unsigned, unsigned_zero};
 
 /// Worlds of a whole bundle whose actions are compiled.
 #[derive(Debug)]
@@ -90,7 +90,7 @@ impl Group {
         let Some(compiled) = &scratch.compiled else { return };
         let (n, first_signal) = (self.n_signals, results::OBSERVATIONS + plan.n_observations());
         for (i, x) in self.values[k * self.n_slots..][..n].iter_mut().enumerate() {
-            *x = compiled.result(first_signal + i, task.width())[k];
+            *x = unsigned_zero(compiled.result(first_signal + i, task.width())[k]);
         }
         self.see_actions(plan, task, k);
     }
@@ -269,7 +269,7 @@ impl Group {
         }
         for k in 0..task.width() {
             if self.is_finite[k] {
-                self.values[k * self.n_slots..][..n].copy_from_slice(&self.signals[k * n..(k + 1) * n]);
+                copy_unsigned(&mut self.values[k * self.n_slots..], &self.signals[k * n..(k + 1) * n]);
                 self.see_actions(plan, task, k);
             }
         }

@@ -5,7 +5,7 @@ mod compiled;
 use compiled::{CompiledScratch, CompiledWorlds};
 
 use super::lanes::LaneBundle;
-use super::plan::{Drawn, Plan, unsigned_zero};
+use super::plan::{Drawn, Plan, copy_unsigned, unsigned_zero};
 use super::single::SingleWorld;
 use super::{Autoreset, Step};
 
@@ -165,6 +165,9 @@ impl Group {
         observations: &mut [f64],
         scratch: &mut Scratch,
     ) {
+        if !mask.contains(&true) {
+            return;
+        }
         self.leave_rows(plan);
         for k in (0..self.n_worlds()).filter(|k| mask[*k]) {
             if let Some(seed) = seeds[k] {
@@ -333,7 +336,7 @@ impl Group {
                 continue;
             }
             let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots];
-            of_world[..n].copy_from_slice(&self.signals[k * n..(k + 1) * n]);
+            copy_unsigned(of_world, &self.signals[k * n..(k + 1) * n]);
             of_world[self.n_slots - n_parameters - 1] = self.episodes.actions[k] as f64 * period;
         }
     }
