@@ -150,7 +150,8 @@ fn words_of_other_programs_are_answered_with_the_right_ones() {
 /// Folders with an experiment below `folder`.
 fn experiments(folder: &Path, found: &mut Vec<PathBuf>) {
     for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir()) {
-        if path.join("experiment.toml").is_file() {
+        // the FMUs of that example are made by its script
+        if path.join("experiment.toml").is_file() && !path.ends_with("fmi/joint") {
             found.push(path.clone());
         }
         experiments(&path, found);
