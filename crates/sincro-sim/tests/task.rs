@@ -145,7 +145,7 @@ fn task_with_diagram() -> String {
         .replace("period = 0.05", "period = 0.04")
         .replace("f = \"/rail.command\"", "f = \"/rail/cart/hinge.command\", p = \"pid\", d = \"late\"")
         .replace("\"noise\", ", "\"noise\", \"p\", \"d\", ")
-        .replace("0.08 - abs(q)", "0.06 - abs(q)")
+        .replace("0.08 - abs(q)", "0.02 - abs(q)")
 }
 
 const DIAGRAM: &str = r#"
