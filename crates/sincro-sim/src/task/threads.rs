@@ -1,10 +1,18 @@
 //! Groups of worlds shared out to threads that stay from step to step: starting one takes as long as a step of hundreds
 //! of worlds.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
 
 use super::group::{Group, Scratch};
 use super::plan::Plan;
+
+/// Time for which threads stay awake after a step, since the next one comes soon, and the calling one for the others:
+/// to wake one takes as long as a step of thousands of small worlds.
+const AWAKE: Duration = Duration::from_micros(150);
 
 /// Threads and what each works with; the calling thread is the first.
 #[derive(Debug)]
@@ -19,12 +27,28 @@ struct Pool {
     pool: Option<ThreadPool>,
     /// Process that they are part of: one that was forked from it has none of them.
     process: u32,
+    /// Number of calls so far, which ends the waiting of threads for the next.
+    calls: Arc<AtomicU64>,
 }
 
 impl Pool {
     /// The threads, in the process that has them.
     fn threads(&self) -> Option<&ThreadPool> {
         self.pool.as_ref().filter(|_| self.process == std::process::id())
+    }
+
+    /// Keeps `n` threads awake until the next call comes, or for a short time.
+    fn stay_awake(&self, pool: &ThreadPool, n: usize) {
+        let call = self.calls.load(Ordering::Relaxed);
+        for _ in 0..n {
+            let calls = Arc::clone(&self.calls);
+            pool.spawn(move || {
+                let start = Instant::now();
+                while calls.load(Ordering::Relaxed) == call && start.elapsed() < AWAKE {
+                    core::hint::spin_loop();
+                }
+            });
+        }
     }
 }
 
@@ -41,7 +65,7 @@ impl Threads {
     /// `n` threads, for groups of up to `width` worlds. Where the system gives none, the calling thread does all.
     pub fn new(plan: &Plan, n: usize, width: usize) -> Self {
         let others = (n > 1).then(|| ThreadPoolBuilder::new().num_threads(n - 1).build().ok()).flatten();
-        let others = others.map(|pool| Pool { pool: Some(pool), process: std::process::id() });
+        let others = others.map(|pool| Pool { pool: Some(pool), process: std::process::id(), calls: Arc::default() });
         Self { scratches: (0..n.max(1)).map(|_| Scratch::new(plan, width)).collect(), others }
     }
 
@@ -53,7 +77,7 @@ impl Threads {
         mut share: impl FnMut(usize) -> T,
         work: impl Fn(&mut [Group], T, &mut Scratch) + Sync,
     ) {
-        let others = self.others.as_ref().and_then(Pool::threads);
+        let others = self.others.as_ref().and_then(|others| Some((others, others.threads()?)));
         let n = if others.is_some() { self.scratches.len() } else { 1 };
         let size = groups.len().div_ceil(n).max(1);
         let mut parts = groups.chunks_mut(size).zip(&mut self.scratches).map(|(groups, scratch)| {
@@ -61,13 +85,25 @@ impl Threads {
             (groups, part, scratch)
         });
         let Some((own_groups, own_part, own_scratch)) = parts.next() else { return };
-        let Some(pool) = others else { return work(own_groups, own_part, own_scratch) };
-        let work = &work;
+        let Some((others, pool)) = others else { return work(own_groups, own_part, own_scratch) };
+        others.calls.fetch_add(1, Ordering::Relaxed);
+        let (work, n_done) = (&work, &AtomicU64::new(0));
         pool.in_place_scope(|scope| {
+            let mut n_given = 0;
             for (groups, part, scratch) in parts {
-                scope.spawn(move |_| work(groups, part, scratch));
+                n_given += 1;
+                scope.spawn(move |_| {
+                    work(groups, part, scratch);
+                    n_done.fetch_add(1, Ordering::Relaxed);
+                });
             }
             work(own_groups, own_part, own_scratch);
+            // the scope itself waits for all of them, asleep
+            let start = Instant::now();
+            while n_done.load(Ordering::Relaxed) < n_given && start.elapsed() < AWAKE {
+                core::hint::spin_loop();
+            }
         });
+        others.stay_awake(pool, n - 1);
     }
 }
