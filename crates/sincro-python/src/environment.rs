@@ -181,7 +181,7 @@ impl Worlds {
             Err(_) => actions.as_array().iter().copied().collect(),
         };
         // x − x is 0, or NaN where x is not finite
-        if given.iter().map(|x| x - x).sum::<f64>() != 0.0 {
+        if given.iter().map(|x| x + -x).sum::<f64>() != 0.0 {
             let k = given.iter().position(|x| !x.is_finite()).unwrap_or_default();
             let (world, action) = (k / self.n_actions, k % self.n_actions);
             let words = format!("action {action} of world {world} is {}, not a finite number", given[k]);

@@ -163,7 +163,7 @@ fn not<R: Real>(condition: R) -> R {
 pub(super) fn choose<R: Real>(condition: R, then: R, otherwise: R) -> R {
     let is_false = logical(condition, R::zero(), equal(condition, R::zero()));
     // 0 or NaN: taking it away changes no bit of a number
-    let poison = is_false - is_false;
+    let poison = is_false + -is_false;
     is_false.if_less(R::splat(0.5), then, otherwise) - poison
 }
 
@@ -249,7 +249,8 @@ mod tests {
 
     #[test]
     fn comparisons_without_branches_have_the_values_of_branches() {
-        let branches: [(Binary, fn(f64, f64) -> bool); 8] = [
+        type Holds = fn(f64, f64) -> bool;
+        let branches: [(Binary, Holds); 8] = [
             (Binary::Less, |a, b| a < b),
             (Binary::LessEqual, |a, b| a <= b),
             (Binary::Greater, |a, b| a > b),

@@ -176,7 +176,7 @@ impl Recording<'_> {
             }
             let signals = runner.state.signals;
             // x − x is 0, or NaN where x is not finite
-            let zeros: Vec<Recorded> = signals.iter().map(|x| *x - *x).collect();
+            let zeros: Vec<Recorded> = signals.iter().map(|x| *x + -*x).collect();
             let before = rows[self.layout.finite() - self.layout.acted()];
             [vec![before + super::sum(&zeros)], signals].concat()
         })?;

@@ -153,7 +153,7 @@ impl CompiledTask {
             // a lock-step stops where any signal of the task is not finite
             let n_signals = if plan.loaded.controller.is_some() { plan.probes.len() } else { 0 };
             let all = found.iter().chain(&state).chain(&values[..n_signals]);
-            let zeros: Vec<Recorded> = all.map(|x| *x - *x).collect();
+            let zeros: Vec<Recorded> = all.map(|x| *x + -*x).collect();
             let before = rows[layout.finite() - layout.acted()];
             found.insert(results::FINITE, before + sum(&zeros));
             if !(reward_is_compiled && end_is_compiled && other_observations.is_empty()) {
