@@ -426,13 +426,10 @@ impl Component {
         sensitivity: &mut [f64],
         call: &str,
     ) -> Status {
-        if let Err(status) = self.require(call, &Self::WITH_DERIVATIVES) {
-            return status;
-        }
-        let result = self.instance.directional_derivative((unknowns, knowns), seed, sensitivity);
-        self.finish(result.map_err(|why| format!("{call}: {why}")))
+        self.differentiate(call, |instance| instance.directional_derivative((unknowns, knowns), seed, sensitivity))
     }
 
+    /// As [`Component::directional_derivative`], of the transposed matrix.
     pub(crate) fn adjoint_derivative(
         &mut self,
         unknowns: &[u32],
@@ -441,10 +438,14 @@ impl Component {
         sensitivity: &mut [f64],
         call: &str,
     ) -> Status {
+        self.differentiate(call, |instance| instance.adjoint_derivative((unknowns, knowns), seed, sensitivity))
+    }
+
+    fn differentiate(&mut self, call: &str, act: impl FnOnce(&mut Instance) -> Result<(), String>) -> Status {
         if let Err(status) = self.require(call, &Self::WITH_DERIVATIVES) {
             return status;
         }
-        let result = self.instance.adjoint_derivative((unknowns, knowns), seed, sensitivity);
+        let result = act(&mut self.instance);
         self.finish(result.map_err(|why| format!("{call}: {why}")))
     }
 
