@@ -12,7 +12,7 @@ use sincro_math::record::{Program, Recorded};
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{View, of_state};
 
-use super::Layout;
+use super::{Layout, zero_if_finite};
 use crate::task::plan::Plan;
 
 /// Programs of a diagram whose blocks run at ticks.
@@ -175,10 +175,8 @@ impl Recording<'_> {
                 runner.evaluate_step(block.step, tick, t);
             }
             let signals = runner.state.signals;
-            // x − x is 0, or NaN where x is not finite
-            let zeros: Vec<Recorded> = signals.iter().map(|x| *x + -*x).collect();
-            let before = rows[self.layout.finite() - self.layout.acted()];
-            [vec![before + super::sum(&zeros)], signals].concat()
+            let finite = rows[self.layout.finite() - self.layout.acted()] + zero_if_finite(signals.iter());
+            [vec![finite], signals].concat()
         })?;
         if unknown {
             return Err(Obstacle::new("a measurement is not a function of the state alone"));

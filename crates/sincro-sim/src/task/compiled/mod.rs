@@ -148,14 +148,12 @@ impl CompiledTask {
             for (i, formula) in plan.observations.iter().enumerate() {
                 found.push(value(Some(formula), !other_observations.contains(&i)));
             }
-            // x − x is 0, or NaN where x is not finite
             let state = [worlds.coordinates(), worlds.velocities(), worlds.rotors()].concat();
             // a lock-step stops where any signal of the task is not finite
             let n_signals = if plan.loaded.controller.is_some() { plan.probes.len() } else { 0 };
             let all = found.iter().chain(&state).chain(&values[..n_signals]);
-            let zeros: Vec<Recorded> = all.map(|x| *x + -*x).collect();
-            let before = rows[layout.finite() - layout.acted()];
-            found.insert(results::FINITE, before + sum(&zeros));
+            let finite = rows[layout.finite() - layout.acted()] + zero_if_finite(all);
+            found.insert(results::FINITE, finite);
             if !(reward_is_compiled && end_is_compiled && other_observations.is_empty()) {
                 found.extend(&values[..plan.probes.len()]);
             }
@@ -192,6 +190,12 @@ impl CompiledTask {
     pub fn has_others(&self) -> bool {
         !(self.reward_is_compiled && self.end_is_compiled && self.other_observations.is_empty())
     }
+}
+
+/// 0 where all numbers are finite, else NaN.
+fn zero_if_finite<'a>(numbers: impl Iterator<Item = &'a Recorded>) -> Recorded {
+    // x − x is 0, or NaN where x is not finite
+    sum(&numbers.map(|x| *x + -*x).collect::<Vec<_>>())
 }
 
 /// Sum of numbers, by halves: no addition waits for all before it.

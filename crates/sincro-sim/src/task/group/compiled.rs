@@ -256,17 +256,10 @@ impl Group {
                 }
             }
         }
-        match &mut self.worlds {
-            Worlds::Lanes(bundle) => {
-                bundle.set_commands(plan, &self.commands);
-                bundle.observe(plan, &mut self.signals, &mut self.is_finite);
-            }
-            Worlds::Single(worlds) => {
-                for (k, world) in worlds.iter_mut().enumerate() {
-                    self.is_finite[k] = world.observe(&mut self.signals[k * n..(k + 1) * n]);
-                }
-            }
+        if let Worlds::Lanes(bundle) = &mut self.worlds {
+            bundle.set_commands(plan, &self.commands);
         }
+        self.observe(plan);
         for k in 0..task.width() {
             if self.is_finite[k] {
                 copy_unsigned(&mut self.values[k * self.n_slots..], &self.signals[k * n..(k + 1) * n]);

@@ -318,8 +318,8 @@ impl Group {
         self.commands[k * n..(k + 1) * n].copy_from_slice(&drawn.state.commands);
     }
 
-    /// Reads the signals of all worlds.
-    fn look(&mut self, plan: &Plan) {
+    /// Reads the signals of all worlds, and if each can go on.
+    fn observe(&mut self, plan: &Plan) {
         let n = self.n_signals;
         match &mut self.worlds {
             Worlds::Lanes(bundle) => bundle.observe(plan, &mut self.signals, &mut self.is_finite),
@@ -329,6 +329,12 @@ impl Group {
                 }
             }
         }
+    }
+
+    /// Reads the signals of all worlds for the formulas.
+    fn look(&mut self, plan: &Plan) {
+        self.observe(plan);
+        let n = self.n_signals;
         let (period, n_parameters) = (plan.period(), plan.task.parameters.len());
         for k in 0..self.n_worlds() {
             // after its end a world shows what it ended with, and one that cannot go on its last good signals
