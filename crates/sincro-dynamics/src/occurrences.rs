@@ -1,8 +1,9 @@
 //! Count of what a run reports once, with the time of the first.
 
 /// Number of occurrences in a run, from
-/// [`World::passed_singularities`](crate::world::World::passed_singularities) and
-/// [`World::ambiguous_events`](crate::world::World::ambiguous_events).
+/// [`World::passed_singularities`](crate::world::World::passed_singularities),
+/// [`World::ambiguous_events`](crate::world::World::ambiguous_events) and
+/// [`World::chattering_steps`](crate::world::World::chattering_steps).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Occurrences {
     /// Number of occurrences.

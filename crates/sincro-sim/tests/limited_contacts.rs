@@ -396,3 +396,58 @@ fn robots_on_wheels_keep_the_laws_or_say_where_they_do_not() {
     }
     assert!(not_exact <= 1 + draws / 10, "{not_exact} of {draws} draws");
 }
+
+/// A robot on two wheels and a castor, all commanded to spin up at once: in the first step the motors and the rims of
+/// the wheels, which share a load, change each other's modes dozens of times, and a finer run does so more often still.
+#[test]
+fn drives_and_contacts_that_change_each_other_without_end_are_warned_of() {
+    let wheel = |k: usize, mass: f64, torque: f64, speed: f64| {
+        let (lateral, inertia) = (0.3 * k as f64 - 0.15, mass * 0.04 / 12.0);
+        format!(
+            r#"
+            [[joint]]
+            name = "w{k}"
+            parent = "/base/robot"
+            kind = "revolute"
+            axis = [0, 1, 0]
+            position = [0.08, {lateral}, 0]
+            motor = {{ mode = "velocity", max_torque = {torque}, command = {speed} }}
+            [[body]]
+            name = "wheel"
+            parent = "/base/robot/w{k}"
+            mass = {mass}
+            inertia = {{ xx = {inertia}, yy = {}, zz = {} }}
+            shape = [{{ cylinder = {{ radius = 0.1, length = 0.03 }}, rotation_deg = [90, 0, 0] }}]
+            contact = {{ friction = 1.2 }}
+            "#,
+            1.2 * inertia,
+            0.9 * inertia
+        )
+    };
+    let chassis = r#"
+        [[body]]
+        name = "floor"
+        shape = [{ plane = {} }]
+        contact = { friction = 1.2 }
+        [[joint]]
+        name = "base"
+        kind = "free"
+        initial = { position = [0, 0, 0.1, 1, 0, 0, 0] }
+        [[body]]
+        name = "robot"
+        parent = "/base"
+        mass = 3.36842
+        inertia = { xx = 0.0252631, yy = 0.0303157, zz = 0.0227368 }
+        shape = [{ sphere = { radius = 0.05 }, position = [-0.1, 0, -0.05] }]
+        contact = { friction = 0.0 }
+        center_of_mass = [-0.02, 0, 0.0269]
+    "#;
+    let warnings = |speeds: [f64; 2]| {
+        let wheels = wheel(0, 0.49184, 23.0486, speeds[0]) + &wheel(1, 0.40124, 37.2088, speeds[1]);
+        campaign(&format!("{chassis}{wheels}"), 0.05).main.simulated.warnings
+    };
+    let told =
+        |warnings: Vec<String>| warnings.iter().any(|words| words.contains("changed their modes more than 20 times"));
+    assert!(told(warnings([-5.4766, 6.7363])));
+    assert!(!told(warnings([0.0, 0.0])));
+}

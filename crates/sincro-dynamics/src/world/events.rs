@@ -195,7 +195,8 @@ impl World {
         self.mechanism.set_locating(true);
         let at = self.narrow(t, (bad, resolution), crossing, control, system);
         self.mechanism.set_locating(false);
-        let at = at?;
+        let (at, crossing) = at?;
+        self.mode_changes += u32::from(!matches!(crossing, Crossing::Contact(ContactEvent::Closing(_))));
         self.repeat_step(t, at, control, system)?;
         // beyond the event the modes of the sub-step may fit no forces; those after it are found below
         let report = self.solver_report();
@@ -220,7 +221,8 @@ impl World {
         Ok(t + at)
     }
 
-    /// Time after `t` of the first zero crossing, known to have happened at `bad`, to a `resolution` `[s]`.
+    /// Time after `t` of the first zero crossing, known to have happened at `bad`, to a `resolution` `[s]`, and which
+    /// one it is.
     fn narrow(
         &mut self,
         t: f64,
@@ -228,7 +230,7 @@ impl World {
         mut crossing: Crossing,
         control: Option<Control>,
         system: &mut dyn CoupledSystem<f64>,
-    ) -> Result<f64, (f64, Stop)> {
+    ) -> Result<(f64, Crossing), (f64, Stop)> {
         let after = self.crossing_value(crossing);
         self.restore();
         self.evaluate_held(t, system);
@@ -240,7 +242,7 @@ impl World {
             let has_happened = self.find_crossings(t + at, system).is_some();
             let unlocated = if has_happened { self.unlocated_crossing() } else { None };
             if has_happened && unlocated.is_none() {
-                return Ok(at);
+                return Ok((at, crossing));
             }
             // another one has happened before it
             let other = unlocated.filter(|_| !self.crossings.contains(&crossing));
@@ -251,6 +253,6 @@ impl World {
                 bracket.forget(value);
             }
         }
-        Ok(bracket.after())
+        Ok((bracket.after(), crossing))
     }
 }

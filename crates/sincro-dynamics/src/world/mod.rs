@@ -46,6 +46,9 @@ use switching::NO_KINK;
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
 
+/// Number of changes of modes in a step above which they are called chatter.
+const CHATTER: u32 = 20;
+
 /// Rows of the extrapolation of the stiff method: it has order 8 at most.
 const STIFF_ROWS: usize = 6;
 
@@ -199,6 +202,10 @@ pub struct World {
     statistics: StepStatistics,
     /// Events after which several sets of modes keep all laws.
     ambiguous_events: Occurrences,
+    /// Changes of modes in the present step: events but for closing contacts, whose bounces may follow each other ever
+    /// faster and come to rest.
+    mode_changes: u32,
+    chattering_steps: Occurrences,
     /// Tick at whose end the laws hold; none after a change from outside.
     settled_at: Option<u64>,
 }
@@ -286,6 +293,8 @@ impl World {
             accelerations,
             statistics: StepStatistics::default(),
             ambiguous_events: Occurrences::default(),
+            mode_changes: 0,
+            chattering_steps: Occurrences::default(),
             settled_at: None,
         }
     }
@@ -321,6 +330,14 @@ impl World {
     #[must_use]
     pub fn ambiguous_events(&self) -> Occurrences {
         self.ambiguous_events
+    }
+
+    /// Steps since the world was made in which drives and contacts changed their modes more than 20 times, contacts
+    /// that close not counted: what follows hangs on how each of them was decided, and a finer run need not come
+    /// closer. Not part of the state; semi-implicit Euler decides modes once a step.
+    #[must_use]
+    pub fn chattering_steps(&self) -> Occurrences {
+        self.chattering_steps
     }
 
     /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`]; empty before.
@@ -472,7 +489,12 @@ impl World {
             (0..self.substeps).try_for_each(|k| self.velocity_level_step(t + f64::from(k) * h, h, system))
         } else {
             self.start_tick(t, h, system);
-            self.sub_steps(t, h, system)
+            self.mode_changes = 0;
+            let reached = self.sub_steps(t, h, system);
+            if self.mode_changes > CHATTER {
+                self.chattering_steps.note(t);
+            }
+            reached
         };
         self.mechanism.store(&self.y, &mut self.state);
         if system.acts() {
