@@ -152,6 +152,11 @@ impl<const N: usize> Real for Dual<N> {
         task.run()
     }
 
+    #[inline(never)]
+    fn run_part<T: Task>(part: T) -> T::Output {
+        part.run()
+    }
+
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self::constant(x)

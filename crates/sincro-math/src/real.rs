@@ -101,6 +101,14 @@ pub trait Real:
         task.run()
     }
 
+    /// Runs a part of a task, such as one kind of joint in a pass over the links, and returns its result: inlined into
+    /// the task, but for numbers whose operations are so many instructions that the task would become one function too
+    /// large to be compiled fast.
+    #[inline(always)]
+    fn run_part<T: Task>(part: T) -> T::Output {
+        part.run()
+    }
+
     /// Number 0 in every lane, of any unit, without derivatives.
     #[inline(always)]
     fn zero() -> Self {
@@ -138,8 +146,8 @@ pub trait Real:
     }
 }
 
-/// Computation to be run by [`Real::run_hot`], such as a pass over the links of a model. Its `run` must be
-/// `#[inline(always)]`, and so must everything that it calls.
+/// Computation to be run by [`Real::run_hot`], such as a pass over the links of a model, or by [`Real::run_part`]. Its
+/// `run` must be `#[inline(always)]`, and so must everything that it calls.
 pub trait Task {
     /// Result of the computation.
     type Output;

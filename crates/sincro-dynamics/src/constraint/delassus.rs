@@ -301,6 +301,7 @@ struct Up<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Up<'_, R> {
+    type Number = R;
     type Output = ();
     #[inline(always)]
     fn visit<S: Stage>(self) {
@@ -331,6 +332,7 @@ struct Down<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Down<'_, R> {
+    type Number = R;
     type Output = ();
     #[inline(always)]
     fn visit<S: Stage>(self) {

@@ -213,6 +213,7 @@ struct UnitColumn<'a, R> {
 }
 
 impl<R: Real> StageVisitor for UnitColumn<'_, R> {
+    type Number = R;
     type Output = Motion<R>;
     #[inline(always)]
     fn visit<S: Stage>(self) -> Motion<R> {

@@ -18,7 +18,9 @@ mod prismatic;
 mod revolute;
 mod screw;
 
-use sincro_math::Real;
+use core::marker::PhantomData;
+
+use sincro_math::{Real, Task};
 
 pub(crate) use crate::contact::WORLD;
 pub(crate) use ball::Ball;
@@ -181,6 +183,8 @@ pub(crate) trait Stage {
 
 /// A computation that is compiled once for each kind of stage.
 pub(crate) trait StageVisitor {
+    /// Numbers computed with.
+    type Number: Real;
     /// Result type.
     type Output;
 
@@ -188,18 +192,30 @@ pub(crate) trait StageVisitor {
     fn visit<S: Stage>(self) -> Self::Output;
 }
 
+/// A visitor of the stage type `S`, as a part of a task.
+struct Visit<V, S>(V, PhantomData<S>);
+
+impl<V: StageVisitor, S: Stage> Task for Visit<V, S> {
+    type Output = V::Output;
+
+    #[inline(always)]
+    fn run(self) -> V::Output {
+        self.0.visit::<S>()
+    }
+}
+
 impl StageKind {
     /// Runs `visitor` for this kind.
     #[inline(always)]
     pub(crate) fn dispatch<V: StageVisitor>(self, visitor: V) -> V::Output {
         match self {
-            Self::RevoluteX => visitor.visit::<Revolute<0>>(),
-            Self::RevoluteY => visitor.visit::<Revolute<1>>(),
-            Self::RevoluteZ => visitor.visit::<Revolute<2>>(),
-            Self::Prismatic => visitor.visit::<Prismatic>(),
-            Self::Screw => visitor.visit::<Screw>(),
-            Self::Ball => visitor.visit::<Ball>(),
-            Self::Free => visitor.visit::<Free>(),
+            Self::RevoluteX => V::Number::run_part(Visit::<V, Revolute<0>>(visitor, PhantomData)),
+            Self::RevoluteY => V::Number::run_part(Visit::<V, Revolute<1>>(visitor, PhantomData)),
+            Self::RevoluteZ => V::Number::run_part(Visit::<V, Revolute<2>>(visitor, PhantomData)),
+            Self::Prismatic => V::Number::run_part(Visit::<V, Prismatic>(visitor, PhantomData)),
+            Self::Screw => V::Number::run_part(Visit::<V, Screw>(visitor, PhantomData)),
+            Self::Ball => V::Number::run_part(Visit::<V, Ball>(visitor, PhantomData)),
+            Self::Free => V::Number::run_part(Visit::<V, Free>(visitor, PhantomData)),
         }
     }
 

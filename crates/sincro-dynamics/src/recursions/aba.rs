@@ -128,6 +128,7 @@ struct Velocity<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Velocity<'_, R> {
+    type Number = R;
     type Output = ();
 
     #[inline(always)]
@@ -185,6 +186,7 @@ struct Inertia<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Inertia<'_, R> {
+    type Number = R;
     type Output = ();
 
     #[inline(always)]
@@ -300,6 +302,7 @@ struct Acceleration<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Acceleration<'_, R> {
+    type Number = R;
     type Output = ();
 
     #[inline(always)]

@@ -81,6 +81,7 @@ struct RigidToParent<'a, R> {
 }
 
 impl<R: Real> StageVisitor for RigidToParent<'_, R> {
+    type Number = R;
     type Output = RigidInertia<R>;
     fn visit<S: Stage>(self) -> Self::Output {
         self.link.rigid_to_parent::<S>(self.at, self.inertia)
@@ -94,6 +95,7 @@ struct Column<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Column<'_, R> {
+    type Number = R;
     type Output = Force<R>;
     fn visit<S: Stage>(self) -> Self::Output {
         let rate = self.link.signed::<S>(R::one());
@@ -108,6 +110,7 @@ struct Project<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Project<'_, R> {
+    type Number = R;
     type Output = R;
     fn visit<S: Stage>(self) -> R {
         self.link.signed::<S>(S::project(self.link, self.j, self.force))
@@ -121,6 +124,7 @@ struct ForceToParent<'a, R> {
 }
 
 impl<R: Real> StageVisitor for ForceToParent<'_, R> {
+    type Number = R;
     type Output = Force<R>;
     fn visit<S: Stage>(self) -> Force<R> {
         self.link.force_to_parent::<S>(self.at, self.force)

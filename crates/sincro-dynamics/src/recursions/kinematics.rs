@@ -23,6 +23,7 @@ struct Place<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Place<'_, R> {
+    type Number = R;
     type Output = ();
     #[inline(always)]
     fn visit<S: Stage>(self) {
@@ -50,6 +51,7 @@ struct PoseInParent<'a, R> {
 }
 
 impl<R: Real> StageVisitor for PoseInParent<'_, R> {
+    type Number = R;
     type Output = Pose<R>;
     #[inline(always)]
     fn visit<S: Stage>(self) -> Pose<R> {
@@ -124,6 +126,7 @@ struct Outward<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Outward<'_, R> {
+    type Number = R;
     type Output = ();
     #[inline(always)]
     fn visit<S: Stage>(self) {
@@ -213,6 +216,7 @@ struct UnitColumn<'a, R> {
 }
 
 impl<R: Real> StageVisitor for UnitColumn<'_, R> {
+    type Number = R;
     type Output = Motion<R>;
     fn visit<S: Stage>(self) -> Motion<R> {
         S::column(self.link, self.j, self.link.signed::<S>(R::one()))

@@ -96,6 +96,7 @@ struct Outward<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Outward<'_, R> {
+    type Number = R;
     type Output = ();
 
     #[inline(always)]
@@ -122,6 +123,7 @@ struct Inward<'a, R> {
 }
 
 impl<R: Real> StageVisitor for Inward<'_, R> {
+    type Number = R;
     type Output = ();
 
     #[inline(always)]
