@@ -260,13 +260,13 @@ pub(crate) fn whole_paths(
         let (head, keys) = path.split_once('.').map_or((path.as_str(), ""), |(head, _)| (head, &path[head.len()..]));
         let is_object = path.starts_with('/') || path.starts_with("**/");
         if head.contains('*') {
-            let anywhere = format!("**/{head}");
             let of_blocks = blocks.iter().filter(|name| !is_object && fits(head, name));
             let mut found: Vec<&String> = of_blocks.collect();
-            if found.is_empty() {
-                let is_meant = |path: &str| fits(head, path) || (!is_object && fits(&anywhere, path));
-                let of_objects = objects.iter().filter(|path| is_meant(path));
-                found = of_objects.filter(|path| scene.is_none_or(|scene| takes(scene, path, keys))).collect();
+            for pattern in [head.to_owned(), names::anywhere(head)] {
+                if found.is_empty() {
+                    let of_objects = objects.iter().filter(|path| fits(&pattern, path));
+                    found = of_objects.filter(|path| scene.is_none_or(|scene| takes(scene, path, keys))).collect();
+                }
             }
             if found.is_empty() {
                 let what = if is_object { "object" } else { "block or object" };

@@ -7,7 +7,9 @@
 //! | `/base/tip.position` | a vector: its components `.x`, `.y`, `.z` |
 //! | `/rotor*.speed` | all signals of that form; `*` stands for any characters within one name, `**` for any at all |
 //!
-//! A whole path always means itself. A short name that several objects share is refused, with all of them.
+//! A whole path always means itself, a pattern the objects of that form below `/`, and only if there are none those
+//! deeper down: `/rotor*` may stand for `/air/quadrotor/rotor1` and its siblings. A short name that several objects
+//! share is refused, with all of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -59,6 +61,11 @@ pub(crate) fn fits(pattern: &str, name: &str) -> bool {
     let stops = tail.char_indices().find(|(_, c)| !is_any && matches!(c, '/' | '.')).map_or(tail.len(), |(k, _)| k);
     let mut ends = tail.char_indices().map(|(k, _)| k).chain([tail.len()]).take_while(|end| *end <= stops);
     ends.any(|end| fits(rest, &tail[end..]))
+}
+
+/// The pattern as a short name, whose objects may be anywhere; a leading `/` is not counted.
+pub(crate) fn anywhere(pattern: &str) -> String {
+    format!("**/{}", pattern.strip_prefix('/').unwrap_or(pattern))
 }
 
 /// Replaces short names of parents and other objects by whole paths. What is not found is left for the checks of the
@@ -205,15 +212,16 @@ fn meant<'a>(name: &str, known: &'a [String]) -> Meant<'a> {
         return Meant::These(vec![same]);
     }
     if name.contains('*') {
-        // without a `/` the objects may be anywhere
-        let anywhere = format!("**/{name}");
-        let is_meant = |k: &str| fits(name, k) || (!name.starts_with('/') && fits(&anywhere, k));
-        let mut found: Vec<&str> = known.iter().map(String::as_str).filter(|k| is_meant(k)).collect();
-        if found.is_empty() {
-            let of_vector = |k: &&str| k.rsplit_once('.').is_some_and(|(stem, _)| is_meant(stem));
-            found = known.iter().map(String::as_str).filter(of_vector).collect();
-        }
-        return Meant::These(found);
+        let of = |pattern: &str| -> Vec<&str> {
+            let whole: Vec<&str> = known.iter().map(String::as_str).filter(|k| fits(pattern, k)).collect();
+            if !whole.is_empty() {
+                return whole;
+            }
+            let of_vector = |k: &&str| k.rsplit_once('.').is_some_and(|(stem, _)| fits(pattern, stem));
+            known.iter().map(String::as_str).filter(of_vector).collect()
+        };
+        let whole = of(name);
+        return Meant::These(if whole.is_empty() { of(&anywhere(name)) } else { whole });
     }
     let whole = components(name, known);
     if !whole.is_empty() {
@@ -391,6 +399,20 @@ mod tests {
         assert!(fits("/rotor*.speed", "/rotor12.speed") && fits("/air/*/tip.*", "/air/arm/tip.x"));
         assert!(!fits("/rotor*.speed", "/rotor/hub.speed") && fits("/rotor**.speed", "/rotor/hub.speed"));
         assert!(fits("**/tip.x", "/a/b/tip.x") && !fits("/a*", "/b"));
+    }
+
+    #[test]
+    fn patterns_are_short_names_where_nothing_below_the_root_has_their_form() {
+        let known = ["/air/rotor1.speed", "/air/rotor2.speed", "/arm/tip.x", "/tip.x"].map(str::to_owned);
+        let found = |pattern: &str| match meant(pattern, &known) {
+            Meant::These(found) => found.join(" "),
+            Meant::Several(_) => unreachable!("patterns mean all"),
+        };
+        assert_eq!(found("/rotor*.speed"), "/air/rotor1.speed /air/rotor2.speed");
+        assert_eq!(found("rotor*.speed"), found("/rotor*.speed"));
+        assert_eq!(found("/t*.x"), "/tip.x");
+        assert_eq!(found("**/t*.x"), "/arm/tip.x /tip.x");
+        assert_eq!(found("/wheel*.speed"), "");
     }
 
     #[test]
