@@ -424,4 +424,31 @@ mod tests {
             problems(&d)
         );
     }
+
+    #[test]
+    fn what_feeds_commands_alone_is_in_their_unit() {
+        let terminal = |name: &str, unit: &str| {
+            let unit = (!unit.is_empty()).then(|| Unit::parse(unit).unwrap());
+            Terminal { names: vec![name.into()], width: 1, unit, is_special: false }
+        };
+        let mut world = Interface::new(0.001);
+        world.commands =
+            vec![terminal("/a", "rad/s"), terminal("/b", "rad/s"), terminal("/c", "N·m"), terminal("/d", "")];
+        let mut d = Diagram::new();
+        let pair = || Constant { value: vec![1.0, 2.0] };
+        d.block("same", pair()).block("other", pair()).block("none", Constant::new(1.0));
+        d.wire("same[0]", "/a").wire("same[1]", "/b").wire("none", "/d").wire("other[0]", "/c");
+        let unit = |d: &Diagram, name: &str| {
+            let program = compile(d, &world).unwrap();
+            program.outputs().find(|(path, ..)| path == name).and_then(|(.., unit)| unit.map(Unit::to_string))
+        };
+        assert_eq!(unit(&d, "same").as_deref(), Some("rad/s"));
+        assert_eq!(unit(&d, "none"), None);
+        assert_eq!(unit(&d, "other").as_deref(), Some("N·m"));
+        // at odds: neither
+        d.wires.pop();
+        d.wires.remove(1);
+        d.wire("other[0]", "/c").wire("other[1]", "/b");
+        assert_eq!(unit(&d, "other"), None);
+    }
 }

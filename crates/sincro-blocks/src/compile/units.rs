@@ -1,6 +1,7 @@
-//! Inference and check of units: carried along wires as far as they are known, and compared wherever two meet.
+//! Inference and check of units: carried along wires as far as they are known, and compared wherever two meet. What is
+//! still unknown then and commands the world is in the unit that the world takes.
 
-use super::{Diagnostic, EARLY, Element, Flat, FlatNode, LATE, Place};
+use super::{Diagnostic, EARLY, Element, Flat, FlatNode, Input, LATE, Place};
 use crate::unit::Unit;
 
 /// Units of all outputs, as far as they are known, noted in the nodes.
@@ -12,6 +13,7 @@ pub(super) fn infer(flat: &mut Flat, order: &[usize]) -> Result<(), Vec<Diagnost
     let _ = pass(flat, order, &mut units);
     let mut problems = pass(flat, order, &mut units);
     problems.extend(commands(flat, &units));
+    from_commands(flat, &mut units);
     for (node, units) in flat.nodes.iter_mut().zip(units) {
         node.out_units = units;
     }
@@ -82,4 +84,19 @@ fn commands(flat: &Flat, units: &[Vec<Option<Unit>>]) -> Vec<Diagnostic> {
         }
     }
     problems
+}
+
+/// Gives outputs of blocks whose unit is not known that of the commands which they feed, if all of those agree.
+fn from_commands(flat: &Flat, units: &mut [Vec<Option<Unit>>]) {
+    let world = &flat.nodes[LATE];
+    let unknown: Vec<bool> = world.inputs.iter().map(|i| units[i.node][i.port].is_none()).collect();
+    for (k, input) in world.inputs.iter().enumerate().filter(|(k, i)| unknown[*k] && i.node != EARLY && i.node != LATE)
+    {
+        let is_shared = |other: &Input| (other.node, other.port) == (input.node, input.port);
+        let mut taken = world.inputs.iter().zip(&world.in_units).filter(|(other, _)| is_shared(other)).map(|(_, u)| u);
+        let agree = taken.all(|u| u.as_ref().zip(world.in_units[k].as_ref()).is_some_and(|(a, b)| a.is_same(b)));
+        if agree {
+            units[input.node][input.port].clone_from(&world.in_units[k]);
+        }
+    }
 }
