@@ -20,6 +20,7 @@
 
 pub mod campaign;
 mod draw;
+#[cfg(feature = "linear")]
 pub mod linear;
 pub mod plot;
 pub mod report;

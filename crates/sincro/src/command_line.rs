@@ -27,20 +27,26 @@ struct Cli {
 enum Command {
     /// Run a scene folder, judge its checks, write signals, figures and a report
     Run(commands::run::Arguments),
+    #[cfg(feature = "campaigns")]
     /// Run a campaign: many runs with drawn or gridded parameters, in shards, with a report
     Sweep(commands::sweep::Arguments),
+    #[cfg(feature = "campaigns")]
     /// Find parameters of a scene from measured data, with intervals and what the data cannot tell
     Fit(commands::fit::Arguments),
+    #[cfg(feature = "campaigns")]
     /// Find parameters of a scene for the least value of a goal, within limits, over one run or a campaign
     Tune(commands::tune::Arguments),
     /// Check a scene without running it: objects, degrees of freedom, warnings, available signals
     Check(commands::check::Arguments),
     /// Draw the block diagram of a scene as SVG
     Draw(commands::draw::Arguments),
+    #[cfg(feature = "analysis")]
     /// Linearise a scene: matrices, poles, zeros, Bode and step plots
     Linearize(commands::linearize::Arguments),
+    #[cfg(feature = "analysis")]
     /// Find an equilibrium of a scene
     Trim(commands::trim::Arguments),
+    #[cfg(feature = "analysis")]
     /// Print mass matrix, inverse and forward dynamics of a scene at given states
     Dynamics(commands::dynamics::Arguments),
     /// Import a robot from URDF, SDF or MJCF as a scene folder, with a report of every element
@@ -143,13 +149,19 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let exit = match command {
         Command::Run(arguments) => commands::run::run(&arguments),
+        #[cfg(feature = "campaigns")]
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
+        #[cfg(feature = "campaigns")]
         Command::Fit(arguments) => commands::fit::run(&arguments),
+        #[cfg(feature = "campaigns")]
         Command::Tune(arguments) => commands::tune::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Draw(arguments) => commands::draw::run(&arguments),
+        #[cfg(feature = "analysis")]
         Command::Linearize(arguments) => commands::linearize::run(&arguments),
+        #[cfg(feature = "analysis")]
         Command::Trim(arguments) => commands::trim::run(&arguments),
+        #[cfg(feature = "analysis")]
         Command::Dynamics(arguments) => commands::dynamics::run(&arguments),
         Command::Import(arguments) => commands::import::run(&arguments),
         Command::Export(format) => commands::export::run(&format),

@@ -50,6 +50,7 @@ mod diagnostics;
 pub mod export;
 #[cfg(feature = "run")]
 pub mod export_c;
+#[cfg(feature = "analysis")]
 pub mod linearization;
 mod load;
 pub mod results;

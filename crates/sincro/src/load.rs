@@ -34,14 +34,18 @@ pub fn load(scene: &Path, overrides: &[Override]) -> Result<Loaded, Diagnostics>
 
 /// Extensions with which [`load`] opens scenes: Lua for scripts, the loader of FMUs, and the linearisation that warns
 /// of control loops that are too fast for their step. Without the feature `adapters` there is neither Lua nor the
-/// loader, and scenes that need them are refused.
+/// loader, and scenes that need them are refused; without `analysis` nothing warns of fast loops.
 #[must_use]
 pub fn extensions() -> Extensions {
     #[cfg(feature = "adapters")]
     let (scripts, fmus) = (Some(sincro_lua::engine()), Some(fmu_loader()));
     #[cfg(not(feature = "adapters"))]
     let (scripts, fmus) = (None, None);
-    Extensions { scripts, fmus, fastest_poles: Some(sincro_analysis::linearize::fastest_poles) }
+    #[cfg(feature = "analysis")]
+    let fastest_poles = Some(sincro_analysis::linearize::fastest_poles as _);
+    #[cfg(not(feature = "analysis"))]
+    let fastest_poles = None;
+    Extensions { scripts, fmus, fastest_poles }
 }
 
 /// Loader whose FMUs run in processes of their own, if that was asked for.

@@ -4,7 +4,6 @@ use std::fmt;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use sincro_analysis::linearize::unstable_loop;
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::experiment::check::{Check, Expected};
 use sincro_scene::overrides::Override;
@@ -114,8 +113,8 @@ impl RunRequest<'_> {
         let set = overrides.iter().map(|s| Setting { path: s.path.value.clone(), value: s.value.value.clone() });
         campaign.report.settings.overrides = set.collect();
         if let Some(found) = unstable_loop(loaded) {
-            campaign.main.simulated.warnings.insert(0, found.to_string());
-            campaign.report.warnings.insert(0, found.to_string());
+            campaign.main.simulated.warnings.insert(0, found.clone());
+            campaign.report.warnings.insert(0, found);
         }
         mark_references(&mut campaign, loaded, overrides);
         campaign.report.write(out).map_err(RunFailure::Results)?;
@@ -126,6 +125,17 @@ impl RunRequest<'_> {
 
 /// Settings that change how a run is computed and recorded, and nothing of what is simulated.
 const OF_THE_METHOD: [&str; 7] = ["duration", "step", "integrator", "accuracy", "seed", "record_every", "error_bar"];
+
+/// Warning about a loop that is unstable at the start; none without the feature `analysis`.
+pub(crate) fn unstable_loop(loaded: &Loaded) -> Option<String> {
+    #[cfg(feature = "analysis")]
+    return sincro_analysis::linearize::unstable_loop(loaded).map(|found| found.to_string());
+    #[cfg(not(feature = "analysis"))]
+    {
+        let _ = loaded;
+        None
+    }
+}
 
 /// Marks checks against a reference whose scene, diagram or parameters were changed from outside: the reference is that
 /// of the files as they are.

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use sincro::{Loaded, load};
-use sincro_analysis::linearize::unstable_loop;
 use sincro_blocks::program::Rate;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::catalogue;
@@ -18,6 +17,7 @@ use super::console::{degrees, print_findings, short};
 use super::mutate;
 use super::robot_file::SceneSource;
 use super::run::parse_settings;
+use crate::run::unstable_loop;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `check`.
@@ -107,7 +107,7 @@ fn print(loaded: &Loaded) {
             s.values.len()
         ))
     );
-    for warning in warnings.into_iter().chain(unstable_loop(loaded).map(|found| found.to_string())) {
+    for warning in warnings.into_iter().chain(unstable_loop(loaded)) {
         say!("warning: {warning}");
     }
 }

@@ -14,14 +14,17 @@ pub(crate) mod console;
 pub(crate) mod convert;
 pub(crate) mod diff;
 pub(crate) mod draw;
+#[cfg(feature = "analysis")]
 pub(crate) mod dynamics;
 pub(crate) mod export;
 pub(crate) mod export_c;
 #[cfg(feature = "adapters")]
 pub(crate) mod export_fmu;
 pub(crate) mod export_robot;
+#[cfg(feature = "campaigns")]
 pub(crate) mod fit;
 pub(crate) mod import;
+#[cfg(feature = "analysis")]
 pub(crate) mod linearize;
 mod mutate;
 pub(crate) mod new;
@@ -32,8 +35,11 @@ pub(crate) mod runs;
 #[cfg(feature = "adapters")]
 pub(crate) mod serve;
 pub(crate) mod shell;
+#[cfg(feature = "campaigns")]
 pub(crate) mod sweep;
+#[cfg(feature = "analysis")]
 pub(crate) mod trim;
+#[cfg(feature = "campaigns")]
 pub(crate) mod tune;
 #[cfg(feature = "adapters")]
 pub(crate) mod view;
