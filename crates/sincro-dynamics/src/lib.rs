@@ -21,6 +21,7 @@
 //! | [`mechanism`], [`coupled`] | the system to integrate; systems integrated along with it |
 //! | [`initial`] | consistency of an initial state |
 //! | [`world`], [`batch`] | a world that advances; many worlds in lanes |
+//! | [`tangent`] | a world with the derivative of its motion by one parameter |
 //!
 //! A [`model::Model`] is the compiled tree; a [`state::State`] the numbers that a snapshot needs; a
 //! [`scratch::Scratch`] can be recomputed at any time. A [`world::World`] owns one of each, and its model's numbers can
@@ -44,6 +45,7 @@ pub mod recursions;
 pub mod scratch;
 pub mod state;
 pub mod stiffness;
+pub mod tangent;
 pub mod world;
 
 pub use sincro_aero as aero;

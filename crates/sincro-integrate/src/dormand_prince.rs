@@ -4,6 +4,8 @@
 //! and key `hairer1996`, section IV.2 (β = 0.04). The last stage could be the next step's first; here it is evaluated
 //! again, because motors may have new commands and a snapshot should hold no slopes.
 
+use sincro_math::Real;
+
 use crate::{Control, Failure, SingularStages, System, power, too_small};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -27,20 +29,21 @@ const DETOUR: f64 = 0.83;
 const MAX_DETOURS: u32 = 20;
 
 /// Dormand–Prince method of order 5 with error control (embedded order 4), and its working memory: for smooth systems.
+/// On dual numbers the values alone are controlled: the steps are those of plain numbers.
 #[derive(Clone, Debug)]
-pub struct DormandPrince {
+pub struct DormandPrince<R = f64> {
     /// Tolerance and next step size.
     pub control: Control,
-    k: [Vec<f64>; 7],
-    stage: Vec<f64>,
-    error: Vec<f64>,
+    k: [Vec<R>; 7],
+    stage: Vec<R>,
+    error: Vec<R>,
 }
 
-impl DormandPrince {
+impl<R: Real> DormandPrince<R> {
     /// Creates the method for systems with `dim` unknowns ([`System::dim`]).
     #[must_use]
     pub fn new(dim: usize, control: Control) -> Self {
-        let zero = vec![0.0; dim];
+        let zero = vec![R::zero(); dim];
         Self { control, k: std::array::from_fn(|_| zero.clone()), stage: zero.clone(), error: zero }
     }
 
@@ -50,7 +53,7 @@ impl DormandPrince {
     /// # Errors
     ///
     /// [`Failure::StepTooSmall`] if no step meets the tolerance, [`Failure::NotFinite`] if slopes are not finite.
-    pub fn step<S: System<f64>>(&mut self, system: &mut S, t: f64, h_max: f64, y: &mut [f64]) -> Result<f64, Failure> {
+    pub fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h_max: f64, y: &mut [R]) -> Result<f64, Failure> {
         let (mut h_max, mut detours) = (h_max, 0);
         loop {
             let h = self.control.h.min(h_max);
@@ -91,23 +94,23 @@ impl DormandPrince {
     }
 
     /// All stages; the new y is left in `stage`, the error estimate in `error`.
-    fn stages<S: System<f64>>(&mut self, system: &mut S, t: f64, h: f64, y: &[f64]) {
+    fn stages<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &[R]) {
         for s in 0..7 {
             let (done, rest) = self.k.split_at_mut(s);
             self.stage.copy_from_slice(y);
             for (k, a) in done.iter().zip(A[s]) {
                 for i in 0..y.len() {
-                    self.stage[i] += (h * a) * k[i];
+                    self.stage[i] += R::splat(h * a) * k[i];
                 }
             }
             system.slope(t + C[s] * h, &self.stage, &mut rest[0]);
         }
         for i in 0..y.len() {
-            let mut sum = 0.0;
+            let mut sum = R::zero();
             for (k, e) in self.k.iter().zip(E) {
-                sum += e * k[i];
+                sum += R::splat(e) * k[i];
             }
-            self.error[i] = h * sum;
+            self.error[i] = R::splat(h) * sum;
         }
     }
 }

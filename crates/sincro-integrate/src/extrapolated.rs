@@ -85,19 +85,19 @@ impl<R: Real> FixedStep<R> for Extrapolated<R> {
     }
 }
 
-impl Extrapolated<f64> {
+impl<R: Real> Extrapolated<R> {
     /// Makes one accepted step from `t` `[s]`, no longer than `h_max` `[s]`, and returns its length `[s]`. `y`
     /// ([`System::dim`] entries) is the state in a fresh chart before and after.
     ///
     /// # Errors
     ///
     /// [`Failure::StepTooSmall`] if no step meets the tolerance, [`Failure::NotFinite`] if slopes are not finite.
-    pub fn adaptive_step<S: System<f64>>(
+    pub fn adaptive_step<S: System<R>>(
         &mut self,
         system: &mut S,
         t: f64,
         h_max: f64,
-        y: &mut [f64],
+        y: &mut [R],
     ) -> Result<f64, Failure> {
         loop {
             let h = self.control.h.min(h_max);
@@ -119,7 +119,7 @@ impl Extrapolated<f64> {
     }
 
     /// Adds rows until the error is below the tolerance; returns the rows made and the error's share of the tolerance.
-    fn attempt<S: System<f64>>(&mut self, system: &mut S, t: f64, h: f64, y: &[f64]) -> (usize, f64) {
+    fn attempt<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &[R]) -> (usize, f64) {
         let mut share = f64::INFINITY;
         for j in 0..MAX_ROWS {
             self.row(system, t, h, y, j);

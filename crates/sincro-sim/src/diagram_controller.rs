@@ -119,6 +119,35 @@ impl<R: Number> DiagramController<R> {
     }
 }
 
+/// Ticks on any kind of number, for derivatives along a run.
+impl<R: Number> DiagramController<R> {
+    /// Reads the measurements of the world in the state `seen` and evaluates every block that is due at tick `tick`, as
+    /// [`DiagramController::evaluate`] does on plain numbers, for a diagram that measures neither accelerations nor
+    /// what is known at ticks alone ([`is_known_at_ticks_only`]).
+    pub fn evaluate_at(&mut self, seen: &mut StateView<'_, R>, tick: u64) {
+        self.tick = tick;
+        self.read_state(seen, false);
+        self.runner.evaluate(tick, seen.t);
+    }
+
+    /// Writes all commands of the diagram into `commands`, in the order and units of the command vector, as they are
+    /// latched at a tick; then updates the memory of blocks, at time `t` `[s]`.
+    pub fn latch_into(&mut self, commands: &mut [R], t: f64) {
+        self.write_commands(commands, false);
+        self.runner.update(self.tick, t);
+    }
+
+    /// Computes the continuous blocks at the end of a step, in the state `seen`, and writes their commands into
+    /// `commands`; sampled blocks still hold.
+    pub fn evaluate_end(&mut self, seen: &mut StateView<'_, R>, commands: &mut [R]) {
+        if self.is_continuous() {
+            self.read_state(seen, true);
+            self.runner.minor(self.tick, seen.t, self.time_event);
+            self.write_commands(commands, true);
+        }
+    }
+}
+
 /// Access for linearisation: everything continuous is evaluated, whether or not the integrator needs it.
 impl<R: Number> DiagramController<R> {
     /// Creates the same diagram in the same state in another number type, without derivatives; `model` is that of the

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sincro_math::Real;
+use sincro_math::{Dual, Real};
 
 use super::{Dof, Link, Model, ModelParams, Structure};
 use crate::actuation::spring_damper::{LineActuator, LinkPoint};
@@ -25,6 +25,9 @@ impl std::fmt::Display for PackError {
 
 impl std::error::Error for PackError {}
 
+/// Makes a number of one kind from a function that finds it in a model.
+type NumberOf<'a, R> = &'a dyn Fn(&dyn Fn(&Model<f64>) -> f64) -> R;
+
 impl<R: Real> Model<R> {
     /// Packs models of one structure into the lanes of `R`, `models[k]` into lane k; the last one fills the remaining
     /// lanes.
@@ -42,7 +45,14 @@ impl<R: Real> Model<R> {
             same_structure(first, other)?;
         }
         let of = |k: usize| models[k.min(models.len() - 1)];
-        let num = |f: &dyn Fn(&Model<f64>) -> f64| R::from_lanes(|k| f(of(k)));
+        Ok(Self::assemble(models, &|f| R::from_lanes(|k| f(of(k)))))
+    }
+
+    /// Model of the structure of the first of `models`, with every number by `num` from what a function finds in all of
+    /// them; signals and constraints are those of `models` in lanes.
+    fn assemble(models: &[&Model<f64>], num: NumberOf<'_, R>) -> Self {
+        let first = models[0];
+        let of = |k: usize| models[k.min(models.len() - 1)];
         let vec3 = |f: &dyn Fn(&Model<f64>) -> Vec3<f64>| Vec3(core::array::from_fn(|i| num(&|m| f(m)[i])));
         let mat3 = |f: &dyn Fn(&Model<f64>) -> Mat3<f64>| {
             Mat3(core::array::from_fn(|i| core::array::from_fn(|j| num(&|m| f(m).0[i][j]))))
@@ -119,14 +129,8 @@ impl<R: Real> Model<R> {
             law: first.rotors[i].law.clone(),
             speed: match first.rotors[i].speed {
                 SpeedSource::Lag { command, state, .. } => {
-                    let lag =
-                        |k: usize, pick: fn((f64, f64)) -> f64| pick(of(k).rotors[i].speed.lag().unwrap_or((1.0, 0.0)));
-                    SpeedSource::Lag {
-                        command,
-                        state,
-                        time_constant: R::from_lanes(|k| lag(k, |x| x.0)),
-                        initial: R::from_lanes(|k| lag(k, |x| x.1)),
-                    }
+                    let lag = |m: &Model<f64>| m.rotors[i].speed.lag().unwrap_or((1.0, 0.0));
+                    SpeedSource::Lag { command, state, time_constant: num(&|m| lag(m).0), initial: num(&|m| lag(m).1) }
                 }
                 SpeedSource::Command(k) => SpeedSource::Command(k),
                 SpeedSource::Particles { command, state } => SpeedSource::Particles { command, state },
@@ -147,7 +151,7 @@ impl<R: Real> Model<R> {
         });
         let spring_dampers = (0..first.spring_dampers.len()).map(|i| {
             let of_first = &first.spring_dampers[i];
-            let number = |f: &dyn Fn(&SpringDamper<f64>) -> f64| R::from_lanes(|k| f(&of(k).spring_dampers[i]));
+            let number = |f: &dyn Fn(&SpringDamper<f64>) -> f64| num(&|m| f(&m.spring_dampers[i]));
             SpringDamper {
                 ends: core::array::from_fn(|e| LinkPoint {
                     link: of_first.ends[e].link,
@@ -201,8 +205,50 @@ impl<R: Real> Model<R> {
             nonlinear_springs: first.nonlinear_springs.clone(),
             names: Arc::clone(&first.names),
         };
-        Ok(Self::new(structure, params))
+        Self::new(structure, params)
     }
+}
+
+impl Model<Dual<1>> {
+    /// Lifts `models[0]` to dual numbers whose derivatives come from the same model at other values of what is
+    /// differentiated by: `derivative` gets one number of all `models`, in their order, and returns its derivative at
+    /// the first. Limits of joints and contacts are left out.
+    ///
+    /// # Errors
+    ///
+    /// [`PackError`] if the models differ in a part whose numbers carry no derivatives, such as signals, frames, limits
+    /// and laws of contact; it names the part.
+    ///
+    /// # Panics
+    ///
+    /// If `models` is empty.
+    pub fn differentiated(models: &[&Model<f64>], derivative: &dyn Fn(&[f64]) -> f64) -> Result<Self, PackError> {
+        let first = models[0];
+        for other in &models[1..] {
+            same_structure(first, other)?;
+            same_functions(first, other)?;
+        }
+        let mut model = Self::assemble(models, &|f| {
+            let values: Vec<f64> = models.iter().map(|m| f(m)).collect();
+            let is_constant = values.iter().all(|x| *x == values[0]);
+            Dual { value: values[0], partials: [if is_constant { 0.0 } else { derivative(&values) }] }
+        });
+        model.params.constraints = Arc::default();
+        Ok(model)
+    }
+}
+
+/// Refuses models that differ in functions of time or in the places of frames, which are the same numbers in all lanes.
+fn same_functions(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
+    let torques = |m: &Model<f64>| m.applied.iter().map(|x| x.signal.clone()).collect::<Vec<_>>();
+    let forces = |m: &Model<f64>| m.wrenches.iter().map(|x| (x.force.clone(), x.torque.clone())).collect::<Vec<_>>();
+    let frames = |m: &Model<f64>| m.names.frames.iter().map(|x| x.pose).collect::<Vec<_>>();
+    let checks = [
+        (torques(a) == torques(b), "applied torques over time"),
+        (forces(a) == forces(b), "external forces over time"),
+        (frames(a) == frames(b), "places of bodies and frames in their links"),
+    ];
+    checks.iter().find(|(same, _)| !same).map_or(Ok(()), |(_, what)| Err(PackError(what)))
 }
 
 fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
