@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use sincro_campaign::design::inverse_normal;
 use sincro_campaign::design::random::{Purpose, uniform};
 use sincro_campaign::fit::data::DataColumn;
-use sincro_campaign::fit::{DataSet, Fit, FreeParameter, Loss, Model, SolveError, parse_all};
+use sincro_campaign::fit::{DataSet, Fit, FitOptions, FreeParameter, Loss, Model, SolveError, parse_all};
 use sincro_scene::overrides::Override;
 use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_sim::{Extensions, Loaded, load};
@@ -42,7 +42,7 @@ fn free(path: &str, start: f64) -> FreeParameter {
 
 fn fit<'a>(loaded: &'a Loaded, sets: &'a [DataSet], all: Vec<FreeParameter>) -> Result<Fit<'a>, SolveError> {
     let model = Model::new(loaded, &[], all, sets, false, &GO);
-    Fit::new("test".into(), model, Loss::Squares, 0.95, &[])
+    Fit::new("test".into(), model, FitOptions::default(), &[])
 }
 
 /// The spring of the thesis, tightened so that it swings and tells inertia, stiffness and damping apart.
@@ -79,7 +79,7 @@ fn ninety_five_percent_intervals_hold_the_truth_in_ninety_to_ninety_eight_of_a_h
         let sets = [measured(&loaded, &["/shoulder.position"], 5e-3, seed, 10)];
         let all = vec![free("/shoulder.spring.stiffness", 25.0), free("/shoulder.damping", 0.6)];
         let model = Model::new(&loaded, &base(), all, &sets, false, &GO);
-        let fit = Fit::new("test".into(), model, Loss::Squares, 0.95, &[]).unwrap();
+        let fit = Fit::new("test".into(), model, FitOptions::default(), &[]).unwrap();
         for (k, (estimate, truth)) in fit.inference.estimates.iter().zip(truths).enumerate() {
             held[k] += u32::from((estimate.value - truth).abs() <= estimate.half_width);
         }
@@ -126,7 +126,7 @@ fn parameters_that_only_act_together_are_named() {
     let mut settings = settings.to_vec();
     settings.push(Override::new("/shoulder/rod.inertia", "{ xx = 1e-9, yy = 1e-9, zz = 1e-9 }"));
     let model = Model::new(&loaded, &settings, all, &sets, false, &GO);
-    let fit = Fit::new("test".into(), model, Loss::Squares, 0.95, &[]).unwrap();
+    let fit = Fit::new("test".into(), model, FitOptions::default(), &[]).unwrap();
     assert_eq!(fit.inference.unidentifiable.len(), 1, "{}", fit.text());
     assert!(fit.inference.estimates.iter().all(|estimate| !estimate.is_identifiable), "{}", fit.text());
     assert!(fit.text().contains("/shoulder/rod.mass"), "{}", fit.text());
@@ -148,7 +148,7 @@ fn outliers_do_not_move_a_robust_fit() {
     let solve = |loss| {
         let all = vec![free("/shoulder.spring.stiffness", 20.0), free("/shoulder.damping", 5.0)];
         let model = Model::new(&loaded, &[], all, &sets, false, &GO);
-        Fit::new("test".into(), model, loss, 0.95, &[]).unwrap().solution.unknowns[0]
+        Fit::new("test".into(), model, FitOptions { loss, ..FitOptions::default() }, &[]).unwrap().solution.unknowns[0]
     };
     let (squares, cauchy) = (solve(Loss::Squares), solve(Loss::Cauchy));
     assert!((squares - 30.0).abs() > 0.5 && (cauchy - 30.0).abs() < 0.02, "{squares} {cauchy}");
@@ -165,7 +165,7 @@ fn a_time_offset_is_found_with_the_parameters() {
     sets[0].columns[0].values.drain(..late);
     let all = vec![free("/shoulder.spring.stiffness", 28.0), free("/shoulder.damping", 0.5)];
     let model = Model::new(&loaded, &base(), all, &sets, true, &GO);
-    let fit = Fit::new("test".into(), model, Loss::Squares, 0.95, &[]).unwrap();
+    let fit = Fit::new("test".into(), model, FitOptions::default(), &[]).unwrap();
     assert!((fit.solution.unknowns[2] - 0.023).abs() < 3.0 * fit.inference.estimates[2].std + 1e-6, "{}", fit.text());
 }
 
@@ -210,4 +210,37 @@ fn starts_come_from_the_files() {
     {
         assert!(parse_all(&[wrong.to_owned()], &loaded).is_err(), "{wrong}");
     }
+}
+
+#[test]
+fn multiple_shooting_finds_the_masses_of_a_chaotic_pendulum() {
+    let settings = [Override::new("/upper/lower.damping", "0.02")];
+    let loaded = load(&scene("double-pendulum"), &settings, Extensions::default()).unwrap();
+    let sets = [measured(&loaded, &["/upper.position", "/upper/lower.position"], 1e-3, 7, 5)];
+    let fit = |shooting| {
+        let all = vec![free("/upper/lower/bob2.mass", 3.0), free("/upper/lower.damping", 0.2)];
+        let model = Model::new(&loaded, &[], all, &sets, false, &GO);
+        Fit::new("test".into(), model, FitOptions { shooting, ..FitOptions::default() }, &[]).unwrap()
+    };
+    // the predictions of single runs leave the data for good: minima everywhere
+    let single = fit(None);
+    println!("{}", single.text());
+    assert!((single.solution.unknowns[0] - 1.0).abs() > 0.1, "{}", single.text());
+    let multiple = fit(Some(20));
+    println!("{}", multiple.text());
+    assert!(multiple.solution.has_converged && multiple.shot.as_ref().is_some_and(|shot| shot.gap < 0.01));
+    for (estimate, truth) in multiple.inference.estimates.iter().zip([1.0, 0.02]) {
+        assert!((estimate.value - truth).abs() < 4.0 * estimate.std, "{}", multiple.text());
+    }
+}
+
+#[test]
+fn shooting_is_refused_by_name_where_it_cannot_be() {
+    let loaded = load(&scene("pid-tuning"), &[], Extensions::default()).unwrap();
+    let sets = [measured(&loaded, &["/shaft.position"], 1e-3, 7, 20)];
+    let model = Model::new(&loaded, &[], vec![free("/shaft.damping", 0.1)], &sets, false, &GO);
+    let options = FitOptions { shooting: Some(4), ..FitOptions::default() };
+    let Err(SolveError::Model(error)) = Fit::new("test".into(), model, options, &[]) else { panic!("it is refused") };
+    let words = sincro_scene::diagnostic::Diagnostics::from(error).to_string();
+    assert!(words.contains("the scene has a diagram"), "{words}");
 }

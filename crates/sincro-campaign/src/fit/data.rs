@@ -152,6 +152,26 @@ pub(crate) fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
     (first..last).map(|i| weight(i) * values[i]).sum()
 }
 
+/// Slope of [`interpolate`] at a time.
+#[must_use]
+pub(crate) fn interpolated_slope(times: &[f64], values: &[f64], t: f64) -> f64 {
+    let above = times.partition_point(|x| *x < t - 1e-9);
+    if above == times.len() || t < times.first().copied().unwrap_or(0.0) - 1e-9 {
+        return f64::NAN;
+    }
+    let first = above.saturating_sub(2).min(times.len().saturating_sub(4));
+    let last = (first + 4).min(times.len());
+    let others = |i: usize| (first..last).filter(move |j| *j != i);
+    let rate = |i: usize| -> f64 {
+        let leave_out = |k: usize| -> f64 {
+            let rest: f64 = others(i).filter(|j| *j != k).map(|j| (t - times[j]) / (times[i] - times[j])).product();
+            rest / (times[i] - times[k])
+        };
+        others(i).map(leave_out).sum()
+    };
+    (first..last).map(|i| rate(i) * values[i]).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -163,6 +183,7 @@ mod tests {
         let values: Vec<f64> = times.iter().map(|t| of(*t)).collect();
         for t in [0.0, 0.1, 0.6, 1.0, 1.99, 2.0] {
             assert!((interpolate(&times, &values, t) - of(t)).abs() < 1e-13, "{t}");
+            assert!((interpolated_slope(&times, &values, t) - (3.0 * t * t - 2.0)).abs() < 1e-12, "{t}");
         }
         assert!(interpolate(&times, &values, 2.1).is_nan() && interpolate(&times, &values, -0.1).is_nan());
     }

@@ -1,10 +1,13 @@
 //! Identification: parameters of a scene from measured data, and how far they can be trusted.
 
 pub mod data;
+mod difference;
+mod exact;
 pub mod free;
 pub mod inference;
 pub mod model;
 mod page;
+pub mod shooting;
 pub mod solve;
 
 use std::path::Path;
@@ -16,7 +19,8 @@ use sincro_sim::file::FileError;
 pub use data::{DataSet, SignalChoice};
 pub use free::{FreeParameter, parse_all};
 pub use inference::{Inference, Whiteness, infer, whiteness};
-pub use model::{Model, ModelError};
+pub use model::{Model, ModelError, Sensitivities, Sensitivity};
+pub use shooting::{Shot, shoot};
 pub use solve::{Loss, Solution, SolveError, solve};
 
 /// Identification of parameters from measured data, complete with statistics and validation: all that its report says.
@@ -27,10 +31,10 @@ pub struct Fit<'a> {
     pub title: String,
     /// Model with its free parameters and its data.
     pub model: Model<'a>,
-    /// Loss function that was minimised.
-    pub loss: Loss,
-    /// Probability of the confidence intervals, in (0, 1).
-    pub confidence: f64,
+    /// Loss, confidence, shooting.
+    pub options: FitOptions,
+    /// Result of multiple shooting, from which the fit started, if it was wanted.
+    pub shot: Option<Shot>,
     /// Solution of the least-squares problem.
     pub solution: Solution,
     /// Intervals, correlation and identifiability of the unknowns.
@@ -44,9 +48,28 @@ pub struct Fit<'a> {
     pub wall_time: f64,
 }
 
+/// Options of a fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Loss function that is minimised.
+    pub loss: Loss,
+    /// Probability of the confidence intervals, in (0, 1).
+    pub confidence: f64,
+    /// Number of parts of multiple shooting, by which the fit finds its start; `None`: from the starts of the
+    /// parameters.
+    pub shooting: Option<usize>,
+}
+
+impl Default for FitOptions {
+    /// Least squares, intervals of 95 %, no shooting.
+    fn default() -> Self {
+        Self { loss: Loss::Squares, confidence: 0.95, shooting: None }
+    }
+}
+
 impl<'a> Fit<'a> {
-    /// Fits a model to its data, computes the statistics for intervals of probability `confidence` (in (0, 1)), and
-    /// predicts the data sets of `validation`, which were held back.
+    /// Fits a model to its data, computes the statistics, and predicts the data sets of `validation`, which were held
+    /// back.
     ///
     /// # Errors
     ///
@@ -55,15 +78,15 @@ impl<'a> Fit<'a> {
     pub fn new(
         title: String,
         model: Model<'a>,
-        loss: Loss,
-        confidence: f64,
+        options: FitOptions,
         validation: &[DataSet],
     ) -> Result<Self, SolveError> {
         let clock = std::time::Instant::now();
         let start: Vec<f64> = (0..model.n_unknowns()).map(|k| model.bounds(k).0).collect();
-        let solution = solve(&model, loss)?;
+        let shot = options.shooting.map(|n_parts| shoot(&model, n_parts)).transpose()?;
+        let solution = solve(&model, options.loss, shot.as_ref().map_or(&start, |shot| &shot.unknowns))?;
         let scales: Vec<f64> = (0..model.n_unknowns()).map(|k| model.bounds(k).3).collect();
-        let inference = infer(&solution, &scales, confidence);
+        let inference = infer(&solution, &scales, options.confidence);
         let wall_time = clock.elapsed().as_secs_f64();
         let predicted = (model.predict(&start)?, model.predict(&solution.unknowns)?);
         let mut held_back = Vec::new();
@@ -73,7 +96,7 @@ impl<'a> Fit<'a> {
             let other = Model::new(model.loaded, own, model.free.clone(), sets, false, model.interrupt);
             held_back.push((set.clone(), other.predict(&solution.unknowns[..model.free.len()])?));
         }
-        Ok(Self { title, model, loss, confidence, solution, inference, predicted, validation: held_back, wall_time })
+        Ok(Self { title, model, options, shot, solution, inference, predicted, validation: held_back, wall_time })
     }
 
     /// Residuals of each column, in the units of the data: the set, the column, predicted less measured.
@@ -115,7 +138,9 @@ impl<'a> Fit<'a> {
             let of = &self.inference.estimates[k];
             let from = short(self.model.bounds(k).0, 6);
             let interval = match of.is_identifiable {
-                true => format!("± {} at {} %", significant(of.half_width, 2), short(100.0 * self.confidence, 4)),
+                true => {
+                    format!("± {} at {} %", significant(of.half_width, 2), short(100.0 * self.options.confidence, 4))
+                }
                 false => "not identifiable from these data".into(),
             };
             let bound = if self.solution.at_bound[k] { ", at its bound" } else { "" };
@@ -126,19 +151,24 @@ impl<'a> Fit<'a> {
         }
         let _ = writeln!(
             out,
-            "  {} in {} iterations, {} runs, {} s; cost {} → {}",
+            "  {} in {} iterations, {} runs{}, {} s; cost {} → {}",
             if self.solution.has_converged { "converged" } else { "NOT converged" },
             self.solution.n_iterations,
             self.model.n_runs(),
+            match self.model.n_dual_runs() {
+                0 => String::new(),
+                n => format!(" and {n} on dual numbers"),
+            },
             significant(self.wall_time, 2),
             significant(self.solution.cost.0, 3),
             significant(self.solution.cost.1, 3)
         );
-        let _ = writeln!(
-            out,
-            "  sensitivities by central differences of runs at accuracy 1e-12, relative error about {}",
-            significant(self.solution.sensitivities.error, 1)
-        );
+        if let Some(shot) = &self.shot {
+            let _ = writeln!(out, "  {}", shot.words());
+        }
+        for words in self.solution.sensitivities.words(&names) {
+            let _ = writeln!(out, "  sensitivities {words}");
+        }
         for ((_, column, _), white) in self.columns().iter().zip(self.whiteness()) {
             if let Some(white) = white {
                 let words = if white.p_value > 0.01 { "white" } else { "not white: the model misses something" };
@@ -213,13 +243,17 @@ impl<'a> Fit<'a> {
             .map(|(set, predicted)| json!({ "file": set.path.display().to_string(), "fit": share(set, predicted) }))
             .collect();
         json!({
-            "title": self.title, "sincro_version": env!("CARGO_PKG_VERSION"), "loss": self.loss.word(),
-            "confidence": self.confidence, "estimates": estimates, "correlation": self.inference.correlation,
+            "title": self.title, "sincro_version": env!("CARGO_PKG_VERSION"), "loss": self.options.loss.word(),
+            "confidence": self.options.confidence, "estimates": estimates, "correlation": self.inference.correlation,
             "singular_values": self.inference.singular, "sigma": self.inference.sigma, "n": self.inference.n_values,
             "unidentifiable": self.inference.unidentifiable.iter().map(|u| self.unidentifiable_words(u)).collect::<Vec<_>>(),
             "converged": self.solution.has_converged, "iterations": self.solution.n_iterations,
             "runs": self.model.n_runs(), "cost_start": self.solution.cost.0, "cost": self.solution.cost.1,
-            "sensitivities": "central differences of runs at accuracy 1e-12",
+            "dual_runs": self.model.n_dual_runs(),
+            "shooting": self.shot.as_ref().map(|shot| json!({
+                "parts": shot.n_parts, "start": shot.unknowns, "gap": shot.gap, "iterations": shot.n_iterations,
+            })),
+            "sensitivities": self.solution.sensitivities.words(&names),
             "sensitivity_error": self.solution.sensitivities.error, "whiteness": white, "validation": held,
         })
     }

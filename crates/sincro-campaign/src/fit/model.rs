@@ -1,24 +1,30 @@
 //! The simulated counterpart of measured data, and its derivatives by the free parameters.
 //!
-//! Derivatives are differences of runs at a tight tolerance (Richardson's extrapolation of two widths), central inside
-//! of the bounds and one-sided at a bound, because the lock-step computes on plain numbers. The two widths give an
-//! estimate of their error, which the report states.
+//! Derivatives are exact where they can be: the run on dual numbers ([`super::exact`]), and the slope of the prediction
+//! for a time offset. Elsewhere they are differences of runs at a tight tolerance (Richardson's extrapolation of two
+//! widths), central inside of the bounds and one-sided at a bound; the two widths give an estimate of their error.
+//! Which way is taken for which unknown, and why, is part of the result ([`Sensitivity`]).
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use sincro_figures::plot::number::significant;
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 use sincro_scene::overrides::Override;
 use sincro_sim::Loaded;
 use sincro_sim::run::{RunError, RunMonitor, RunOptions, simulate};
+use sincro_sim::table::Table;
 
-use super::data::{DataSet, interpolate};
+use super::data::{DataSet, interpolate, interpolated_slope};
+use super::difference::{Difference, WIDTH};
+use super::exact::{self, D, Neighbours, Obstacle, Rows, Start};
 use super::free::{FreeParameter, settings};
 
-/// Width of the wider difference, relative to the scale of a parameter; the narrower is half of it. With Richardson's
-/// extrapolation the truncation is of the fourth power, 1e-12, and the rounding of a run at 1e-12 about 1e-9.
-const WIDTH: f64 = 1e-3;
 /// Tolerance of the runs at the solution.
 const ACCURACY: f64 = 1e-12;
+/// Difference between a run on dual numbers and plain ones, relative to the largest value, above which they are
+/// different motions, or the derivatives are not all: events or paths that only one of them sees.
+const DEPARTURE: f64 = 1e-4;
 /// Tolerance of the runs on the way there.
 const COARSE: f64 = 1e-9;
 
@@ -42,8 +48,11 @@ pub struct Model<'a> {
     pub interrupt: &'a AtomicBool,
     /// Runs that were made.
     n_runs: AtomicUsize,
+    /// Runs on dual numbers that were made.
+    n_dual_runs: AtomicUsize,
     /// True while the search is on its way.
     is_coarse: AtomicBool,
+    ways: OnceLock<Vec<Sensitivity>>,
 }
 
 /// Failure of the runs of a [`Model`] at some values of the unknowns.
@@ -69,9 +78,43 @@ pub struct Sensitivities {
     /// One column for each unknown, each with an entry for every value of [`Model::predict`], in its order
     /// `[unit of the signal / unit of the unknown]`; NaN where nothing was measured.
     pub columns: Vec<Vec<f64>>,
-    /// Estimated error of the derivatives, relative to the largest one of the same unknown (dimensionless); 0 if it was
-    /// not asked for.
+    /// Way to the derivatives by each unknown.
+    pub ways: Vec<Sensitivity>,
+    /// Estimated error of derivatives by differences, relative to the largest one of the same unknown (dimensionless);
+    /// 0 if all are exact, or if it was not asked for.
     pub error: f64,
+}
+
+impl Sensitivities {
+    /// Sentences about how the derivatives were computed; `names` are those of the unknowns.
+    #[must_use]
+    pub fn words(&self, names: &[String]) -> Vec<String> {
+        let reason = |k: &usize| match &self.ways[*k] {
+            Sensitivity::Exact => None,
+            Sensitivity::Differences(reason) => Some(reason.as_str()),
+        };
+        let by_differences: Vec<usize> = (0..self.ways.len()).filter(|k| reason(k).is_some()).collect();
+        if by_differences.is_empty() {
+            return vec!["exact, by dual numbers".into()];
+        }
+        let error = significant(self.error, 1);
+        let how = format!("by central differences of runs at accuracy 1e-12, relative error about {error}");
+        let first = reason(&by_differences[0]);
+        if by_differences.len() == self.ways.len() && by_differences.iter().all(|k| reason(k) == first) {
+            return vec![format!("{how}: {}", first.unwrap_or_default())];
+        }
+        let one = |k: &usize| format!("of `{}` {how}: {}", names[*k], reason(k).unwrap_or_default());
+        std::iter::once("exact, by dual numbers".into()).chain(by_differences.iter().map(one)).collect()
+    }
+}
+
+/// Way to the derivatives by one unknown, an entry of [`Sensitivities::ways`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Sensitivity {
+    /// Dual numbers through the run, exact to its own tolerance; of a time offset the slope of the prediction.
+    Exact,
+    /// Differences of runs, and the reason why, as part of a sentence.
+    Differences(String),
 }
 
 impl<'a> Model<'a> {
@@ -97,8 +140,9 @@ impl<'a> Model<'a> {
         fixed.push(Override::new("error_bar", "none"));
         // what a fit does not look at is not read
         fixed.extend(["check", "plot", "variant"].map(|key| Override::new(key, "[]")));
-        let (n_runs, is_coarse) = (AtomicUsize::new(0), AtomicBool::new(false));
-        Self { loaded, fixed, n_own, free, sets, has_offsets, interrupt, n_runs, is_coarse }
+        let (n_runs, n_dual_runs, is_coarse) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
+        let ways = OnceLock::new();
+        Self { loaded, fixed, n_own, free, sets, has_offsets, interrupt, n_runs, n_dual_runs, is_coarse, ways }
     }
 
     /// Settings that the caller gave.
@@ -150,6 +194,78 @@ impl<'a> Model<'a> {
         self.n_runs.load(Ordering::Relaxed)
     }
 
+    /// Loads the scene at values of the free parameters, with the settings of a fit's runs and the recorded signals
+    /// that the data need.
+    pub(super) fn at(&self, values: &[f64]) -> Result<Loaded, ModelError> {
+        let mut settings = settings(&self.fixed, &self.free, values);
+        let accuracy = if self.is_coarse.load(Ordering::Relaxed) { COARSE } else { ACCURACY };
+        settings.push(Override::new("accuracy", &format!("{accuracy:?}")));
+        let mut at = self.loaded.with_overrides_without_variants(&settings)?;
+        let source = std::sync::Arc::new(SourceText { path: "--signal".into(), text: String::new() });
+        let located = |signal: String| Located { value: signal, at: Location { source: source.clone(), span: 0..0 } };
+        at.experiment.record = self.signals().into_iter().map(located).collect();
+        at.experiment.stops.clear();
+        at.experiment.checks.clear();
+        Ok(at)
+    }
+
+    /// Signals that the data measure, each once.
+    pub(super) fn signals(&self) -> Vec<String> {
+        let mut signals: Vec<String> = Vec::new();
+        for column in self.sets.iter().flat_map(|set| &set.columns) {
+            if !signals.contains(&column.signal) {
+                signals.push(column.signal.clone());
+            }
+        }
+        signals
+    }
+
+    /// Recorded signals of one run at values of the free parameters.
+    pub(super) fn table(&self, values: &[f64]) -> Result<Table, ModelError> {
+        self.n_runs.fetch_add(1, Ordering::Relaxed);
+        let at = self.at(values)?;
+        let mut monitor = RunMonitor { interrupt: self.interrupt, progress: &mut |_| {} };
+        let run = simulate(&at, RunOptions::default(), &mut monitor).map_err(|error| match error {
+            RunError::Diagnostics(found) => ModelError::Refused(found),
+            RunError::File(error) => ModelError::Stopped(error.to_string()),
+        })?;
+        if self.interrupt.load(Ordering::Relaxed) {
+            return Err(ModelError::Interrupted);
+        }
+        if let sincro_sim::results::Status::Stopped { reason, .. } = run.status {
+            return Err(ModelError::Stopped(reason));
+        }
+        Ok(run.table)
+    }
+
+    /// One value for each datum in the order of [`Model::predict`], from the series of its signal; NaN where nothing
+    /// was measured. `at` gets the series and a time on the clock of the run.
+    fn collect<'s>(
+        &self,
+        unknowns: &[f64],
+        series: impl Fn(&str) -> &'s [f64],
+        at: impl Fn(&[f64], f64) -> f64,
+    ) -> Vec<f64> {
+        let mut all = Vec::new();
+        for (s, set) in self.sets.iter().enumerate() {
+            let offset = unknowns.get(self.free.len() + s).copied().unwrap_or(0.0);
+            for column in &set.columns {
+                let simulated = series(&column.signal);
+                let value = |(t, measured): (&f64, &f64)| {
+                    if !measured.is_finite() { f64::NAN } else { at(simulated, t + offset) }
+                };
+                all.extend(set.times.iter().zip(&column.values).map(value));
+            }
+        }
+        all
+    }
+
+    /// Returns the number of runs on dual numbers made so far; each gives the derivatives by one parameter.
+    #[must_use]
+    pub fn n_dual_runs(&self) -> usize {
+        self.n_dual_runs.load(Ordering::Relaxed)
+    }
+
     /// Predicts all data by one run: set by set, in each column by column, in each one value per time, in the unit of
     /// the signal; NaN where nothing was measured. `unknowns` has [`Model::n_unknowns`] values in the order of
     /// [`Model::names`].
@@ -162,151 +278,245 @@ impl<'a> Model<'a> {
     ///
     /// If there are fewer values than free parameters.
     pub fn predict(&self, unknowns: &[f64]) -> Result<Vec<f64>, ModelError> {
-        self.n_runs.fetch_add(1, Ordering::Relaxed);
-        let values = &unknowns[..self.free.len()];
-        let mut settings = settings(&self.fixed, &self.free, values);
-        let accuracy = if self.is_coarse.load(Ordering::Relaxed) { COARSE } else { ACCURACY };
-        settings.push(Override::new("accuracy", &format!("{accuracy:?}")));
-        let mut at = self.loaded.with_overrides_without_variants(&settings)?;
-        let source = std::sync::Arc::new(SourceText { path: "--signal".into(), text: String::new() });
-        at.experiment.record.clear();
-        for column in self.sets.iter().flat_map(|set| &set.columns) {
-            if !at.experiment.record.iter().any(|known| known.value == column.signal) {
-                let place = Location { source: source.clone(), span: 0..0 };
-                at.experiment.record.push(Located { value: column.signal.clone(), at: place });
-            }
-        }
-        at.experiment.stops.clear();
-        at.experiment.checks.clear();
-        let mut monitor = RunMonitor { interrupt: self.interrupt, progress: &mut |_| {} };
-        let run = simulate(&at, RunOptions::default(), &mut monitor).map_err(|error| match error {
-            RunError::Diagnostics(found) => ModelError::Refused(found),
-            RunError::File(error) => ModelError::Stopped(error.to_string()),
-        })?;
-        if self.interrupt.load(Ordering::Relaxed) {
-            return Err(ModelError::Interrupted);
-        }
-        if let sincro_sim::results::Status::Stopped { reason, .. } = run.status {
-            return Err(ModelError::Stopped(reason));
-        }
-        let times = run.table.times();
-        let mut predicted = Vec::new();
-        for (s, set) in self.sets.iter().enumerate() {
-            let offset = unknowns.get(self.free.len() + s).copied().unwrap_or(0.0);
-            for column in &set.columns {
-                let simulated = run.table.column(&column.signal).map_or(&[][..], |c| c.values.as_slice());
-                let value = |(t, measured): (&f64, &f64)| {
-                    if !measured.is_finite() { f64::NAN } else { interpolate(times, simulated, t + offset) }
-                };
-                predicted.extend(set.times.iter().zip(&column.values).map(value));
-            }
-        }
-        Ok(predicted)
+        let table = self.table(&unknowns[..self.free.len()])?;
+        let series = |signal: &str| table.column(signal).map_or(&[][..], |c| c.values.as_slice());
+        Ok(self.collect(unknowns, series, |values, t| interpolate(table.times(), values, t)))
     }
 
-    /// Computes the derivatives of all predicted values by all unknowns at the point `unknowns` by differences of runs,
-    /// on all processors. With `with_error` (twice the runs) they are extrapolated and their error is estimated.
+    /// Returns the way to the derivatives by each unknown, found once, at the starts of the free parameters. A run that
+    /// meets an obstacle later takes differences there ([`Sensitivities::ways`]).
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::predict`].
+    pub fn ways(&self) -> Result<&[Sensitivity], ModelError> {
+        if let Some(ways) = self.ways.get() {
+            return Ok(ways);
+        }
+        let start: Vec<f64> = self.free.iter().map(|free| free.start).collect();
+        let at = self.at(&start)?;
+        let of_scene = exact::obstacle(&at, &self.signals());
+        let mut ways = Vec::with_capacity(self.n_unknowns());
+        for k in 0..self.n_unknowns() {
+            let way = match &of_scene {
+                _ if k >= self.free.len() => Sensitivity::Exact,
+                Some(reason) => Sensitivity::Differences(reason.clone()),
+                None => self.way_of_parameter(&at, &start, k)?,
+            };
+            ways.push(way);
+        }
+        if let Some(k) = (0..self.free.len()).find(|k| ways[*k] == Sensitivity::Exact)
+            && self.departs(&start, k)?
+        {
+            let reason = "the run on dual numbers departs from the plain one";
+            ways[..self.free.len()].fill(Sensitivity::Differences(reason.into()));
+        }
+        Ok(self.ways.get_or_init(|| ways))
+    }
+
+    /// Takes over the ways to the derivatives from a model of the same scene, parameters and signals.
+    pub(super) fn take_ways(&self, ways: Vec<Sensitivity>) {
+        let _ = self.ways.set(ways);
+    }
+
+    /// Way to the derivative by free parameter `k` of a scene without obstacle, `at` the values `start`. A block that
+    /// holds other numbers is an obstacle if the exact derivative is not that of differences.
+    fn way_of_parameter(&self, at: &Loaded, start: &[f64], k: usize) -> Result<Sensitivity, ModelError> {
+        let mut beside = start.to_vec();
+        beside[k] += Difference::at(start[k], self.bounds(k)).steps(WIDTH)[0];
+        let reason = match exact::obstacle_of(at, &self.at(&beside)?) {
+            Obstacle::None => return Ok(Sensitivity::Exact),
+            Obstacle::Certain(reason) => return Ok(Sensitivity::Differences(reason)),
+            Obstacle::Suspected(reason) => reason,
+        };
+        let mut unknowns = start.to_vec();
+        unknowns.resize(self.n_unknowns(), 0.0);
+        let Ok(exact) = self.exact_column(&unknowns, k)? else { return Ok(Sensitivity::Differences(reason)) };
+        let (differences, _) = self.differences(&unknowns, k, true)?;
+        let largest = differences.iter().filter(|x| x.is_finite()).fold(0.0_f64, |a, x| a.max(x.abs()));
+        let agrees = |(a, b): (&f64, &f64)| !a.is_finite() || (a - b).abs() <= DEPARTURE * largest;
+        let is_exact = exact.iter().zip(&differences).all(agrees);
+        Ok(if is_exact { Sensitivity::Exact } else { Sensitivity::Differences(reason) })
+    }
+
+    /// Returns true if the values of a run on dual numbers are not those of a plain one.
+    fn departs(&self, values: &[f64], k: usize) -> Result<bool, ModelError> {
+        let Ok(Rows { signals: rows, .. }) = self.dual_rows(values, k)? else { return Ok(false) };
+        let table = self.table(values)?;
+        Ok(self.signals().iter().enumerate().any(|(s, signal)| {
+            let plain = table.column(signal).map_or(&[][..], |c| c.values.as_slice());
+            let size = plain.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+            let departs = |(row, plain): (&Vec<D>, &f64)| {
+                (row[s].value - plain).abs() > DEPARTURE * size || row[s].value.is_nan()
+            };
+            rows.len() != plain.len() || rows.iter().zip(plain).any(departs)
+        }))
+    }
+
+    /// Derivatives by free parameter `k`, exact; the reason as an error where the run on dual numbers cannot go on.
+    fn exact_column(&self, unknowns: &[f64], k: usize) -> Result<Result<Vec<f64>, String>, ModelError> {
+        let Rows { times, signals: rows, .. } = match self.dual_rows(&unknowns[..self.free.len()], k)? {
+            Ok(found) => found,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let signals = self.signals();
+        let slopes: Vec<Vec<f64>> =
+            (0..signals.len()).map(|s| rows.iter().map(|row| row[s].partials[0]).collect()).collect();
+        let series =
+            |signal: &str| signals.iter().position(|known| known == signal).map_or(&[][..], |s| slopes[s].as_slice());
+        Ok(Ok(self.collect(unknowns, series, |values, t| interpolate(&times, values, t))))
+    }
+
+    /// Whole run on dual numbers, differentiated by free parameter `k`; the reason as an error where it cannot go on.
+    fn dual_rows(&self, values: &[f64], k: usize) -> Result<Result<Rows, String>, ModelError> {
+        let around = self.neighbours(values, k)?;
+        let (_, n_ticks) = ticks(&around.scenes[0]);
+        Ok(self.dual_run(&around, &Start::OF_RUN, n_ticks))
+    }
+
+    /// A run on dual numbers.
+    pub(super) fn dual_run(&self, around: &Neighbours, start: &Start<'_>, n_ticks: usize) -> Result<Rows, String> {
+        self.n_dual_runs.fetch_add(1, Ordering::Relaxed);
+        exact::run(around, start, &self.signals(), n_ticks)
+    }
+
+    /// Scenes beside the values of the free parameters along parameter `k`.
+    pub(super) fn neighbours(&self, values: &[f64], k: usize) -> Result<Neighbours, ModelError> {
+        let difference = Difference::at(values[k], self.bounds(k));
+        let mut around = Neighbours { scenes: vec![self.at(values)?], difference };
+        for (i, step) in Neighbours::steps(difference).into_iter().enumerate() {
+            // a parameter that numbers are proportional to needs no narrower difference
+            if i == 2 && around.are_affine() {
+                break;
+            }
+            let mut at = values.to_vec();
+            at[k] += step;
+            around.scenes.push(self.at(&at)?);
+        }
+        Ok(around)
+    }
+
+    /// Derivatives by the time offset of set `s`: the slope of the prediction.
+    fn offset_column(&self, unknowns: &[f64], s: usize) -> Result<Vec<f64>, ModelError> {
+        let table = self.table(&unknowns[..self.free.len()])?;
+        let series = |signal: &str| table.column(signal).map_or(&[][..], |c| c.values.as_slice());
+        let mut slopes = self.collect(unknowns, series, |values, t| interpolated_slope(table.times(), values, t));
+        let mut place = 0;
+        for (k, set) in self.sets.iter().enumerate() {
+            let n = set.times.len() * set.columns.len();
+            if k != s {
+                slopes[place..place + n].iter_mut().filter(|x| x.is_finite()).for_each(|x| *x = 0.0);
+            }
+            place += n;
+        }
+        Ok(slopes)
+    }
+
+    /// Computes the derivatives of all predicted values by all unknowns at the point `unknowns`, on all processors:
+    /// exactly where that can be, else by differences of runs. With `with_error` differences are extrapolated and their
+    /// error is estimated.
     ///
     /// # Errors
     ///
     /// As [`Model::predict`].
     pub fn sensitivities(&self, unknowns: &[f64], with_error: bool) -> Result<Sensitivities, ModelError> {
         let n = self.n_unknowns();
-        let widths: &[f64] = if with_error { &[WIDTH, 0.5 * WIDTH] } else { &[0.5 * WIDTH] };
-        let differences: Vec<Difference> = (0..n).map(|k| Difference::at(unknowns[k], self.bounds(k))).collect();
-        let points = |k: usize| widths.iter().flat_map(move |w| [(k, *w, 0), (k, *w, 1)]);
-        let mut jobs: Vec<(usize, f64)> =
-            (0..n).flat_map(points).map(|(k, width, i)| (k, differences[k].steps(width)[i])).collect();
-        // one-sided differences need the place itself
-        let needs_middle = differences.iter().any(|d| d.side != 0.0);
-        jobs.extend(needs_middle.then_some((0, 0.0)));
+        let ways = self.ways()?.to_vec();
         let next = AtomicUsize::new(0);
-        let mut results: Vec<Option<Result<Vec<f64>, ModelError>>> = jobs.iter().map(|_| None).collect();
-        let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(jobs.len().max(1));
+        let mut results: Vec<Option<Result<Column, ModelError>>> = (0..n).map(|_| None).collect();
+        let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
         let worker = || {
             let mut mine = Vec::new();
             loop {
-                let j = next.fetch_add(1, Ordering::Relaxed);
-                let Some((k, step)) = jobs.get(j) else { return mine };
-                let mut at = unknowns.to_vec();
-                let (_, low, high, _) = self.bounds(*k);
-                at[*k] = (at[*k] + step).clamp(low, high);
-                mine.push((j, self.predict(&at)));
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                if k >= n {
+                    return mine;
+                }
+                mine.push((k, self.column(unknowns, k, &ways[k], with_error)));
             }
         };
         std::thread::scope(|scope| {
             let others: Vec<_> = (1..n_threads).map(|_| scope.spawn(worker)).collect();
             let own = worker();
             let all = others.into_iter().flat_map(|thread| thread.join().expect("a run does not panic")).chain(own);
-            all.for_each(|(j, result)| results[j] = Some(result));
+            all.for_each(|(k, result)| results[k] = Some(result));
         });
-        let middle = if needs_middle { results.pop().flatten().transpose()? } else { None }.unwrap_or_default();
-        let mut values = results.into_iter().map(|result| result.expect("every job was done"));
-        let (mut columns, mut worst) = (Vec::with_capacity(n), 0.0_f64);
-        for k in 0..n {
-            let mut slopes = Vec::new();
-            for width in widths {
-                let (first, second) = (values.next().expect("two a width")?, values.next().expect("two a width")?);
-                slopes.push(differences[k].slopes(*width, &first, &second, &middle));
-            }
-            if let [wide, narrow] = slopes.as_slice() {
-                let better: Vec<f64> = narrow.iter().zip(wide).map(|(n, w)| n + (n - w) / 3.0).collect();
-                let largest = better.iter().copied().filter(|x| x.is_finite()).fold(0.0_f64, |a, b| a.max(b.abs()));
-                // what is left after the extrapolation is of the square of what it took away, one-sided of its power
-                // 3/2
-                let taken = narrow.iter().zip(wide).map(|(n, w)| (n - w).abs() / 3.0).filter(|x| x.is_finite());
-                let share = taken.fold(0.0_f64, f64::max) / largest.max(f64::MIN_POSITIVE);
-                let left = if differences[k].side == 0.0 { share * share } else { share * share.sqrt() };
-                worst = worst.max(left.max(1e-15 / WIDTH));
-                columns.push(better);
-            } else {
-                columns.push(slopes.pop().expect("one width"));
-            }
+        let mut found = Sensitivities { columns: Vec::new(), ways: Vec::new(), error: 0.0 };
+        for result in results {
+            let column = result.expect("every column was found")?;
+            found.columns.push(column.values);
+            found.ways.push(column.way);
+            found.error = found.error.max(column.error);
         }
-        Ok(Sensitivities { columns, error: worst })
+        Ok(found)
     }
-}
 
-/// Difference of second order for the derivative by an unknown: central, or one-sided where that would leave its
-/// bounds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Difference {
-    /// 0 for a central difference, 1 for one towards larger values, −1 for one towards smaller.
-    side: f64,
-    /// Unit of the widths.
-    scale: f64,
-}
-
-impl Difference {
-    /// The difference at a value; `bounds` as of [`Model::bounds`].
-    fn at(value: f64, (_, low, high, scale): (f64, f64, f64, f64)) -> Self {
-        // the wider difference fits between the bounds to one side or the other
-        let scale = scale.min((high - low) / (4.0 * WIDTH));
-        let side = match scale * WIDTH {
-            h if value - h >= low && value + h <= high => 0.0,
-            h if value + 2.0 * h <= high => 1.0,
-            _ => -1.0,
+    fn column(&self, unknowns: &[f64], k: usize, way: &Sensitivity, with_error: bool) -> Result<Column, ModelError> {
+        let exact = |values| Column { values, way: Sensitivity::Exact, error: 0.0 };
+        let reason = match way {
+            Sensitivity::Differences(reason) => reason.clone(),
+            Sensitivity::Exact if k >= self.free.len() => {
+                return self.offset_column(unknowns, k - self.free.len()).map(exact);
+            }
+            Sensitivity::Exact => match self.exact_column(unknowns, k)? {
+                Ok(values) => return Ok(exact(values)),
+                Err(reason) => reason,
+            },
         };
-        Self { side, scale }
+        let (values, error) = self.differences(unknowns, k, with_error)?;
+        Ok(Column { values, way: Sensitivity::Differences(reason), error })
     }
 
-    /// Distances of its two points from the value.
-    fn steps(self, width: f64) -> [f64; 2] {
-        let h = width * self.scale;
-        if self.side == 0.0 { [h, -h] } else { [self.side * h, 2.0 * self.side * h] }
-    }
-
-    /// Slopes from what is predicted at its two points and, if it is one-sided, at the value.
-    fn slopes(self, width: f64, first: &[f64], second: &[f64], middle: &[f64]) -> Vec<f64> {
-        let h = width * self.scale;
-        let points = first.iter().zip(second);
-        if self.side == 0.0 {
-            points.map(|(up, down)| (up - down) / (2.0 * h)).collect()
-        } else {
-            let slope = |((near, far), at): ((&f64, &f64), &f64)| (4.0 * near - far - 3.0 * at) / (2.0 * h * self.side);
-            points.zip(middle).map(slope).collect()
+    /// Computes the derivatives of all predicted values by unknown `k` at the point `unknowns` by differences of runs,
+    /// whatever other way there is; with `with_error` extrapolated, with an estimate of their error relative to the
+    /// largest one, else 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::predict`].
+    ///
+    /// # Panics
+    ///
+    /// If `k` is not below [`Model::n_unknowns`].
+    pub fn differences(&self, unknowns: &[f64], k: usize, with_error: bool) -> Result<(Vec<f64>, f64), ModelError> {
+        let widths: &[f64] = if with_error { &[WIDTH, 0.5 * WIDTH] } else { &[0.5 * WIDTH] };
+        let difference = Difference::at(unknowns[k], self.bounds(k));
+        let beside = |step: f64| {
+            let mut at = unknowns.to_vec();
+            let (_, low, high, _) = self.bounds(k);
+            at[k] = (at[k] + step).clamp(low, high);
+            self.predict(&at)
+        };
+        let middle = if difference.side == 0.0 { Vec::new() } else { self.predict(unknowns)? };
+        let mut slopes = Vec::new();
+        for width in widths {
+            let [first, second] = difference.steps(*width);
+            slopes.push(difference.slopes(*width, &beside(first)?, &beside(second)?, &middle));
         }
+        let [wide, narrow] = slopes.as_slice() else {
+            return Ok((slopes.pop().expect("one width"), 0.0));
+        };
+        let better: Vec<f64> = narrow.iter().zip(wide).map(|(n, w)| Difference::extrapolated(*w, *n)).collect();
+        let largest = better.iter().copied().filter(|x| x.is_finite()).fold(0.0_f64, |a, b| a.max(b.abs()));
+        // what is left after the extrapolation is of the square of what it took away, one-sided of its power 3/2
+        let taken = narrow.iter().zip(wide).map(|(n, w)| (n - w).abs() / 3.0).filter(|x| x.is_finite());
+        let share = taken.fold(0.0_f64, f64::max) / largest.max(f64::MIN_POSITIVE);
+        let left = if difference.side == 0.0 { share * share } else { share * share.sqrt() };
+        Ok((better, left.max(1e-15 / WIDTH)))
     }
+}
+
+/// Base step `[s]` of a scene, and their number in its run.
+pub(super) fn ticks(loaded: &Loaded) -> (f64, usize) {
+    let (step, duration) = (loaded.experiment.step, loaded.experiment.duration);
+    (step, (duration / step).round() as usize)
+}
+
+/// Derivatives by one unknown.
+struct Column {
+    values: Vec<f64>,
+    way: Sensitivity,
+    error: f64,
 }
 
 /// Problem in words for a model that cannot be run.
@@ -320,26 +530,6 @@ impl From<ModelError> for Diagnostics {
                     .into()
             }
             ModelError::Interrupted => Diagnostic::without_location("it was interrupted").into(),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn differences_stay_between_the_bounds_and_are_of_second_order() {
-        let square = |x: f64| [x * x];
-        for (value, low, high, side) in
-            [(2.0, 0.0, 9.0, 0.0), (0.0, 0.0, 9.0, 1.0), (9.0, 0.0, 9.0, -1.0), (3.0, 3.0, 3.0 + 1e-6, 1.0)]
-        {
-            let difference = Difference::at(value, (value, low, high, 2.0));
-            assert_eq!(difference.side, side, "{value}");
-            let points = difference.steps(WIDTH).map(|step| value + step);
-            assert!(points.iter().all(|x| (low..=high).contains(x)), "{points:?}");
-            let slope = difference.slopes(WIDTH, &square(points[0]), &square(points[1]), &square(value))[0];
-            assert!((slope - 2.0 * value).abs() < 1e-6, "{value}: {slope}");
         }
     }
 }

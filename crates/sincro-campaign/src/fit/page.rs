@@ -6,6 +6,7 @@ use sincro_figures::report::figure;
 use sincro_figures::report::shell::{PLOT_SCRIPT, cell, document, list, paragraph, sections, settings, table};
 
 use super::Fit;
+use super::exact::unit;
 
 /// Columns whose figures are drawn.
 const MAX_FIGURES: usize = 8;
@@ -82,7 +83,7 @@ fn estimates(fit: &Fit<'_>) -> String {
         + &format!(
             "<p class=\"key\">From and to: the interval at {} % confidence, from the sensitivities at the solution and the spread of the \
              residuals. Run with these values: <code>{}</code></p>\n",
-            short(100.0 * fit.confidence, 4),
+            short(100.0 * fit.options.confidence, 4),
             escape(&fit.command())
         )
 }
@@ -107,7 +108,8 @@ fn figures(fit: &Fit<'_>) -> String {
         .take(MAX_FIGURES)
         .map(|(set, column, range)| {
             let label = column.signal.rsplit('/').next().unwrap_or(&column.signal);
-            let mut panel = Panel::new(Axis::new(label, ""));
+            let unit = unit(fit.model.loaded, &column.signal);
+            let mut panel = Panel::new(Axis::new(label, unit.clone()));
             let series = |name: &str, role, stroke, y: &[f64]| Series {
                 stroke,
                 ..Series::new(name, role, set.times.clone(), y.to_vec())
@@ -116,7 +118,7 @@ fn figures(fit: &Fit<'_>) -> String {
             panel.series.push(series("fitted", Role::Simulated, Stroke::Line, &fit.predicted.1[range.clone()]));
             panel.series.push(series("measured", Role::Reference, Stroke::Points, &column.values));
             let mut below =
-                Panel { title: "fitted − measured".into(), share: 0.5, ..Panel::new(Axis::new("residual", "")) };
+                Panel { title: "fitted − measured".into(), share: 0.5, ..Panel::new(Axis::new("residual", unit)) };
             let residuals: Vec<f64> = fit.solution.residuals[range].iter().map(|r| r / column.weight).collect();
             below.series.push(series("", Role::Simulated, Stroke::Points, &residuals));
             let title = format!("{} in {}", column.column, set.path.display());
@@ -202,17 +204,13 @@ fn setting_rows(fit: &Fit<'_>) -> Vec<(String, String)> {
     let files: Vec<String> = fit.model.sets.iter().map(|set| set.path.display().to_string()).collect();
     vec![
         ("data".into(), files.join(", ")),
-        ("loss".into(), fit.loss.word().into()),
+        ("loss".into(), fit.options.loss.word().into()),
         ("method".into(), "Levenberg–Marquardt within bounds".into()),
-        (
-            "sensitivities".into(),
-            format!(
-                "central differences of runs at accuracy 1e-12, relative error about {}",
-                significant(fit.solution.sensitivities.error, 1)
-            ),
-        ),
+        ("start".into(), fit.shot.as_ref().map_or_else(|| "as given".to_owned(), super::Shot::words)),
+        ("sensitivities".into(), fit.solution.sensitivities.words(&fit.model.names()).join("; ")),
         ("iterations".into(), fit.solution.n_iterations.to_string()),
         ("runs".into(), fit.model.n_runs().to_string()),
+        ("runs on dual numbers".into(), fit.model.n_dual_runs().to_string()),
         ("standard deviation of the residuals, weighted".into(), significant(fit.inference.sigma, 4)),
         ("sincro".into(), env!("CARGO_PKG_VERSION").into()),
     ]

@@ -113,22 +113,22 @@ fn flat(model: &Model<'_>) -> (Vec<f64>, Vec<f64>) {
     (measured, weights)
 }
 
-/// Fits the unknowns of a model to its data by the Levenberg–Marquardt method with bounds, from the starts of the free
-/// parameters; robust losses by iterative reweighting.
+/// Fits the unknowns of a model to its data by the Levenberg–Marquardt method with bounds, from the values `start` (one
+/// for each unknown); robust losses by iterative reweighting.
 ///
 /// # Errors
 ///
 /// [`SolveError::Model`]: the model cannot be run, or was interrupted. [`SolveError::Dead`]: an unknown has no effect.
 /// [`SolveError::TooFew`]: no more data than unknowns.
-pub fn solve(model: &Model<'_>, loss: Loss) -> Result<Solution, SolveError> {
+pub fn solve(model: &Model<'_>, loss: Loss, start: &[f64]) -> Result<Solution, SolveError> {
     let n = model.n_unknowns();
     let (measured, weights) = flat(model);
     let residuals_of = |predicted: &[f64]| -> Vec<f64> {
         predicted.iter().zip(&measured).zip(&weights).map(|((p, m), w)| w * (p - m)).collect()
     };
-    let mut x: Vec<f64> = (0..n).map(|k| model.bounds(k).0).collect();
     let scales: Vec<f64> = (0..n).map(|k| model.bounds(k).3).collect();
     let clamp = |k: usize, value: f64| value.clamp(model.bounds(k).1, model.bounds(k).2);
+    let mut x: Vec<f64> = start.iter().enumerate().map(|(k, value)| clamp(k, *value)).collect();
     model.set_coarse(true);
     let mut residuals = residuals_of(&model.predict(&x)?);
     let n_values = residuals.iter().filter(|r| r.is_finite()).count();

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sincro::load;
-use sincro_campaign::fit::{DataSet, Fit, Loss, Model, ModelError, SignalChoice, SolveError, parse_all};
+use sincro_campaign::fit::{
+    DataSet, Fit, FitOptions, Loss, Model, ModelError, Sensitivity, SignalChoice, SolveError, parse_all,
+};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 
 use super::run::{interrupt, parse_settings};
@@ -31,6 +33,12 @@ pub(crate) struct Arguments {
     /// Find a time offset of each file, too
     #[arg(long)]
     time_offset: bool,
+    /// Find a start by multiple shooting in N parts first: for starts that are far off
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1000))]
+    shooting: Option<u32>,
+    /// Refuse a fit with derivatives by differences; exact ones are taken wherever they can be
+    #[arg(long)]
+    exact: bool,
     /// Loss of a residual; the robust ones bear outliers
     #[arg(long, value_enum, default_value_t = LossWord::Squares)]
     loss: LossWord,
@@ -83,7 +91,11 @@ fn fit(arguments: &Arguments) -> Result<Exit, Diagnostics> {
         LossWord::Huber => Loss::Huber,
         LossWord::Cauchy => Loss::Cauchy,
     };
-    let fit = match Fit::new(loaded.experiment.title.clone(), model, loss, 0.95, &held_back) {
+    if arguments.exact {
+        refuse_differences(&model)?;
+    }
+    let options = FitOptions { loss, shooting: arguments.shooting.map(|n| n as usize), ..FitOptions::default() };
+    let fit = match Fit::new(loaded.experiment.title.clone(), model, options, &held_back) {
         Ok(fit) => fit,
         Err(SolveError::Model(ModelError::Interrupted)) => {
             eprintln!("the fit was interrupted");
@@ -118,4 +130,18 @@ fn fit(arguments: &Arguments) -> Result<Exit, Diagnostics> {
     }
     let is_identifiable = fit.inference.estimates.iter().all(|estimate| estimate.is_identifiable);
     Ok(if fit.solution.has_converged && is_identifiable { Exit::Holds } else { Exit::Fails })
+}
+
+/// Refuses parameters whose derivatives are differences, each with its reason.
+fn refuse_differences(model: &Model<'_>) -> Result<(), Diagnostics> {
+    let mut found = Diagnostics::new();
+    for (name, way) in model.names().iter().zip(model.ways()?) {
+        if let Sensitivity::Differences(reason) = way {
+            let message = format!("there is no exact derivative by `{name}`: {reason}");
+            found.push(
+                Diagnostic::without_location(message).with_help("leave `--exact` out to take differences of runs"),
+            );
+        }
+    }
+    if found.any_error() { Err(found) } else { Ok(()) }
 }
