@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use sincro_campaign::design::inverse_normal;
 use sincro_campaign::design::random::{Purpose, uniform};
 use sincro_campaign::fit::data::DataColumn;
-use sincro_campaign::fit::{DataSet, Fit, FitOptions, FreeParameter, Loss, Model, SolveError, parse_all};
+use sincro_campaign::fit::{DataSet, Fit, FitOptions, FreeParameter, Loss, Model, SignalChoice, SolveError, parse_all};
 use sincro_scene::overrides::Override;
 use sincro_sim::run::{RunMonitor, RunOptions, simulate};
 use sincro_sim::{Extensions, Loaded, load};
@@ -243,4 +243,40 @@ fn shooting_is_refused_by_name_where_it_cannot_be() {
     let Err(SolveError::Model(error)) = Fit::new("test".into(), model, options, &[]) else { panic!("it is refused") };
     let words = sincro_scene::diagnostic::Diagnostics::from(error).to_string();
     assert!(words.contains("the scene has a diagram"), "{words}");
+}
+
+#[test]
+fn the_examples_of_identification_find_their_truths() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/identification");
+    let check = |folder: PathBuf, file: &str, signals: &[&str], parameters: &[(&str, f64)]| {
+        let loaded = load(&folder, &[], Extensions::default()).unwrap();
+        let choices: Vec<SignalChoice> = signals.iter().map(|text| SignalChoice::parse(text).unwrap()).collect();
+        let sets = [DataSet::read(&examples.join("data").join(file), &choices, &[]).unwrap()];
+        let free = parameters.iter().map(|(path, truth)| free(path, 1.3 * truth)).collect();
+        let model = Model::new(&loaded, &[], free, &sets, false, &GO);
+        let fit = Fit::new(file.into(), model, FitOptions::default(), &[]).unwrap();
+        assert!(fit.solution.has_converged, "{}", fit.text());
+        for (estimate, (path, truth)) in fit.inference.estimates.iter().zip(parameters) {
+            assert!(estimate.is_identifiable, "{path}");
+            assert!(
+                (estimate.value - truth).abs() < 3.5 * estimate.std,
+                "{path}: {} ± {}",
+                estimate.value,
+                estimate.std
+            );
+        }
+    };
+    let spring = [("/shoulder.spring.stiffness", 30.0), ("/shoulder.damping", 10.0)];
+    check(scene("spring-dynamic"), "spring.csv", &["/shoulder.position=angle@1e-3"], &spring);
+    let ramp = [("/motor/link.inertia.zz", 1e-12)];
+    check(scene("motor-ramp"), "ramp.csv", &["/motor.motor_torque=torque@2e-14"], &ramp);
+    let motor = [
+        ("/shaft.motor.resistance", 1.2),
+        ("/shaft.motor.inductance", 0.06),
+        ("/shaft.motor.torque_constant", 0.3),
+        ("/shaft.damping", 0.01),
+        ("/shaft/flywheel.inertia.zz", 0.02),
+    ];
+    let signals = ["/shaft.velocity=speed@0.05", "/shaft.current=current@0.02"];
+    check(examples.join("motor"), "motor.csv", &signals, &motor);
 }

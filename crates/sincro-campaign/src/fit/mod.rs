@@ -3,6 +3,7 @@
 pub mod data;
 mod difference;
 mod exact;
+pub mod excitation;
 pub mod free;
 pub mod inference;
 pub mod model;
@@ -17,6 +18,7 @@ use sincro_figures::plot::number::{short, significant};
 use sincro_sim::file::FileError;
 
 pub use data::{DataSet, SignalChoice};
+pub use excitation::{Excitation, Excited, Information};
 pub use free::{FreeParameter, parse_all};
 pub use inference::{Inference, Whiteness, infer, whiteness};
 pub use model::{Model, ModelError, Sensitivities, Sensitivity};

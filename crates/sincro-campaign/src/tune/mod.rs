@@ -3,10 +3,12 @@
 //! Candidates are compared by Deb's rules (2000): of two that keep all limits the one with the smaller goal is better,
 //! else the one that breaks them less. Neither method needs more than the order, so that no penalty has to be chosen.
 
-mod cma;
+pub(crate) mod cma;
 mod goal;
 mod local;
+mod margins;
 mod page;
+mod pareto;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -23,6 +25,8 @@ use crate::fit::FreeParameter;
 use cma::Cma;
 pub use goal::{Goal, Limit, measure_tables};
 use local::Simplex;
+pub use margins::{LoopMargin, margins};
+use pareto::Member;
 
 /// Search method of a tuning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,6 +59,8 @@ pub struct Tuning<'a> {
     pub free: Vec<FreeParameter>,
     /// Goal that is minimised.
     pub goal: Goal,
+    /// Second goal that is minimised as well: the result is a Pareto front; global search only.
+    pub second: Option<Goal>,
     /// Limits that must be kept; may be empty.
     pub limits: Vec<Limit>,
     /// Rule by which the values of several runs become one.
@@ -74,6 +80,8 @@ pub struct Candidate {
     pub values: Vec<f64>,
     /// Value of the goal over all runs; infinite if a run has none.
     pub goal: f64,
+    /// Value of the second goal over all runs; NaN if there is none.
+    pub second: f64,
     /// Sum of `violations`; 0 if all limits are kept, infinite if the goal has no value.
     pub violation: f64,
     /// Violation of each limit over all runs, relative to the limit, in the order of [`Tuning::limits`]; 0 if it is
@@ -102,8 +110,13 @@ impl Candidate {
 pub struct Tuned {
     /// Candidate at the start of the search.
     pub before: Candidate,
-    /// Best candidate.
+    /// Best candidate; of two goals the one of the front that is nearest to the best of both.
     pub after: Candidate,
+    /// Candidates that keep all limits and that no other is better than in both goals, by ascending first goal; empty
+    /// with one goal.
+    pub front: Vec<Candidate>,
+    /// Margins of the loops of the diagram before and after, at the end of the first run.
+    pub margins: (Vec<LoopMargin>, Vec<LoopMargin>),
     /// Progress of the search: after how many candidates the best one changed, and its goal; the first entry is the
     /// start.
     pub history: Vec<(usize, f64)>,
@@ -147,7 +160,15 @@ impl Tuning<'_> {
         let Some(before) = self.evaluate(std::slice::from_ref(&start), interrupt)?.pop() else { return Ok(None) };
         let mut best = before.clone();
         let (mut history, mut n, mut has_converged) = (vec![(1, before.goal)], 1, false);
+        let mut front = Vec::new();
         match self.method {
+            _ if self.second.is_some() => {
+                (n, front) = self.search_front(&start, interrupt, progress)?;
+                if let Some(knee) = pareto::knee(&front) {
+                    best = knee.clone();
+                    history.push((n, best.goal));
+                }
+            }
             Method::Global => {
                 let mut search = Cma::new(&start, 0.3, self.seed);
                 while n < self.budget && !has_converged {
@@ -196,7 +217,54 @@ impl Tuning<'_> {
         let is_interrupted = interrupt.load(Ordering::Relaxed);
         has_converged &= !is_interrupted;
         let wall_time = clock.elapsed().as_secs_f64();
-        Ok(Some(Tuned { before, after: best, history, n_candidates: n, has_converged, is_interrupted, wall_time }))
+        let margins = (self.margins_of(&before), self.margins_of(&best));
+        let n_candidates = n;
+        let found = Tuned {
+            before,
+            after: best,
+            front,
+            margins,
+            history,
+            n_candidates,
+            has_converged,
+            is_interrupted,
+            wall_time,
+        };
+        Ok(Some(found))
+    }
+
+    /// Searches the front of two goals; returns the number of candidates and the front.
+    fn search_front(
+        &self,
+        start: &[f64],
+        interrupt: &AtomicBool,
+        progress: &mut dyn FnMut(f64, f64),
+    ) -> Result<(usize, Vec<Candidate>), RunError> {
+        let (mut front, mut parents, mut n, mut generation) = (Vec::new(), Vec::<Member>::new(), 0, 0);
+        while n < self.budget {
+            let points = match parents.is_empty() {
+                true => pareto::first(start, self.seed),
+                false => pareto::children(&parents, generation, self.seed),
+            };
+            let tried = self.evaluate(&points, interrupt)?;
+            if tried.len() < points.len() {
+                break;
+            }
+            n += tried.len();
+            generation += 1;
+            tried.iter().for_each(|candidate| pareto::add(&mut front, candidate));
+            let new = points.into_iter().zip(tried).map(|(point, candidate)| Member { point, candidate });
+            parents = pareto::survivors(new.chain(parents).collect());
+            progress(n as f64 / self.budget as f64, pareto::knee(&front).map_or(f64::NAN, |knee| knee.goal));
+        }
+        Ok((n, front))
+    }
+
+    /// Margins of the loops of the first run with a candidate.
+    fn margins_of(&self, candidate: &Candidate) -> Vec<LoopMargin> {
+        let point = self.campaign.plan.point(0);
+        let loaded = self.campaign.loaded_with(&point, &self.settings(&candidate.values));
+        loaded.map(|loaded| margins(&loaded)).unwrap_or_default()
     }
 
     /// Evaluates points of the unit cube on all processors; fewer come back if it was interrupted.
@@ -235,11 +303,12 @@ impl Tuning<'_> {
         let of_point = |(point, runs): (&Vec<f64>, &[Vec<f64>])| {
             let value = |of: &dyn Fn(&[f64]) -> f64| self.robust.of(runs.iter().map(|run| of(run)).collect());
             let goal = value(&|run| self.goal.value(run));
+            let second = self.second.as_ref().map_or(f64::NAN, |second| value(&|run| second.value(run)));
             let violations: Vec<f64> = self.limits.iter().map(|limit| value(&|run| limit.violation(run))).collect();
             let violation = violations.iter().sum::<f64>();
             // a goal without value is worse than any limit that is broken
             let violation = if goal.is_finite() { violation } else { f64::INFINITY };
-            Candidate { values: self.values(point), goal, violation, violations, measures: runs[0].clone() }
+            Candidate { values: self.values(point), goal, second, violation, violations, measures: runs[0].clone() }
         };
         Ok(points.iter().zip(found.chunks(n_runs as usize)).map(of_point).collect())
     }
@@ -281,6 +350,16 @@ impl Tuning<'_> {
             significant(tuned.after.goal, 5),
             significant(change, 3)
         );
+        if let Some(second) = &self.second {
+            let (before, after) = (significant(tuned.before.second, 5), significant(tuned.after.second, 5));
+            let _ = writeln!(out, "  goal {}: {before} → {after}", second.text);
+            let _ = writeln!(out, "  front of {} candidates, the one nearest to the best of both", tuned.front.len());
+        }
+        for after in &tuned.margins.1 {
+            let before = tuned.margins.0.iter().find(|before| before.signal == after.signal);
+            let before = before.map_or_else(|| "open".into(), LoopMargin::words);
+            let _ = writeln!(out, "  loop at {}: {before} → {}", after.signal, after.words());
+        }
         for (limit, violation) in self.limits.iter().zip(&tuned.after.violations) {
             let of = |candidate: &Candidate| significant(limit.left(&candidate.measures), 4);
             let kept = if *violation > 0.0 { "BROKEN" } else { "kept" };
@@ -309,16 +388,23 @@ impl Tuning<'_> {
         let names = &self.campaign.layout.measures;
         let of = |candidate: &Candidate| {
             json!({
-                "goal": candidate.goal, "violation": candidate.violation, "violations": candidate.violations,
+                "goal": candidate.goal, "second": candidate.second, "violation": candidate.violation, "violations": candidate.violations,
                 "values": self.free.iter().zip(&candidate.values).map(|(f, x)| (f.path.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
                 "measures": names.iter().zip(&candidate.measures).map(|(n, x)| (n.clone(), json!(x))).collect::<serde_json::Map<_, _>>(),
             })
+        };
+        let of_loops = |loops: &[LoopMargin]| {
+            let one = |m: &LoopMargin| json!({ "signal": m.signal, "gain_db": m.gain_db, "phase_deg": m.phase_deg, "modulus": m.modulus });
+            loops.iter().map(one).collect::<Vec<_>>()
         };
         let document = json!({
             "title": self.campaign.loaded.experiment.title, "goal": self.goal.text, "seed": self.seed,
             "sincro_version": env!("CARGO_PKG_VERSION"),
             "subject": self.limits.iter().map(|limit| limit.text.clone()).collect::<Vec<_>>(),
             "before": of(&tuned.before), "after": of(&tuned.after),
+            "second": self.second.as_ref().map(|second| second.text.clone()),
+            "front": tuned.front.iter().map(of).collect::<Vec<_>>(),
+            "margins": { "before": of_loops(&tuned.margins.0), "after": of_loops(&tuned.margins.1) },
             "candidates": tuned.n_candidates, "converged": tuned.has_converged,
         });
         let text = serde_json::to_string_pretty(&document).expect("plain data") + "\n";
@@ -371,7 +457,7 @@ fn is_logarithmic(free: &FreeParameter) -> bool {
     free.low > 0.0 && free.high / free.low > 10.0
 }
 
-fn to_unit(free: &FreeParameter, value: f64) -> f64 {
+pub(crate) fn to_unit(free: &FreeParameter, value: f64) -> f64 {
     let u = if is_logarithmic(free) {
         (ln(value).0 - ln(free.low).0) / (ln(free.high).0 - ln(free.low).0)
     } else {
@@ -380,7 +466,7 @@ fn to_unit(free: &FreeParameter, value: f64) -> f64 {
     u.clamp(0.0, 1.0)
 }
 
-fn from_unit(free: &FreeParameter, u: f64) -> f64 {
+pub(crate) fn from_unit(free: &FreeParameter, u: f64) -> f64 {
     let value = if is_logarithmic(free) {
         exp(ln(free.low).0 + u * (ln(free.high).0 - ln(free.low).0)).0
     } else {

@@ -4,12 +4,18 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sincro::load;
+use sincro_campaign::fit::excitation::planned;
 use sincro_campaign::fit::{
-    DataSet, Fit, FitOptions, Loss, Model, ModelError, Sensitivity, SignalChoice, SolveError, parse_all,
+    DataSet, Excitation, Fit, FitOptions, FreeParameter, Loss, Model, ModelError, Sensitivity, SignalChoice,
+    SolveError, parse_all,
 };
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
+use sincro_scene::overrides::Override;
+use sincro_sim::Loaded;
 
+use super::console::Bar;
 use super::run::{interrupt, parse_settings};
+use super::whole_number;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `fit`.
@@ -18,7 +24,7 @@ pub(crate) struct Arguments {
     /// Folder of the scene, or its experiment.toml
     scene: PathBuf,
     /// Measured data: CSV whose first column is the time; may be repeated
-    #[arg(long, value_name = "FILE", required = true)]
+    #[arg(long, value_name = "FILE", required_unless_present = "design")]
     data: Vec<PathBuf>,
     /// Parameters to be found: PATH, PATH=START, PATH=LOW..HIGH or "PATH=START in LOW..HIGH"; several with commas
     #[arg(long, value_name = "PATH,…", required = true)]
@@ -27,6 +33,20 @@ pub(crate) struct Arguments {
     /// with the name of a recorded signal unless given
     #[arg(long, value_name = "SIGNAL=COLUMN")]
     signal: Vec<String>,
+    /// Propose the input that tells most instead of fitting: its numbers with their bounds; several with commas. The
+    /// signals of `--signal` need their noise
+    #[arg(long, value_name = "PATH=LOW..HIGH,…")]
+    design: Vec<String>,
+    /// Time between the planned measurements of `--design` [s]; the base step unless given. With `--data` they are
+    /// those of the file
+    #[arg(long, value_name = "S", requires = "design")]
+    every: Option<f64>,
+    /// Most inputs that `--design` tries
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole_number::<usize>)]
+    budget: usize,
+    /// Seed of the search of `--design`
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole_number::<u64>)]
+    seed: u64,
     /// Data that are held back to judge the fit
     #[arg(long, value_name = "FILE")]
     validate: Vec<PathBuf>,
@@ -84,6 +104,9 @@ fn fit(arguments: &Arguments) -> Result<Exit, Diagnostics> {
     };
     let (sets, held_back) = (read(&arguments.data)?, read(&arguments.validate)?);
     let interrupt = interrupt();
+    if !arguments.design.is_empty() {
+        return design(arguments, &loaded, set, free, (&choices, sets));
+    }
     let model = Model::new(&loaded, &set, free, &sets, arguments.time_offset, &interrupt);
     let names = model.names();
     let loss = match arguments.loss {
@@ -130,6 +153,62 @@ fn fit(arguments: &Arguments) -> Result<Exit, Diagnostics> {
     }
     let is_identifiable = fit.inference.estimates.iter().all(|estimate| estimate.is_identifiable);
     Ok(if fit.solution.has_converged && is_identifiable { Exit::Holds } else { Exit::Fails })
+}
+
+/// Proposes the input that tells most about the free parameters.
+fn design(
+    arguments: &Arguments,
+    loaded: &Loaded,
+    set: Vec<Override>,
+    free: Vec<FreeParameter>,
+    (choices, mut data): (&[SignalChoice], Vec<DataSet>),
+) -> Result<Exit, Diagnostics> {
+    let input = parse_all(&arguments.design, loaded)?;
+    if let Some(unbounded) = input.iter().find(|input| !(input.low.is_finite() && input.high.is_finite())) {
+        let message = format!("`{}` of `--design` has no bounds", unbounded.path);
+        return Err(Diagnostic::without_location(message).with_help("write PATH=LOW..HIGH").into());
+    }
+    let without_noise = |signal: &str| {
+        let message = format!("the noise of `{signal}` is not given");
+        let help = "an input is judged by the intervals that it leads to: --signal SIGNAL=COLUMN@SIGMA";
+        Diagnostics::from(Diagnostic::without_location(message).with_help(help))
+    };
+    if choices.is_empty() {
+        return Err(without_noise("--signal"));
+    }
+    if let Some(choice) = choices.iter().find(|choice| choice.sigma.is_none()) {
+        return Err(without_noise(&choice.signal));
+    }
+    if data.is_empty() {
+        let every = arguments.every.unwrap_or(loaded.experiment.step);
+        if !(every > 0.0 && every <= loaded.experiment.duration) {
+            let message = format!("`--every {every}` is no time between measurements of this run");
+            let help = format!("it is above 0 and at most the duration, {} s", loaded.experiment.duration);
+            return Err(Diagnostic::without_location(message).with_help(help).into());
+        }
+        data.push(planned(loaded, choices, every).map_err(|signal| without_noise(&signal))?);
+    }
+    let (budget, seed) = (arguments.budget.max(1), arguments.seed);
+    let excitation = Excitation { loaded, set, free, input, data, confidence: 0.95, budget, seed };
+    let bar = if arguments.json { Bar::none() } else { Bar::new("design") };
+    let interrupt = interrupt();
+    let found = excitation.search(&interrupt, &mut |share, best| bar.show(&format!("log det F {best:.4}"), share));
+    bar.finish();
+    let Some(excited) = found? else { return Ok(Exit::Stopped) };
+    if let Some(out) = &arguments.out
+        && let Err(error) = excitation.write(&excited, out)
+    {
+        return Ok(diagnostics::refuse_file(&error));
+    }
+    if arguments.json {
+        say!("{}", serde_json::to_string_pretty(&excitation.json(&excited)).expect("plain data"));
+    } else {
+        say!("{}", excitation.text(&excited).trim_end());
+        if let Some(out) = &arguments.out {
+            say!("  report {}", out.join("report.html").display());
+        }
+    }
+    Ok(if excited.after.log_det.is_finite() { Exit::Holds } else { Exit::Fails })
 }
 
 /// Refuses parameters whose derivatives are differences, each with its reason.

@@ -24,9 +24,10 @@ pub(crate) struct Arguments {
     /// Parameters to be found: PATH=LOW..HIGH or "PATH=START in LOW..HIGH"; several with commas
     #[arg(long, value_name = "PATH=LOW..HIGH,…", required = true)]
     free: Vec<String>,
-    /// Formula of measures and of the scene's checks that is to be small
-    #[arg(long, value_name = "FORMULA")]
-    goal: String,
+    /// Formula of measures and of the scene's checks that is to be small; given twice, the Pareto front of both is
+    /// found
+    #[arg(long, value_name = "FORMULA", required = true)]
+    goal: Vec<String>,
     /// Limit that is kept: MEASURE <= NUMBER or MEASURE >= NUMBER; may be repeated
     #[arg(long, value_name = "LIMIT")]
     subject: Vec<String>,
@@ -91,7 +92,15 @@ fn tune(arguments: &Arguments) -> Result<Exit, Diagnostics> {
         return Err(Diagnostic::without_location(message).with_help("write PATH=LOW..HIGH").into());
     }
     let names = &campaign.layout.measures;
-    let goal = Goal::parse(&arguments.goal, names)?;
+    let mut goals: Vec<Goal> = arguments.goal.iter().map(|text| Goal::parse(text, names)).collect::<Result<_, _>>()?;
+    if goals.len() > 2 || (goals.len() == 2 && arguments.local) {
+        let message =
+            if arguments.local { "a front of two goals is not searched locally" } else { "there are three goals" };
+        let help = "give one `--goal`, or two without `--local`; make a limit of a third: --subject";
+        return Err(Diagnostic::without_location(message).with_help(help).into());
+    }
+    let second = (goals.len() == 2).then(|| goals.remove(1));
+    let goal = goals.remove(0);
     let limits: Vec<Limit> =
         arguments.subject.iter().map(|text| Limit::parse(text, names)).collect::<Result<_, _>>()?;
     let robust = Robust::of_word(&arguments.robust).ok_or_else(|| {
@@ -100,7 +109,7 @@ fn tune(arguments: &Arguments) -> Result<Exit, Diagnostics> {
     })?;
     let method = if arguments.local { Method::Local } else { Method::Global };
     let (budget, seed) = (arguments.budget.max(1), arguments.seed);
-    let tuning = Tuning { campaign: &campaign, free, goal, limits, robust, method, budget, seed };
+    let tuning = Tuning { campaign: &campaign, free, goal, second, limits, robust, method, budget, seed };
     let bar = if arguments.quiet { Bar::none() } else { Bar::new("tune") };
     let interrupt = interrupt();
     let found = tuning.search(&interrupt, &mut |share, best| bar.show(&format!("best {best:.5}"), share));
