@@ -13,7 +13,8 @@ pub(super) struct PlanFile {
     pub(super) title: String,
     #[serde(default)]
     pub(super) description: String,
-    pub(super) scene: Spanned<String>,
+    /// Absent in the `[campaign]` of an experiment, whose scene is its own folder.
+    pub(super) scene: Option<Spanned<String>>,
     #[serde(default)]
     pub(super) seed: u64,
     pub(super) runs: Option<Spanned<u64>>,
@@ -33,6 +34,12 @@ pub(super) struct PlanFile {
     pub(super) correlation: Vec<Spanned<CorrelationFile>>,
     #[serde(default)]
     pub(super) measure: Vec<Spanned<MeasureFile>>,
+}
+
+/// An experiment file, of which its campaign alone is read here.
+#[derive(Debug, Deserialize)]
+pub(super) struct ExperimentFile {
+    pub(super) campaign: Option<PlanFile>,
 }
 
 /// Checks of the scene that are measured: all, none, or some by their names.

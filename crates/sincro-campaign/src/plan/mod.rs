@@ -136,13 +136,15 @@ pub struct RunPoint {
 }
 
 impl Plan {
-    /// Reads a plan file (TOML); paths in it are relative to its folder.
+    /// Reads a plan file (TOML), or the table `[campaign]` of the experiment in a scene's folder; paths in it are
+    /// relative to its folder.
     ///
     /// # Errors
     ///
     /// All findings at once, each at its place in the file: text that cannot be read or is no TOML, unknown keys,
     /// values without meaning, tables that cannot be read, too many runs.
     pub fn open(path: &Path) -> Result<Self, Diagnostics> {
+        let path = &if path.is_dir() { path.join("experiment.toml") } else { path.to_owned() };
         let text = std::fs::read_to_string(path).map_err(|error| {
             let words = format!("cannot read the plan `{}`: {error}", path.display());
             Diagnostics::from(sincro_scene::diagnostic::Diagnostic::without_location(words))

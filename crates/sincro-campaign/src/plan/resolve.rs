@@ -80,7 +80,7 @@ pub(super) fn resolve(file: PlanFile, places: &Places) -> Result<Plan, Diagnosti
     let plan = Plan {
         title: file.title.clone(),
         description: file.description.clone(),
-        scene: folder.join(file.scene.get_ref()),
+        scene: file.scene.as_ref().map_or_else(|| folder.to_owned(), |scene| folder.join(scene.get_ref())),
         seed: file.seed,
         random_seeds: file.random_seeds,
         confidence,

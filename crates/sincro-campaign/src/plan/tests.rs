@@ -124,3 +124,22 @@ fn a_correlation_with_columns_of_one_table_is_refused() {
     assert!(found.0[0].message.contains("`/p.x` is drawn with other columns"), "{:?}", found.0[0].message);
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn the_campaign_of_an_experiment_is_a_plan_of_its_own_folder() {
+    let path = Path::new("arm/experiment.toml");
+    let table = DRAWN.replace("scene = \"x\"\n", "").replace("[[parameter]]", "[[campaign.parameter]]");
+    let text = format!("title = \"x\"\nduration = 1.0\n[campaign]\n{table}");
+    let found = Plan::parse(path, text.clone()).unwrap();
+    let own = plan(DRAWN);
+    assert_eq!(found.scene, Path::new("arm"));
+    assert_eq!((found.n_runs(), found.point(7).values), (own.n_runs(), own.point(7).values));
+    let problem = |text: String| Plan::parse(path, text).unwrap_err().0.remove(0).message;
+    assert_eq!(problem("title = \"x\"\n".into()), "the experiment has no campaign");
+    assert_eq!(
+        problem(text.replace("[campaign]", "[campaign]\nscene = \"y\"")),
+        "the campaign of an experiment names a scene"
+    );
+    assert!(problem(text.replace("runs = 100", "rums = 100")).contains("unknown field `rums`"));
+    assert_eq!(problems("runs = 3\n"), ["the plan names no scene"]);
+}

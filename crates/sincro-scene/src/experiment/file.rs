@@ -69,6 +69,10 @@ pub(crate) struct ExperimentFile {
     pub check: Vec<CheckFile>,
     /// A static characteristic: the run is repeated over a parameter, and final values are recorded.
     pub sweep: Option<SweepFile>,
+    /// A campaign of runs, which `sincro sweep` makes of this folder: the keys of a plan file without `scene`.
+    #[allow(dead_code)] // read by whoever runs campaigns
+    #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, Value>>"))]
+    pub campaign: Option<Value>,
     /// The same experiment with other settings.
     #[serde(default)]
     pub variant: Vec<VariantFile>,

@@ -24,8 +24,8 @@ use crate::{Exit, diagnostics};
 pub(crate) struct Arguments {
     #[command(subcommand)]
     action: Option<Action>,
-    /// Plan of the campaign
-    #[arg(value_name = "PLAN.toml", required = true)]
+    /// Plan of the campaign, or the folder of a scene whose experiment has a [campaign]
+    #[arg(value_name = "PLAN.toml|SCENE", required = true)]
     plan: Option<PathBuf>,
     /// Folder of the results; one that holds part of this campaign is completed
     #[arg(long, value_name = "DIR", required = true)]
