@@ -14,6 +14,7 @@ use sincro_sim::campaign::audit;
 use sincro_sim::check::{Verdict, evaluate};
 use sincro_sim::results::Status;
 use sincro_sim::run::{RunError, RunMonitor, RunOptions, simulate};
+use sincro_sim::table::Table;
 use twox_hash::XxHash3_64;
 
 use crate::plan::{Checks, Plan, RunPoint};
@@ -227,7 +228,8 @@ impl Campaign {
         let variant = &self.variants[point.variant_idx];
         let settings: Vec<Override> = self.settings(point).into_iter().chain(more.iter().cloned()).collect();
         let mut loaded = self.loaded.with_overrides_without_variants(&settings)?;
-        for signal in self.plan.measures.iter().flat_map(|m| m.source.subject.signals()) {
+        let of_measures = self.plan.measures.iter().flat_map(|m| m.source.subject.signals());
+        for signal in of_measures.chain(&self.plan.signals) {
             if !loaded.experiment.record.iter().any(|known| known.value == signal.value) {
                 loaded.experiment.record.push(signal.clone());
             }
@@ -273,6 +275,7 @@ impl Campaign {
             n_findings: 0,
             trace: String::new(),
             reason: String::new(),
+            series: Vec::new(),
         };
         // what a row does not need is not read: references, variants, plots
         let light = self.variants[point.variant_idx].light.iter().cloned();
@@ -289,6 +292,9 @@ impl Campaign {
         let run = simulate(&loaded, RunOptions::default(), &mut monitor)?;
         row.t_end = run.table.times().last().copied().unwrap_or(0.0);
         row.trace = run.trace.to_string();
+        if !self.plan.signals.is_empty() {
+            row.series = self.series(&run.table);
+        }
         row.n_findings = audit(&loaded, &run, None).findings.len() as u64;
         match &run.status {
             Status::Completed => row.status = "completed",
@@ -319,6 +325,15 @@ impl Campaign {
         }
         row.is_good = keeps && row.n_failed == 0;
         Ok(Some(row))
+    }
+
+    /// Series of the signals that are kept, with their times first.
+    fn series(&self, table: &Table) -> Vec<Vec<f64>> {
+        let every = usize::try_from(self.plan.signals_every).unwrap_or(usize::MAX);
+        let thin = |values: &[f64]| values.iter().copied().step_by(every).collect::<Vec<f64>>();
+        let signal = |name: &String| table.column(name).map_or(&[][..], |c| c.values.as_slice());
+        let signals = self.plan.signals.iter().map(|name| thin(signal(&name.value)));
+        std::iter::once(thin(table.times())).chain(signals).collect()
     }
 
     /// Descriptions of the parameters.

@@ -48,6 +48,9 @@ pub struct Row {
     pub trace: String,
     /// Reason in English of a stop or refusal; else empty.
     pub reason: String,
+    /// Series of the signals that the plan keeps, for the table of signals: the times `[s]`, then each signal in the
+    /// order of the plan and in its unit; empty if it keeps none, or the run was refused.
+    pub series: Vec<Vec<f64>>,
 }
 
 impl Layout {

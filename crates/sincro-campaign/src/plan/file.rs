@@ -23,6 +23,10 @@ pub(super) struct PlanFile {
     #[serde(default)]
     pub(super) random_seeds: bool,
     pub(super) rows_per_part: Option<Spanned<u64>>,
+    /// Signals of which the whole series of every run is kept, and every how many recorded rows.
+    #[serde(default)]
+    pub(super) signals: Vec<Spanned<String>>,
+    pub(super) signals_every: Option<Spanned<u64>>,
     #[serde(default)]
     pub(super) variants: Vec<Spanned<String>>,
     pub(super) checks: Option<Spanned<ChecksFile>>,

@@ -113,6 +113,10 @@ pub struct Plan {
     pub measures: Vec<MeasurePlan>,
     /// Checks of the experiment that are measured, too.
     pub checks: Checks,
+    /// Signals of which the series of every run are kept in the table of signals; mostly none.
+    pub signals: Vec<Located<String>>,
+    /// Recorded rows from one row of that table to the next, 1 or more.
+    pub signals_every: u64,
     /// Number of rows in each part of the results; `None`: by [`Plan::rows_per_part`].
     pub rows_per_part: Option<u64>,
     /// Text of the plan file, for messages and for the copy beside the results.

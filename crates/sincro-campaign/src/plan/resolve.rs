@@ -66,6 +66,15 @@ pub(super) fn resolve(file: PlanFile, places: &Places) -> Result<Plan, Diagnosti
     if let Some(n) = file.rows_per_part.as_ref().filter(|n| *n.get_ref() == 0) {
         found.push(places.error(n, "`rows_per_part` is 0").with_help("write 1 or more, or leave it away"));
     }
+    if let Some(n) = file.signals_every.as_ref().filter(|n| *n.get_ref() == 0) {
+        found.push(places.error(n, "`signals_every` is 0").with_help("write 1 for every recorded row, or more"));
+    }
+    for (i, signal) in file.signals.iter().enumerate() {
+        let name = signal.get_ref();
+        if file.signals[..i].iter().any(|other| other.get_ref() == name) {
+            found.push(places.error(signal, format!("`{name}` is kept twice")).with_help("leave one of them out"));
+        }
+    }
     refuse_twice(&file, places, &mut found);
     let located = |s: &Spanned<String>| Located { value: s.get_ref().clone(), at: places.of(s) };
     let mut variants: Vec<Located<String>> = file.variants.iter().map(located).collect();
@@ -92,6 +101,8 @@ pub(super) fn resolve(file: PlanFile, places: &Places) -> Result<Plan, Diagnosti
         set,
         measures,
         checks,
+        signals: file.signals.iter().map(located).collect(),
+        signals_every: file.signals_every.as_ref().map_or(1, |n| (*n.get_ref()).max(1)),
         rows_per_part: file.rows_per_part.as_ref().map(|n| (*n.get_ref()).min(1 << 20)),
         source: places.source.clone(),
     };

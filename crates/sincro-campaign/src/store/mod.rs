@@ -3,6 +3,7 @@
 //! ```text
 //! DIR/campaign.json            description, hash of the inputs
 //! DIR/plan.toml                the plan
+//! DIR/signals/*.parquet        the long table of signals, if the plan keeps any: a file for each part
 //! DIR/parts/part-F-L.parquet   rows F to L, each file whole or not there
 //! DIR/runs.parquet             all rows, by `collect`
 //! DIR/report.html, summary.json
@@ -66,6 +67,9 @@ pub struct Manifest {
     pub n_drawn: usize,
     /// Number of rows in each part; the last has the rest.
     pub rows_per_part: u64,
+    /// Signals of which the series are kept, in the order of their columns.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub signals: Vec<String>,
     /// Names of the variants, in the order of the plan.
     pub variants: Vec<String>,
     /// Descriptions of the parameters, in the order of the plan.
@@ -252,6 +256,13 @@ impl Store {
         self.folder.join("parts").join(format!("part-{first:09}-{last:09}.parquet"))
     }
 
+    /// File of the series of a part.
+    #[must_use]
+    pub(crate) fn signals_path(&self, part: u64) -> PathBuf {
+        let (first, last) = self.range(part);
+        self.folder.join("signals").join(format!("signals-{first:09}-{last:09}.parquet"))
+    }
+
     /// Returns the path of the table of all runs, `runs.parquet`, which [`collect`] writes.
     #[must_use]
     pub fn runs_path(&self) -> PathBuf {
@@ -277,6 +288,7 @@ impl Manifest {
             n_draws: of.n_draws,
             n_drawn: of.n_drawn(),
             rows_per_part: of.rows_per_part(),
+            signals: of.signals.iter().map(|signal| signal.value.clone()).collect(),
             variants: of.variants.iter().map(|v| v.value.clone()).collect(),
             parameters: campaign.parameter_columns(),
             is_drawn: of.parameters.iter().map(|p| !p.distribution.is_grid()).collect(),
@@ -331,7 +343,7 @@ impl Manifest {
 
 /// Something in a folder that no campaign leaves there before its description.
 fn foreign_entry(folder: &Path) -> Option<String> {
-    let known = [MANIFEST, "plan.toml", "parts", "runs", "jobs", ".lock"];
+    let known = [MANIFEST, "plan.toml", "parts", "signals", "runs", "jobs", ".lock"];
     let names = std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
     // other processes that begin at the same time
     names

@@ -30,6 +30,10 @@ impl Store {
     ///
     /// The disk is full, or the folder takes no files.
     pub(crate) fn write_part(&self, part: u64, rows: &[Row]) -> Result<(), StoreError> {
+        // before the part: where that is, its series are
+        if !self.manifest.signals.is_empty() {
+            self.write_signals(part, rows)?;
+        }
         let path = self.part_path(part);
         let group = self.layout().group(rows);
         let footer = [
@@ -46,6 +50,67 @@ impl Store {
             sink.get_ref().sync_all()
         });
         Ok(put(&own, &path, written)?)
+    }
+
+    /// Writes the long table of the signals of a part: a row for each run and recorded time.
+    ///
+    /// # Errors
+    ///
+    /// The disk is full, or the folder takes no files.
+    fn write_signals(&self, part: u64, rows: &[Row]) -> Result<(), StoreError> {
+        let path = self.signals_path(part);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| FileError::new("create the folder", folder, e))?;
+        }
+        let names = ["k", "t"].into_iter().chain(self.manifest.signals.iter().map(String::as_str));
+        let mut group: Vec<(String, Values)> = names
+            .map(|name| {
+                let values = if name == "k" { Values::Ints(Vec::new()) } else { Values::Doubles(Vec::new()) };
+                (name.to_owned(), values)
+            })
+            .collect();
+        for row in rows {
+            let n = row.series.first().map_or(0, Vec::len);
+            for (i, (_, values)) in group.iter_mut().enumerate() {
+                match values {
+                    Values::Ints(values) => values.extend(std::iter::repeat_n(row.k as i64, n)),
+                    Values::Doubles(values) => values.extend(row.series.get(i - 1).into_iter().flatten()),
+                    Values::Texts(_) => {}
+                }
+            }
+        }
+        let (names, values): (Vec<String>, Vec<Values>) = group.into_iter().unzip();
+        let columns = names.into_iter().zip(values.iter().map(Values::emptied)).collect();
+        let footer = [
+            ("input".to_owned(), self.manifest.input.clone()),
+            ("version".to_owned(), self.manifest.sincro_version.clone()),
+            ("content".to_owned(), content_hash(&values)),
+        ];
+        let own = own_name(&path);
+        let written = File::create(&own).and_then(|file| {
+            let mut writer = Writer::new(BufWriter::new(file), "signals", columns)?;
+            if !values[0].is_empty() {
+                writer.group(&values)?;
+            }
+            let mut sink = writer.finish(&footer)?;
+            sink.flush()?;
+            sink.get_ref().sync_all()
+        });
+        Ok(put(&own, &path, written)?)
+    }
+
+    /// Refuses a part whose series are not there or were made of other runs.
+    fn check_signals(&self, part: u64) -> Result<(), StoreError> {
+        if self.manifest.signals.is_empty() {
+            return Ok(());
+        }
+        let path = self.signals_path(part);
+        let file = ParquetFile::open(&path).map_err(|error| damaged(&path, error))?;
+        let input = file.footer("input").unwrap_or("none");
+        if input == self.manifest.input {
+            return Ok(());
+        }
+        Err(StoreError::Damaged(path, format!("it belongs to another campaign, of inputs {input}")))
     }
 
     /// Reads the rows of a part as columns and verifies them.
@@ -74,6 +139,7 @@ impl Store {
         if !is_numbered {
             return refuse(format!("it does not hold each of the runs {first} to {last} once, in their order"));
         }
+        self.check_signals(part)?;
         Ok(group)
     }
 
