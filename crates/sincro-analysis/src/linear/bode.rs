@@ -413,11 +413,17 @@ fn power_of_ten(power: f64) -> f64 {
 }
 
 fn gain_margins(channel: &Channel, omega: &[f64], values: &[Complex<f64>]) -> Vec<Margin> {
-    // the negative real axis is crossed; what stays on it up to rounding does not cross
+    // the negative real axis is crossed, perhaps just at a frequency of the grid; what stays on it up to rounding does
+    // not cross
     let is_left = |g: &Complex<f64>| g.re < 0.0 && g.im.abs() > 1e-9 * g.re.abs();
-    let mut found = crossings(channel, omega, values, |g| g.im, |a, b| is_left(a) && is_left(b));
     // of a sampled system G is real at half the sampling frequency
     let nyquist = channel.system.sample_time.map(|tick| PI / tick);
+    let may = |a: &Complex<f64>, b: &Complex<f64>| match (is_left(a), is_left(b)) {
+        (true, true) => true,
+        (false, false) => false,
+        _ => nyquist.is_none() && a.re < 0.0 && b.re < 0.0,
+    };
+    let mut found = crossings(channel, omega, values, |g| g.im, may);
     if let (Some(&last), Some(g)) = (omega.last(), values.last())
         && nyquist.is_some_and(|nyquist| (last - nyquist).abs() <= 1e-12 * nyquist)
         && g.re < 0.0

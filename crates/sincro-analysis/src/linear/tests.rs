@@ -212,6 +212,17 @@ fn margins_of_a_third_order_loop_are_the_closed_form() {
 }
 
 #[test]
+fn a_gain_margin_at_a_frequency_of_the_grid_is_found() {
+    // 0.1 / (s (0.01 s + 0.1) (0.01 s + 1)) crosses the axis at ω² = 1000, half a decade
+    let bode = transfer(&[1000.0], &[0.0, 1000.0, 110.0], 0.0).bode(0, 0).unwrap();
+    assert_eq!(bode.gain_margins.len(), 1);
+    let gain = bode.gain_margin().unwrap();
+    assert!((gain.omega - 1000.0_f64.sqrt()).abs() < 1e-6);
+    // |G| = 1/110
+    assert!((gain.value - 40.827_853_703_164_5).abs() < 1e-6);
+}
+
+#[test]
 fn a_double_integrator_has_no_phase_margin() {
     let bode = transfer(&[1.0], &[0.0, 0.0], 0.0).bode(0, 0).unwrap();
     let phase = bode.phase_margin().unwrap();
