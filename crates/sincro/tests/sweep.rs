@@ -154,3 +154,36 @@ fn a_tuning_beats_the_gains_of_the_files_at_their_overshoot_and_is_the_same_agai
     assert!(goals.len() == 2 && least < 0.8 * most, "{text}");
     assert!(tune("second").1 == bytes);
 }
+
+#[test]
+fn identification_says_what_it_cannot_do() {
+    let root = root();
+    let scene = |name: &str| root.join("scenes").join(name).display().to_string();
+    let data = |name: &str| root.join("examples/identification/data").join(name).display().to_string();
+    let refused = |arguments: &[&str], words: &str| {
+        let exit = SINCRO.call(arguments);
+        assert_eq!(exit.status, 2, "{arguments:?}\n{}{}", exit.stdout, exit.stderr);
+        assert!(exit.stderr.contains(words), "{words}\n{}", exit.stderr);
+    };
+    let (spring, servo, ramp) = (scene("spring-dynamic"), scene("pid-tuning"), scene("motor-ramp"));
+    let design = ["fit", &spring, "--free", "/shoulder.damping", "--design"];
+    let with =
+        |more: &[&'static str]| -> Vec<String> { design.iter().chain(more).map(|word| (*word).to_owned()).collect() };
+    for (more, words) in [
+        (["/shoulder.initial.velocity=-6..6", "--signal", "/shoulder.position"], "the noise of `/shoulder.position`"),
+        (["/shoulder.initial.velocity", "--signal", "/shoulder.position@0.1"], "of `--design` has no bounds"),
+    ] {
+        let arguments = with(&more);
+        refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), words);
+    }
+    let torque = "/motor.motor_torque=torque@2e-14";
+    let exact = ["--signal", torque, "--free", "/motor/link.inertia.zz=2e-12", "--exact"];
+    let of_ramp = data("ramp.csv");
+    let all: Vec<&str> = ["fit", &ramp, "--data", &of_ramp].into_iter().chain(exact).collect();
+    refused(&all, "no exact derivative by `/motor/link.inertia.zz`: the motor of joint `/motor` has a torque limit");
+    let of_spring = data("spring.csv");
+    let shooting = ["--signal", "/shaft.position=angle", "--free", "/shaft.damping", "--shooting", "5"];
+    let all: Vec<&str> = ["fit", &servo, "--data", &of_spring].into_iter().chain(shooting).collect();
+    refused(&all, "multiple shooting cannot be done: the scene has a diagram");
+    refused(&["sweep", &servo, "--out", "nowhere"], "the experiment has no campaign");
+}
