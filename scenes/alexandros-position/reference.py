@@ -86,7 +86,8 @@ class Controller:
 class Plant:
     """State q 0:4, q' 4:8, s 8, s' 9."""
 
-    def __init__(self, has_wall):
+    def __init__(self, has_wall, wall_c=WALL_C):
+        self.wall_c = wall_c
         self.x, self.gamma, self.rate = np.zeros(10), np.zeros(4), np.zeros(4)
         self.has_wall, self.touching = has_wall, has_wall
 
@@ -94,7 +95,7 @@ class Plant:
         q, qd, s, sd = x[:4], x[4:8], x[8], x[9]
         m, bias, jacobian, drift = equations(q, qd)
         rhs = -K * (q - self.gamma - self.rate * (t - t0)) - D * (qd - self.rate) - bias
-        own = -WALL_K * s - WALL_C * sd
+        own = -WALL_K * s - self.wall_c * sd
         if not self.touching:
             return np.r_[np.linalg.solve(m, rhs), own / WALL_M], 0.0
         row = jacobian[0]
@@ -132,8 +133,8 @@ class Plant:
         self.gamma = self.gamma + TS * self.rate
 
 
-def simulate(duration, target, has_wall):
-    plant, controller, rows = Plant(has_wall), Controller(), []
+def simulate(duration, target, has_wall, wall_c=WALL_C):
+    plant, controller, rows = Plant(has_wall, wall_c), Controller(), []
     for k in range(round(duration / TS) + 1):
         t, q = k * TS, plant.x[:4]
         u = controller.step(plant.gamma, q, target(t))
@@ -144,9 +145,9 @@ def simulate(duration, target, has_wall):
     return rows
 
 
-def write(folder, rows):
+def write(folder, rows, name="reference-exact.csv"):
     names = [f"{name}{i}" for name in ("gamma", "delta", "theta") for i in range(1, 5)] + ["x", "y", "z", "wall", "force"]
-    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), folder, "reference-exact.csv"), "w") as file:
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), folder, name), "w") as file:
         file.write("# by alexandros-position/reference.py: [s], [rad], [m], [N]\n" + ",".join(["t"] + names) + "\n")
         file.writelines(",".join(f"{value:.12g}" for value in row) + "\n" for row in rows[::5])
 
@@ -157,3 +158,4 @@ if __name__ == "__main__":
     write(".", simulate(32.0, place, False))
     press = lambda t: TIP0 + np.array([0.15 / 10 if t > 6 - 1e-9 else 0.0, 0, 0])
     write("../alexandros-force", simulate(30.0, press, True))
+    write("../alexandros-force", simulate(16.0, press, True, 0.0), "reference-chain.csv")     # the wall on its spring alone
