@@ -26,6 +26,7 @@ MASS = np.array([0.101, 0.121, 0.110, 0.052])
 K, D = np.array([2.93, 2.1, 0.8, 1.48]), 0.02
 AXIS = [1, 0, 2, 1]
 ALONG = np.array([[0, 1, 0], [0, 0, -1], [0, 0, -1], [1, 0, 0]], dtype=float)
+COM = ALONG * (L / 2)[:, None]         # centres of mass of the links, their axes
 RADIUS = 0.01
 INERTIA = []
 for i in range(4):
@@ -137,7 +138,7 @@ def chain(p, r, q):
         axes.append(r[:, AXIS[i]].copy())
         r = r @ rot(AXIS[i], q[i])
         rotations.append(r)
-        centres.append(o + r @ ALONG[i] * (L[i] / 2))
+        centres.append(o + r @ COM[i])
         o = o + r @ ALONG[i] * L[i]
     return origins, axes, rotations, centres, o
 
