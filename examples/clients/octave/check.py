@@ -27,6 +27,7 @@ RUNS = [
     ('thesis-quadrotor', ['thesis/quadrotor.m'], 'waypoints = [0, 0, 1; 0.1, 0, 1; 0.2, 0, 1];', 'flight-2'),
     ('thesis-quadrotor', ['thesis/open_loop.m'], '', 'open-loop'),
     ('thesis-quadrotor-lua', ['thesis/quadrotor.m'], '', None),
+    ('aerial-manipulator-remote', ['thesis/manipulator.m'], '', 'main'),
 ]
 
 
