@@ -77,7 +77,7 @@ fn write_with(
     let replay = replay(loaded, campaign).to_json();
     write_text(&out.join("replay.json"), &replay)?;
     let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
-    let page = with_sketch(Page { replay: embed(&replay), up, ..page }, campaign);
+    let page = with_mechanism(Page { replay: embed(&replay), up, ..page }, campaign);
     write_text(&out.join("report.html"), &report::html(&page))
 }
 
@@ -86,17 +86,26 @@ fn write_with(
 #[must_use]
 pub fn report_html(loaded: &Loaded, campaign: &Campaign) -> String {
     let replay = embed::replay(&replay(loaded, campaign).to_json());
-    report::html(&with_sketch(Page { replay, ..campaign::page(loaded, campaign) }, campaign))
+    report::html(&with_mechanism(Page { replay, ..campaign::page(loaded, campaign) }, campaign))
 }
 
-/// The page with the labelled picture of the scene at its start.
-fn with_sketch(mut page: Page, campaign: &Campaign) -> Page {
+/// The page with the labelled picture of the scene at its start, and its equations.
+fn with_mechanism(mut page: Page, campaign: &Campaign) -> Page {
     let main = &campaign.main;
     let first = main.simulated.trajectory.as_ref().filter(|trajectory| trajectory.n_frames() > 0);
     if let (Some(mechanism), Some(trajectory)) = (&mut page.mechanism, first) {
         mechanism.sketch = picture::sketch(&main.view, trajectory.frame(0), SKETCH);
     }
+    if let Some(mechanism) = &mut page.mechanism {
+        mechanism.derivation = equations(Path::new(&campaign.report.scene_path)).unwrap_or_default();
+    }
     page
+}
+
+/// Section `Equations` of the README in the folder of a scene; `None`: there is none.
+fn equations(folder: &Path) -> Option<String> {
+    let readme = std::fs::read_to_string(folder.join("README.md")).ok()?;
+    report::derivation::section_of(&readme, "Equations").map(str::to_owned)
 }
 
 /// Replay of an experiment that was run, with the drawing of its block diagram: the content of `replay.json`.

@@ -8,7 +8,8 @@ use sincro_sim::replay::{JointView, ObjectView, SceneView};
 use crate::plot::number::{short, significant};
 use crate::report::{BodyRow, JointRow, Mechanism};
 
-/// The mechanism of the main run; `None`: nothing in it moves. The sketch is left empty: it is the caller's.
+/// The mechanism of the main run; `None`: nothing in it moves. The sketch and the
+/// derivation are left empty: they are the caller's.
 pub(super) fn of(loaded: &Loaded, campaign: &Campaign) -> Option<Mechanism> {
     let view = &campaign.main.view;
     if view.n_v == 0 {
@@ -17,6 +18,7 @@ pub(super) fn of(loaded: &Loaded, campaign: &Campaign) -> Option<Mechanism> {
     let row = |o: &ObjectView| o.joint.as_ref().filter(|j| j.n_v > 0).map(|j| joint_row(view, o, j, loaded));
     Some(Mechanism {
         sketch: String::new(),
+        derivation: String::new(),
         equation: equation(loaded),
         sizes: sizes(loaded, view),
         joints: view.objects.iter().filter_map(row).collect(),

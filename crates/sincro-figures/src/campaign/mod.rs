@@ -17,12 +17,14 @@ use crate::report::{Card, CheckRow, CheckVerdict, Energy, FindingRow, Page, Sign
 pub use figures::all as figures;
 
 /// Card of the results of an experiment for an index page ([`crate::report::index_html`]); `href` is the address of its
-/// report relative to the index. Address of the replay and picture of the scene are left empty: they are the caller's.
+/// report relative to the index. Group, address of the replay and picture of the scene are left empty: they are the
+/// caller's.
 #[must_use]
 pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
     let report = &campaign.report;
     Card {
         title: report.title.clone(),
+        group: String::new(),
         source: report.scene.clone(),
         summary: loaded.experiment.description.clone(),
         href: href.to_owned(),

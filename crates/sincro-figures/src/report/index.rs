@@ -13,8 +13,7 @@ const THUMBNAIL: Size = Size { width: 340.0, height: 186.0 };
 
 /// The page as HTML.
 pub(super) fn html(page: &IndexPage) -> String {
-    let cards: String = page.cards.iter().map(card).collect();
-    let cards = if cards.is_empty() { cards } else { format!("<div class=\"cards\">\n{cards}</div>\n") };
+    let cards: String = page.cards.chunk_by(|a, b| a.group == b.group).map(group).collect();
     let body = [
         header(page),
         section("All experiments", &summary(&page.cards)),
@@ -23,6 +22,15 @@ pub(super) fn html(page: &IndexPage) -> String {
         section("Notes", &list(&page.notes)),
     ];
     document(&page.title, "index", &body.concat())
+}
+
+/// Cards of one group, below its heading.
+fn group(cards: &[Card]) -> String {
+    let heading = match cards.first().map(|card| card.group.as_str()) {
+        None | Some("") => String::new(),
+        Some(name) => format!("<h3 class=\"group\">{}</h3>\n", escape(name)),
+    };
+    format!("{heading}<div class=\"cards\">\n{}</div>\n", cards.iter().map(card).collect::<String>())
 }
 
 fn header(page: &IndexPage) -> String {

@@ -1,7 +1,8 @@
-//! Section of a report about the mechanism: labelled sketch, equations of motion, tables of joints and bodies.
+//! Section of a report about the mechanism: labelled sketch, equations of the scene and of motion, tables of joints
+//! and bodies.
 
 use super::shell::{cell, table};
-use super::{BodyRow, JointRow, Mechanism};
+use super::{BodyRow, JointRow, Mechanism, derivation};
 use crate::plot::{escape, escape_raised};
 
 /// Rows of a table; more are counted.
@@ -19,7 +20,8 @@ pub(super) fn html(mechanism: &Mechanism) -> String {
         .map(|(name, text)| format!("<dt>{}</dt><dd>{}</dd>\n", escape(name), escape(text)))
         .collect();
     format!(
-        "{sketch}{}{}{}{}<p class=\"equation\">{}</p>\n<dl class=\"settings\">\n{sizes}</dl>\n",
+        "{sketch}{}{}{}{}{}<p class=\"equation\">{}</p>\n<dl class=\"settings\">\n{sizes}</dl>\n",
+        derivation::html(&mechanism.derivation),
         table("fold", &JOINT_COLUMNS, &rows(&mechanism.joints, joint)),
         more(mechanism.joints.len(), "joints"),
         table("fold", &BODY_COLUMNS, &rows(&mechanism.bodies, body)),

@@ -10,6 +10,7 @@
 
 mod checks;
 mod comparison;
+pub mod derivation;
 mod index;
 mod mechanism;
 pub(crate) mod page;
@@ -62,6 +63,8 @@ pub struct Page {
 pub struct Mechanism {
     /// Labelled picture of the scene as SVG; may be empty.
     pub sketch: String,
+    /// Equations of the scene in the words of its README, Markdown ([`derivation::section_of`]); may be empty.
+    pub derivation: String,
     /// Structure of the equations of motion: `M(q) v̇ + c(q, v) = τ`.
     pub equation: String,
     /// Symbols of the equation, each with its size and meaning as one text.
@@ -231,6 +234,8 @@ pub struct IndexPage {
 pub struct Card {
     /// Title of the experiment.
     pub title: String,
+    /// Heading under which it stands, with others of the same; may be empty.
+    pub group: String,
     /// Place of the original: `§4.2, figure 4.5`.
     pub source: String,
     /// Summary in one sentence.

@@ -127,6 +127,7 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
     page.signals =
         vec![SignalRow { path: evil.into(), unit: evil.into(), largest: None, error_bar: None, method: evil.into() }];
     let card = Card {
+        group: evil.into(),
         title: evil.into(),
         source: evil.into(),
         summary: evil.into(),
@@ -142,6 +143,16 @@ fn markup_in_a_scene_is_shown_not_obeyed() {
     let index = IndexPage { title: evil.into(), description: evil.into(), cards: vec![card], ..IndexPage::default() };
     assert!(!without_plot_script(&html(&page)).contains("<script"));
     assert!(!index_html(&index).contains("<script"));
+}
+
+#[test]
+fn cards_of_a_group_stand_under_its_heading() {
+    let card = |group: &str| Card { group: group.into(), ..Card::default() };
+    let cards = vec![card("Chapter 3"), card("Chapter 3"), card("Others")];
+    let text = index_html(&IndexPage { cards, ..IndexPage::default() });
+    assert_eq!(text.matches(">Chapter 3</h3>").count(), 1);
+    assert!(text.find(">Chapter 3</h3>") < text.find(">Others</h3>"));
+    assert_eq!(text.matches("class=\"group\"").count(), 2);
 }
 
 #[test]
@@ -206,13 +217,23 @@ fn the_mechanism_is_a_sketch_two_tables_and_an_equation() {
     let body = BodyRow { path: "/arm/rod<1>".into(), mass: "2.5".into(), ..BodyRow::default() };
     let mechanism = Mechanism {
         sketch: "<svg></svg>".into(),
+        derivation: "J·ω' = τ, <exact>:\n\n    p = J·ω".into(),
         equation: "M(q) v̇ + c(q, v) = τ".into(),
         sizes: vec![("M".into(), "2 × 2".into())],
         joints: vec![joint; 50],
         bodies: vec![body],
     };
     let text = html(&Page { mechanism: Some(mechanism), ..page() });
-    for part in ["<h2>Mechanism</h2>", "/arm/elbow", "rod&lt;1&gt;", "2 × 2", "and 10 more joints", "M(q) v̇"] {
+    for part in [
+        "<h2>Mechanism</h2>",
+        "/arm/elbow",
+        "rod&lt;1&gt;",
+        "2 × 2",
+        "and 10 more joints",
+        "M(q) v̇",
+        "&lt;exact&gt;",
+        "p = J·ω</pre>",
+    ] {
         assert!(text.contains(part), "{part}");
     }
 }

@@ -1,10 +1,12 @@
-//! Labels of a sketch: names of joints and bodies beside them, axes of the joints, directions of the world.
+//! Labels of a sketch: names of joints and bodies beside them, coordinates, axes and positive senses of the joints,
+//! directions of the world.
 
+use sincro_math::elementary;
 use sincro_sim::replay::{ObjectView, SceneView};
 
 use super::viewpoint::Viewpoint;
 use super::{bounds, faces, framing, mover, paint, planes, viewpoint};
-use crate::vector::{V, add, compose, dot, origin, point, rotate, scale, sub, unit};
+use crate::vector::{V, add, compose, cross, dot, origin, point, rotate, scale, sub, unit};
 
 /// Size of the labels `[px]`.
 const FONT: f64 = 13.0;
@@ -18,8 +20,8 @@ const DIRECTIONS: [(f64, f64); 8] =
 const DISTANCES: [f64; 4] = [12.0, 30.0, 52.0, 80.0];
 
 /// Draws a scene in one frame as [`still`](super::still) does, `size` wide and high `[px]`, with the names of joints
-/// and bodies, axes of joints and of the world; empty if there is nothing to see. Lines have the colour of the text of
-/// the page around it.
+/// and bodies, coordinates, axes and positive senses of joints, and axes of the world; empty if there is nothing to
+/// see. Lines have the colour of the text of the page around it.
 #[must_use]
 pub fn sketch(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
     let (faces, viewpoint) = (faces(view, frame), viewpoint(view, frame));
@@ -49,6 +51,7 @@ pub fn sketch(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
                     a.0, a.1, b.0, b.1
                 );
             }
+            labels.text += &sense(object, origin(&x_wo), half, &place);
         }
     }
     let bodies = view.objects.iter().filter(|o| o.kind == "body" || o.rotor.is_some());
@@ -56,10 +59,63 @@ pub fn sketch(view: &SceneView, frame: &[f32], size: (f64, f64)) -> String {
         let x_wo = compose(&mover(object.mover, frame), &object.pose);
         let at = object.mass.map_or_else(|| origin(&x_wo), |(_, center, _)| point(&x_wo, center));
         if let Some(at) = place(at) {
-            labels.add(&name(view, object), at, object.joint.is_some());
+            labels.add(&(name(view, object) + &symbol(object)), at, object.joint.is_some());
         }
     }
     picture.replacen("</svg>", &format!("<g class=\"labels\">{}</g></svg>", labels.text), 1)
+}
+
+/// Points of the arc of an angle, and its extent [rad].
+const ARC: (usize, f64) = (24, 4.4);
+
+/// Positive sense of a joint about or along an axis, `half` long from its origin: an arc with an arrow about a revolute
+/// axis, an arrow at the end of a prismatic one; nothing for others.
+fn sense(object: &ObjectView, at: V, half: V, place: &impl Fn(V) -> Option<(f64, f64)>) -> String {
+    let points: Vec<V> = match object.kind.as_str() {
+        "revolute joint" => {
+            let axis = unit(half);
+            let across = if axis[2].abs() < 0.9 { [0.0, 0.0, 1.0] } else { [1.0, 0.0, 0.0] };
+            let u = scale(unit(cross(across, axis)), 0.45 * dot(half, half).sqrt());
+            let v = cross(axis, u);
+            let middle = add(at, scale(half, 0.75));
+            let angle = |k: usize| -0.6 + ARC.1 * k as f64 / ARC.0 as f64;
+            let on_arc = |k: usize| {
+                let (sin, cos) = elementary::sin_cos(angle(k));
+                add(middle, add(scale(u, cos), scale(v, sin)))
+            };
+            (0..=ARC.0).map(on_arc).collect()
+        }
+        "prismatic joint" => vec![add(at, scale(half, 0.7)), add(at, half)],
+        _ => return String::new(),
+    };
+    let Some(flat) = points.into_iter().map(place).collect::<Option<Vec<_>>>() else { return String::new() };
+    let [.., before, end] = flat.as_slice() else { return String::new() };
+    let (dx, dy) = (end.0 - before.0, end.1 - before.1);
+    let length = dx.hypot(dy).max(1e-9);
+    let (dx, dy) = (6.0 * dx / length, 6.0 * dy / length);
+    let path: String = flat
+        .iter()
+        .enumerate()
+        .map(|(k, p)| format!("{}{:.1} {:.1}", if k == 0 { 'M' } else { 'L' }, p.0, p.1))
+        .collect();
+    format!(
+        "<path d=\"{path}M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"1.2\"/>",
+        end.0 - dx - 0.5 * dy,
+        end.1 - dy + 0.5 * dx,
+        end.0,
+        end.1,
+        end.0 - dx + 0.5 * dy,
+        end.1 - dy - 0.5 * dx,
+    )
+}
+
+/// Coordinates of a joint after its name: ` q0`, or ` q0…q6`; empty for all else.
+fn symbol(object: &ObjectView) -> String {
+    match object.joint.as_ref().map(|joint| (joint.q_idx, joint.n_q)) {
+        None | Some((_, 0)) => String::new(),
+        Some((first, 1)) => format!(" q{first}"),
+        Some((first, n)) => format!(" q{first}…q{}", first + n - 1),
+    }
 }
 
 /// Name of an object, with its parent's where others have the same.
@@ -164,7 +220,8 @@ mod tests {
         let still: Vec<f32> = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].repeat(view.n_movers);
         let text = sketch(&view, &still, (640.0, 360.0));
         for object in view.objects.iter().filter(|o| o.kind == "revolute joint") {
-            assert!(text.contains(&format!(">{}</text>", object.name)), "{}", object.name);
+            let q_idx = object.joint.as_ref().unwrap().q_idx;
+            assert!(text.contains(&format!(">{} q{q_idx}</text>", object.name)), "{}", object.name);
         }
         assert_eq!(text, sketch(&view, &still, (640.0, 360.0)));
     }

@@ -23,6 +23,7 @@ pub(crate) mod export_fmu;
 pub(crate) mod export_robot;
 #[cfg(feature = "campaigns")]
 pub(crate) mod fit;
+mod gallery;
 pub(crate) mod import;
 #[cfg(feature = "analysis")]
 pub(crate) mod linearize;

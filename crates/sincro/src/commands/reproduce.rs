@@ -11,6 +11,7 @@ use sincro_figures::report::{Card, IndexPage, index_html};
 use sincro_sim::result_folder::ResultFolder;
 
 use super::console::verdict_line;
+use super::gallery::Place;
 use super::run::run_with_progress;
 use crate::{Exit, diagnostics};
 
@@ -24,39 +25,6 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "DIR")]
     scenes: Option<PathBuf>,
 }
-
-/// The order of the thesis; what is not named follows by name.
-const ORDER: [&str; 29] = [
-    "motor-step",
-    "motor-ramp",
-    "spring-static",
-    "spring-static-equations",
-    "spring-dynamic",
-    "two-dof-open-loop",
-    "two-dof-equations",
-    "two-dof-position",
-    "flexible-open-loop",
-    "flexible-equations",
-    "flexible-velocity-step",
-    "flexible-position",
-    "alexandros-release",
-    "alexandros-position",
-    "alexandros-force",
-    "alexandros-force-feedback",
-    "alexandros-wrong-model",
-    "stock-propeller",
-    "rotor-bemt",
-    "propeller-lua",
-    "quadrotor-open-loop",
-    "quadrotor-flight-1",
-    "quadrotor-flight-2",
-    "quadrotor-robustness",
-    "quadrotor-latency",
-    "quadrotor-wrong-model",
-    "quadrotor-wind",
-    "aerial-manipulator-hover",
-    "aerial-manipulator-contact",
-];
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
@@ -78,8 +46,8 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let page = IndexPage {
         title: "sincro reproduces the thesis".into(),
         description: "Every experiment of «V-REP como herramienta de simulación de sistemas dinámicos» (Á. Morales, Seville, \
-                      2019) that is built so far, and textbook examples, run from their scene folders and checked against their \
-                      equations."
+                      2019), chapter by chapter, and textbook scenes apart, run from their scene folders and checked against \
+                      their equations. Published problems of others: `sincro reproduce --scenes scenes/third-party`."
             .into(),
         cards,
         settings: vec![
@@ -111,10 +79,12 @@ fn one(scene: &Path, out: &Path) -> Result<(Card, Exit), Exit> {
     output.publish().map_err(|error| diagnostics::refuse_file(&error))?;
     let exit = Verdict::of(&campaign).into();
     say!("{:<25} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
-    Ok((card(&loaded, &campaign, &format!("{name}/report.html")), exit))
+    let place = Place::of(scene);
+    let card = card(&loaded, &campaign, &format!("{name}/report.html"));
+    Ok((Card { group: place.group.into(), source: place.source(&name), ..card }, exit))
 }
 
-/// The scene folders in the order of the thesis.
+/// The scene folders, chapter by chapter in the order of the thesis.
 fn find_scenes(asked: Option<&Path>) -> Result<Vec<PathBuf>, String> {
     let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let candidates: Vec<&Path> = match asked {
@@ -126,10 +96,6 @@ fn find_scenes(asked: Option<&Path>) -> Result<Vec<PathBuf>, String> {
     let entries = std::fs::read_dir(dir).map_err(|e| format!("the folder `{}` cannot be read: {e}", dir.display()))?;
     let mut scenes: Vec<PathBuf> =
         entries.filter_map(Result::ok).map(|e| e.path()).filter(|p| p.join("experiment.toml").is_file()).collect();
-    let rank = |path: &Path| {
-        let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-        (ORDER.iter().position(|known| *known == name).unwrap_or(ORDER.len()), name)
-    };
-    scenes.sort_by_key(|path| rank(path));
+    scenes.sort_by_key(|path| (Place::of(path), path.clone()));
     if scenes.is_empty() { Err(format!("no scene in `{}`", dir.display())) } else { Ok(scenes) }
 }
