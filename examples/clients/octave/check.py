@@ -13,16 +13,21 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 
-# scene, programs, statement before them, variant whose trace hash the run has; None: none is claimed (scenes/thesis-quadrotor-lua/README.md)
+# scene, programs, statement before them, variant whose trace hash the run has; None: none is claimed, because the
+# program does what no run in process does (or scenes/thesis-quadrotor-lua/README.md)
 RUNS = [
     ('two-dof-remote', ['check.m', 'two_dof.m'], '', 'main'),
     ('thesis-motor', ['thesis/motor.m'], '', 'main'),
     ('thesis-spring', ['thesis/rod.m'], '', 'main'),
+    ('thesis-spring', ['thesis/static.m'], '', None),
     ('thesis-two-dof', ['thesis/two_dof.m'], '', 'main'),
     ('thesis-flexible', ['thesis/flexible.m'], '', 'main'),
+    ('thesis-flexible', ['thesis/flexible.m'], 'speed = 0.5;', 'velocity-step'),
     ('thesis-arm', ['thesis/arm.m'], '', 'main'),
     ('thesis-arm-force', ['thesis/arm_force.m'], '', 'main'),
     ('thesis-arm-force', ['thesis/arm_force.m'], 'F_d = 0.25; K = 12;', 'F025-K12'),
+    ('stock-propeller', ['thesis/stock_propeller.m'], '', None),
+    ('propeller-lua', ['thesis/propeller.m'], '', None),
     ('thesis-quadrotor', ['thesis/quadrotor.m'], '', 'main'),
     ('thesis-quadrotor', ['thesis/quadrotor.m'], 'waypoints = [0, 0, 1; 0.1, 0, 1; 0.2, 0, 1];', 'flight-2'),
     ('thesis-quadrotor', ['thesis/open_loop.m'], '', 'open-loop'),
