@@ -32,6 +32,7 @@ fn every_scene_loads_without_warnings() {
             "quadrotor-robustness" => 3,
             // their inertia is one that a body can have
             "quadrotor-lua" | "quadrotor-hover" => 0,
+            "thesis-quadrotor" => 1,
             _ if name.starts_with("quadrotor-") => 1,
             _ => 0,
         };
