@@ -1,6 +1,6 @@
 //! The simulated counterpart of measured data, and its derivatives by the free parameters.
 //!
-//! Derivatives are exact where they can be: the run on dual numbers ([`super::exact`]), and the slope of the prediction
+//! Derivatives are exact where they can be: the run on dual numbers (`exact.rs`), and the slope of the prediction
 //! for a time offset. Elsewhere they are differences of runs at a tight tolerance (Richardson's extrapolation of two
 //! widths), central inside of the bounds and one-sided at a bound; the two widths give an estimate of their error.
 //! Which way is taken for which unknown, and why, is part of the result ([`Sensitivity`]).

@@ -35,7 +35,7 @@ const NEIGHBOURS: usize = 3;
 /// Result of [`shoot`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
-    /// Values of the unknowns, a start for [`solve`](super::solve).
+    /// Values of the unknowns, a start for [`solve`](super::solve()).
     pub unknowns: Vec<f64>,
     /// Number of parts.
     pub n_parts: usize,
