@@ -12,6 +12,7 @@ use sincro_scene::script::{Kind, Script, ScriptError};
 use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
+use sincro_sim::replay::RuntimeObject;
 use sincro_sim::run::{Halt, LockStep};
 
 /// Controller of a lock-step that holds the object registry, on which clients and scripts act, and the scripts of the
@@ -201,6 +202,12 @@ impl Controller for ApiController {
 
     fn pieces(&self) -> &[Piece] {
         self.registry.as_deref().map_or(&[], ObjectRegistry::runtime_pieces)
+    }
+
+    fn runtime_objects(&self, visit: &mut dyn FnMut(&RuntimeObject<'_>)) {
+        if let Some(registry) = &self.registry {
+            registry.visit_runtime_objects(visit);
+        }
     }
 
     fn detected(&mut self, sensor: usize, found: Option<Detection>) {

@@ -5,11 +5,15 @@
 //! precision. A replay that goes into a page is thinned to a size; what was left out is said (`every`), and
 //! `signals.csv` has it.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::{Campaign, CompletedRun};
 use sincro_sim::check::Outcome;
-use sincro_sim::replay::{CONTACT, Property, SceneView, Trajectory, properties};
+use sincro_sim::replay::{
+    CONTACT, Property, RuntimeChange, RuntimeEvent, RuntimeLog, SceneView, Trajectory, properties,
+};
 use sincro_sim::results::Status;
 use sincro_sim::table::Table;
 
@@ -22,6 +26,8 @@ pub const FORMAT: &str = "sincro-film-2";
 const MAX_FRAME_BYTES: usize = 450_000;
 /// Bytes that the signals of all runs in a replay may have, before base 64.
 const MAX_SIGNAL_BYTES: usize = 450_000;
+/// Numbers that the items of all drawings in a replay may have.
+const MAX_DRAWN_NUMBERS: usize = 90_000;
 
 /// Replay of finished runs: scene, frames and signals, as the page of the viewer reads them. [`Replay::of_campaign`]
 /// makes it.
@@ -70,6 +76,9 @@ pub struct ReplayRun {
     pub frames: Frames,
     /// Recorded signals.
     pub signals: Signals,
+    /// What has happened to objects that clients and scripts have made, in the order of time.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub runtime: Vec<RuntimeEvent>,
 }
 
 /// Frames of a [`ReplayRun`]. Lists of numbers are little-endian bytes in base 64, of 64 bits (doubles) or 32 bits
@@ -159,6 +168,7 @@ fn replay_run(name: &str, about: &str, done: &CompletedRun, share: f64, views: &
     let run = &done.simulated;
     let of_frames = (share * MAX_FRAME_BYTES as f64) as usize;
     let of_signals = (share * MAX_SIGNAL_BYTES as f64) as usize;
+    let of_drawings = (share * MAX_DRAWN_NUMBERS as f64) as usize;
     let bars = done.columns.iter().skip(1).map(|c| c.error_bar).collect::<Vec<_>>();
     ReplayRun {
         name: name.to_owned(),
@@ -168,6 +178,11 @@ fn replay_run(name: &str, about: &str, done: &CompletedRun, share: f64, views: &
         trace: run.trace.to_string(),
         frames: run.trajectory.as_ref().map(|trajectory| frames(trajectory, of_frames)).unwrap_or_default(),
         signals: signals(&run.table, &bars, &done.outcomes, of_signals),
+        runtime: run
+            .trajectory
+            .as_ref()
+            .map(|trajectory| runtime(trajectory, of_frames, of_drawings))
+            .unwrap_or_default(),
     }
 }
 
@@ -191,11 +206,44 @@ fn thinned(n: usize, every: usize) -> impl Iterator<Item = usize> + Clone {
     (0..n).filter(move |k| k.is_multiple_of(every) || k + 1 == n)
 }
 
+/// Number of points of contact in all frames.
+fn n_points(trajectory: &Trajectory) -> usize {
+    (0..trajectory.n_frames()).map(|k| trajectory.contacts.count(k)).sum()
+}
+
+/// Keyframes that a trajectory keeps in at most so many bytes.
+fn kept(trajectory: &Trajectory, most_bytes: usize) -> impl Iterator<Item = usize> + Clone {
+    let bytes = trajectory.n_frames() * (8 + 4 * trajectory.layout.width()) + 4 * CONTACT * n_points(trajectory);
+    thinned(trajectory.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1))
+}
+
+/// What has happened to objects that were made at run time: between two frames that are kept, where an object moves
+/// several times, its last place. Drawings have their first `most_numbers` numbers.
+fn runtime(trajectory: &Trajectory, most_bytes: usize, most_numbers: usize) -> Vec<RuntimeEvent> {
+    let RuntimeLog { events, .. } = &trajectory.runtime;
+    let times: Vec<f64> = kept(trajectory, most_bytes).map(|k| trajectory.times[k]).collect();
+    let frame = |event: &RuntimeEvent| times.partition_point(|t| *t < event.t);
+    let mut last_moves: BTreeMap<(u64, usize), usize> = BTreeMap::new();
+    for (k, event) in events.iter().enumerate() {
+        if matches!(event.change, RuntimeChange::Move(..)) {
+            last_moves.insert((event.id, frame(event)), k);
+        }
+    }
+    let mut n_numbers = 0;
+    let stays = |(k, event): &(usize, &RuntimeEvent)| match &event.change {
+        RuntimeChange::Move(..) => last_moves[&(event.id, frame(event))] == *k,
+        RuntimeChange::Items(_, numbers) => {
+            n_numbers += numbers.len();
+            n_numbers <= most_numbers
+        }
+        RuntimeChange::Put(_) | RuntimeChange::Clear(()) | RuntimeChange::Gone(()) => true,
+    };
+    events.iter().enumerate().filter(stays).map(|(_, event)| event.clone()).collect()
+}
+
 /// Keyframes of a trajectory in at most so many bytes.
 pub(crate) fn frames(trajectory: &Trajectory, most_bytes: usize) -> Frames {
-    let points: usize = (0..trajectory.n_frames()).map(|k| trajectory.contacts.count(k)).sum();
-    let bytes = trajectory.n_frames() * (8 + 4 * trajectory.layout.width()) + 4 * CONTACT * points;
-    let kept = thinned(trajectory.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1));
+    let (points, kept) = (n_points(trajectory), kept(trajectory, most_bytes));
     let counts = kept.clone().filter(|_| points > 0).map(|k| trajectory.contacts.count(k) as f32);
     Frames {
         counts: encoding::singles(&counts.collect::<Vec<_>>()),

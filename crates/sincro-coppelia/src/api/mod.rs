@@ -16,6 +16,7 @@ pub mod constants;
 mod contacts;
 pub mod convention;
 mod distances;
+mod drawings;
 mod error;
 mod find;
 pub mod functions;

@@ -10,6 +10,7 @@ use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
+use super::drawings::Drawings;
 use super::graphs::Graphs;
 use super::motions::{JointMotion, Motions};
 use super::note::Notes;
@@ -201,6 +202,10 @@ pub struct ObjectRegistry {
     pub(super) joint_motions: BTreeMap<Handle, JointMotion>,
     /// Visible pieces and the sensors that detect them.
     pub(super) senses: Senses,
+    /// Drawings and particles.
+    pub(super) drawings: Drawings,
+    /// Frames of the scene that clients or scripts have moved.
+    pub(super) moved_frames: BTreeSet<Handle>,
     /// Tubes between scripts and clients.
     pub(super) tubes: Tubes,
     /// Values of widgets: interface, widget, what it is a value of.
@@ -260,6 +265,8 @@ impl ObjectRegistry {
             motions: Motions::default(),
             joint_motions: BTreeMap::new(),
             senses: Senses::new(scene),
+            drawings: Drawings::default(),
+            moved_frames: BTreeSet::new(),
             tubes: Tubes::default(),
             widgets: BTreeMap::new(),
             interfaces: BTreeSet::new(),
@@ -640,6 +647,8 @@ impl ObjectRegistry {
         self.has_stepped = false;
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
         self.recorded_frames = before.recorded_frames;
+        self.moved_frames = before.moved_frames;
+        self.drawings.end_run();
         let n_before = before.entries.len();
         for (now, then) in self.entries.iter_mut().zip(before.entries) {
             if let (Some(now), Some(then)) = (now.as_mut(), then) {

@@ -62,6 +62,7 @@ impl ObjectRegistry {
         self.n_created -= 1;
         self.data.retain(|(h, _), _| *h != handle);
         self.senses.forget(handle);
+        self.drawings.forget(handle);
         Ok(())
     }
 

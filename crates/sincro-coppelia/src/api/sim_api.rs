@@ -191,6 +191,9 @@ impl<'a> SimApi<'a> {
         let at = Attached { pose: x_wl.inverse().compose(x_wo), ..carrier };
         let entry = self.registry.entry_mut(handle);
         (entry.frame, entry.moving) = (at, at);
+        if !entry.is_runtime {
+            self.registry.moved_frames.insert(handle);
+        }
         self.registry.senses.moved(handle, &at);
         Ok(())
     }

@@ -362,7 +362,8 @@ impl Session {
         self.registry().begin_run();
         let start = self.lockstep.state().clone();
         self.settle(&start);
-        let recording = Recording::new(&self.loaded, &mut self.lockstep, RunOptions::default()).map_err(told)?;
+        let options = RunOptions { keyframes: true, ..RunOptions::default() };
+        let recording = Recording::new(&self.loaded, &mut self.lockstep, options).map_err(told)?;
         self.run = Some(Run { recording, before, start });
         self.registry().phase = Phase::Running;
         self.steps = 0;

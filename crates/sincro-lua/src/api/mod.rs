@@ -93,7 +93,8 @@ impl ApiContext<'_> {
         self.lua.create_function(move |lua, arguments: MultiValue| {
             let given = convert::list_from_lua(arguments).map_err(|error| named(function.name, error))?;
             // a client's nil may be a number that is none; a script's is a mistake
-            if is_setter && let Some(k) = given.iter().position(|value| *value == Value::Nil) {
+            let is_missing = |(k, value): (usize, &Value)| *value == Value::Nil && !function.may_be_nil(k);
+            if is_setter && let Some(k) = given.iter().enumerate().position(is_missing) {
                 return Err(Error::RuntimeError(format!(
                     "argument {} is nil (in function '{module}.{}')",
                     k + 1,

@@ -61,7 +61,7 @@ pub struct ObjectView {
     pub parent: Option<usize>,
     /// Index of the mover that carries it; `None` if it is fixed in the world. For a joint, its moving side.
     pub mover: Option<usize>,
-    /// Pose of its frame in that of its mover, or in the world: position x, y, z `[m]`, quaternion w, x, y, z.
+    /// Pose of its frame in that of its mover, or in the world: position x, y, z `[m]`, quaternion x, y, z, w.
     pub pose: [f64; 7],
     /// Visible shapes.
     pub shapes: Vec<ShapeView>,
@@ -109,7 +109,7 @@ pub struct ShapeView {
     /// Indices of the corners of each triangle of a mesh, counter-clockwise seen from outside.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub triangles: Vec<[u32; 3]>,
-    /// Pose of the shape's frame in that of its object: position x, y, z `[m]`, quaternion w, x, y, z.
+    /// Pose of the shape's frame in that of its object: position x, y, z `[m]`, quaternion x, y, z, w.
     pub pose: [f64; 7],
     /// Colour as `#rrggbb`; `None`: chosen by the viewer.
     pub color: Option<String>,
@@ -120,8 +120,8 @@ pub struct ShapeView {
 pub struct JointView {
     /// Index of the mover on its fixed side; `None` for the world.
     pub base_mover: Option<usize>,
-    /// Pose of the joint's frame on the fixed side in the frame of that mover: position x, y, z `[m]`, quaternion w, x,
-    /// y, z.
+    /// Pose of the joint's frame on the fixed side in the frame of that mover: position x, y, z `[m]`, quaternion x, y,
+    /// z, w.
     pub base_pose: [f64; 7],
     /// Unit vectors of its axes in the joint's frame: none for fixed, ball and free joints, two for universal ones.
     pub axes: Vec<[f64; 3]>,
@@ -374,7 +374,12 @@ fn axes(kind: &JointKind) -> Vec<[f64; 3]> {
 }
 
 fn shown_view(shown: &ShownSurface) -> ShapeView {
-    let view = match &shown.surface {
+    shape_view(&shown.surface, &shown.pose, shown.color)
+}
+
+/// A surface with its pose in its object and its colour.
+pub(super) fn shape_view(surface: &Surface, pose: &Pose<f64>, color: Option<[u8; 3]>) -> ShapeView {
+    let view = match surface {
         Surface::Solid(shape) => solid_view(*shape),
         Surface::HalfSpace => made_of("plane", Triangles::default()),
         Surface::Hull(points) => made_of("mesh", surface::of_hull(points)),
@@ -383,7 +388,7 @@ fn shown_view(shown: &ShownSurface) -> ShapeView {
             made_of("mesh", surface::of_heights(*columns, heights, *size))
         }
     };
-    ShapeView { pose: seven(&shown.pose), color: shown.color.map(hex), ..view }
+    ShapeView { pose: seven(pose), color: color.map(hex), ..view }
 }
 
 fn solid_view(shape: Shape) -> ShapeView {
@@ -405,12 +410,13 @@ fn made_of(kind: &'static str, (vertices, triangles): Triangles) -> ShapeView {
     ShapeView { kind, size: Vec::new(), vertices, triangles, pose: seven(&Pose::identity()), color: None }
 }
 
-fn hex([r, g, b]: [u8; 3]) -> String {
+/// A colour as `#rrggbb`.
+pub(super) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// Position and quaternion x, y, z, w.
-fn seven(pose: &Pose<f64>) -> [f64; 7] {
+pub(super) fn seven(pose: &Pose<f64>) -> [f64; 7] {
     let mut wxyz = [0.0; 4];
     Quat::from_matrix(&pose.rot).write(&mut wxyz);
     let [w, x, y, z] = wxyz;

@@ -18,6 +18,8 @@ use sincro_dynamics::spatial::Quat;
 use sincro_dynamics::world::Observation;
 
 use super::contacts::{CONTACT, Contacts};
+use super::runtime::RuntimeLog;
+use crate::controller::Controller;
 use sincro_scene::experiment::Experiment;
 use sincro_scene::record::probe::{self, View};
 
@@ -151,6 +153,8 @@ pub struct Trajectory {
     pub numbers: Vec<f32>,
     /// Contact points of each frame.
     pub contacts: Contacts,
+    /// Objects that clients and scripts have made.
+    pub runtime: RuntimeLog,
 }
 
 impl Trajectory {
@@ -164,7 +168,9 @@ impl Trajectory {
         let touching = CONTACT * model.constraints().n_contacts().min(USUAL_CONTACTS);
         let least = (experiment.n_steps * (layout.width() + touching) as u64).div_ceil(MAX_NUMBERS);
         let every = every.max(least);
-        Self { layout, every, ticks: Vec::new(), times: Vec::new(), numbers: Vec::new(), contacts: Contacts::default() }
+        let runtime = RuntimeLog::new(layout.links());
+        let (ticks, times, numbers) = (Vec::new(), Vec::new(), Vec::new());
+        Self { layout, every, ticks, times, numbers, contacts: Contacts::default(), runtime }
     }
 
     /// Returns true if a frame is to be recorded after `tick` base steps.
@@ -179,6 +185,11 @@ impl Trajectory {
         self.times.push(t);
         self.layout.write(seen, t, &mut self.numbers);
         self.contacts.record(seen);
+    }
+
+    /// Adds to the last frame what the controllers of the run have made up to it.
+    pub fn record_runtime(&mut self, controllers: &[Box<dyn Controller>]) {
+        self.runtime.update(self.times.last().copied().unwrap_or(0.0), controllers);
     }
 
     /// Returns the number of frames so far.

@@ -215,6 +215,12 @@ impl LockStep {
         found.map(|controller| (controller, world))
     }
 
+    /// Returns all controllers that were attached, in that order.
+    #[must_use]
+    pub fn controllers(&self) -> &[Box<dyn Controller>] {
+        &self.controllers
+    }
+
     /// All controllers besides the diagram.
     pub(super) fn controllers_mut(&mut self) -> &mut [Box<dyn Controller>] {
         &mut self.controllers

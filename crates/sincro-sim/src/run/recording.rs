@@ -136,8 +136,10 @@ impl Recording {
 
     fn record_keyframe(&mut self, lockstep: &mut LockStep, is_last: bool) {
         let (tick, t) = (lockstep.tick(), lockstep.t());
-        if let Some(trajectory) = self.trajectory.as_mut().filter(|trajectory| trajectory.is_due(tick) || is_last) {
+        let is_due = |trajectory: &&mut Trajectory| trajectory.is_due(tick) && tick <= self.last_tick;
+        if let Some(trajectory) = self.trajectory.as_mut().filter(|trajectory| is_due(trajectory) || is_last) {
             trajectory.record(&lockstep.observe(t).0, tick, t);
+            trajectory.record_runtime(lockstep.controllers());
         }
     }
 

@@ -77,6 +77,39 @@ export interface Property {
   about: string;
 }
 
+/** Items of a drawing that was made at run time. */
+export interface DrawingView {
+  kind: "points" | "balls" | "lines" | "line_strip" | "triangles" | "particles";
+  /** Numbers of an item: positions [m]; of a particle position, velocity [m/s], time [s]. */
+  width: number;
+  /** Diameter of a ball or particle [m]; of a point, and width of a line, [pixel]. */
+  size: number;
+  color: string;
+  /** How long a particle is seen [s]. */
+  lifetime: number;
+  falls: boolean;
+}
+
+/** What a client or script has made. */
+export interface RuntimeView {
+  path: string;
+  kind: string;
+  mover: number | null;
+  pose: Pose;
+  shapes: ShapeView[];
+  volume?: NonNullable<ObjectView["volume"]>;
+  drawing?: DrawingView;
+}
+
+/** What has happened at `t` [s] to an object that was made at run time. */
+export type RuntimeEvent = { t: number; id: number } & (
+  | { put: RuntimeView }
+  | { move: [number | null, Pose] }
+  | { items: [number, number[]] }
+  | { clear: null }
+  | { gone: null }
+);
+
 export interface Reel {
   name: string;
   about: string;
@@ -91,6 +124,7 @@ export interface Reel {
     numbers: string;
     references: [string, string, string][];
   };
+  runtime?: RuntimeEvent[];
 }
 
 export interface Film {

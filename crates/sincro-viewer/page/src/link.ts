@@ -1,6 +1,6 @@
 // The line to `sincro view`: commands out; the scene once, then runs, states and frames in.
 
-import type { Film, Property, SceneView } from "./film";
+import type { Film, Property, RuntimeEvent, SceneView } from "./film";
 import { CONTACT, Run } from "./run";
 import type { Session } from "./session";
 
@@ -29,12 +29,18 @@ interface StateMessage {
   trace: string;
 }
 
+interface RuntimeMessage {
+  type: "runtime";
+  id: number;
+  events: RuntimeEvent[];
+}
+
 interface WordsMessage {
   type: "refused" | "saved";
   message: string;
 }
 
-type Message = RunMessage | StateMessage | WordsMessage;
+type Message = RunMessage | RuntimeMessage | StateMessage | WordsMessage;
 
 export class Link {
   isRunning = false;
@@ -177,6 +183,9 @@ export class Link {
         this.fresh = true;
         break;
       }
+      case "runtime":
+        session.runs.find((known) => known.id === message.id)?.runtime.push(...message.events);
+        break;
       case "state": {
         const wasRunning = this.isRunning;
         this.isRunning = message.playing;

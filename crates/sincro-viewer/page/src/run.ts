@@ -1,6 +1,6 @@
 // One run: its frames, its recorded signals, and how to look up either at a time.
 
-import { doubles, singles, type Film, type Reel, type SceneView } from "./film";
+import { doubles, singles, type Film, type Reel, type RuntimeEvent, type SceneView } from "./film";
 import { countUpTo, Rows } from "./growing";
 
 export interface Column {
@@ -29,6 +29,8 @@ export class Run {
   readonly rowTimes: Rows<Float64Array>;
   readonly rows: Rows<Float64Array>;
   readonly references = new Map<string, Reference>();
+  /** What has happened to objects that were made at run time, in the order of time. */
+  readonly runtime: RuntimeEvent[] = [];
   every = 1;
   stop = "";
   trace = "";
@@ -73,6 +75,7 @@ export class Run {
     for (const [signal, t, values] of reel.signals.references) {
       run.references.set(signal, { times: doubles(t), values: doubles(values) });
     }
+    run.runtime.push(...(reel.runtime ?? []));
     run.every = reel.signals.every;
     run.stop = reel.stop;
     run.trace = reel.trace;

@@ -30,7 +30,7 @@ export const SHOWN = {
 export type Shown = keyof typeof SHOWN;
 
 /** Whether a scene has what a toggle shows. */
-export function applies(view: SceneView, key: Shown): boolean {
+export function applies(view: SceneView, runs: Run[], key: Shown): boolean {
   const some = (has: (o: ObjectView) => boolean) => view.objects.some(has);
   switch (key) {
     case "axes": return some((o) => (o.joint?.axes.length ?? 0) > 0);
@@ -44,7 +44,7 @@ export function applies(view: SceneView, key: Shown): boolean {
     case "drags": return view.n_drags > 0;
     case "wind": return view.winds.length > 0;
     case "closures": return some((o) => o.other_end !== undefined);
-    case "volumes": return some((o) => (o.volume?.length ?? 0) > 0);
+    case "volumes": return some((o) => (o.volume?.length ?? 0) > 0) || runs.some((run) => run.runtime.some((event) => "put" in event && event.put.volume !== undefined));
     default: return true;
   }
 }

@@ -2,6 +2,7 @@
 // Needs CHROMIUM (default /usr/bin/chromium) and SINCRO, the program; skips with a word where there is no browser.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { clock, folder, open, options, root, scrub, sincro, started_view, state, until, view } from "./browser.mjs";
@@ -151,7 +152,6 @@ test("on a phone everything is within the width", options, async () => {
 
 test("names are text, never markup", options, async () => {
   const out = join(folder, "pendulum");
-  const { mkdirSync, writeFileSync } = await import("node:fs");
   mkdirSync(out, { recursive: true });
   const evil = "<img src=x onerror=document.title='broken'></script><b>";
   writeFileSync(join(out, "scene.toml"), '[[joint]]\nname = "hinge"\nkind = "revolute"\n[[body]]\nname = "rod"\nparent = "/hinge"\nmass = 1.0\ninertia = { xx = 0.1, yy = 0.1, zz = 0.1 }\n');
@@ -161,4 +161,55 @@ test("names are text, never markup", options, async () => {
   assert.equal(await page.locator("#sincro-viewer img, #sincro-viewer b").count(), 0);
   assert.deepEqual(wrong, []);
   await page.close();
+});
+
+test("objects that a script makes are shown, live and in the replay", options, async () => {
+  const scene = join(folder, "drawing");
+  mkdirSync(scene);
+  writeFileSync(join(scene, "experiment.toml"), 'format = 2\ntitle = "Drawing"\nscene = "scene.toml"\nduration = 1.0\nstep = 0.01\nrecord = ["/hinge.position"]\n');
+  writeFileSync(join(scene, "scene.toml"), `format = 2
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+initial = { position = 1.0 }
+[[body]]
+name = "arm"
+parent = "/hinge"
+density = 500.0
+shape = [{ cuboid = { size = [0.1, 0.1, 0.5] } }]
+[[script]]
+object = "/hinge"
+code = '''
+sim = require('sim')
+function sysCall_init()
+    box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, { 0.3, 0.3, 0.3 }, 0)
+    path = sim.addDrawingObject(sim.drawing_linestrip, 2, 0, -1, 400, { 0.8, 0.1, 0.1 })
+end
+function sysCall_sensing()
+    local t = sim.getSimulationTime()
+    sim.setObjectPosition(box, { t, 0, 0 })
+    sim.addDrawingObjectItem(path, { t, 0, 1 })
+    if t > 0.5 and box2 == nil then box2 = sim.createPrimitiveShape(sim.primitiveshape_spheroid, { 0.2, 0.2, 0.2 }, 0) end
+end
+'''
+`);
+  const there = (page) => page.locator(".sv-stage").getAttribute("data-runtime").then(Number);
+  const out = join(folder, "drawing-run");
+  const run = spawnSync(sincro, ["run", scene, "--quiet", "--out", out], { encoding: "utf8" });
+  assert.equal(run.status, 0, run.stderr);
+  const { page, wrong } = await open(await view(out));
+  await page.keyboard.press("Home");
+  assert.equal(await there(page), 2, "a box and a path at the start");
+  await page.keyboard.press("End");
+  assert.equal(await there(page), 3, "a ball too at the end");
+  await page.keyboard.press("Home");
+  assert.equal(await there(page), 2, "and back");
+  assert.deepEqual(wrong, []);
+  await page.close();
+  const live = await open(await view(scene));
+  await live.page.click(".sv-play");
+  await until(live.page, () => document.querySelector(".sv-stage").dataset.runtime === "3");
+  assert.deepEqual(live.wrong, []);
+  await live.page.close();
 });

@@ -322,6 +322,7 @@ impl Engine {
             run.rows.extend(taken.row);
             run.frames.extend(taken.frame);
             run.contacts.append(&taken.contacts);
+            run.runtime.extend(taken.runtime);
         });
         let factor = self.factor(taken.t);
         // told ten times a second is enough

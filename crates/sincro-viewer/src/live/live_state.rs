@@ -3,7 +3,7 @@
 use std::sync::{Mutex, MutexGuard};
 
 use serde::Serialize;
-use sincro_sim::replay::Contacts;
+use sincro_sim::replay::{Contacts, RuntimeEvent};
 use tokio::sync::watch;
 
 /// Messages that are kept for viewers; older ones have been read or never will be.
@@ -48,6 +48,8 @@ pub struct RunLog {
     pub width: usize,
     /// Points of contact of each frame.
     pub contacts: Contacts,
+    /// What has happened to objects that scripts have made.
+    pub runtime: Vec<RuntimeEvent>,
 }
 
 /// State of the engine of a live scene: which run advances, and how fast.

@@ -8,7 +8,7 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;
 use sincro_scene::record::{Recorder, catalogue};
 use sincro_sim::Loaded;
-use sincro_sim::replay::{Contacts, Layout, SceneView, Trajectory};
+use sincro_sim::replay::{Contacts, Layout, RuntimeEvent, RuntimeLog, SceneView, Trajectory};
 use sincro_sim::run::{LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
 use sincro_sim::trace::Trace;
@@ -40,6 +40,8 @@ pub(super) struct Track {
     /// States at the frames.
     snapshots: Thinned<Snapshot>,
     push: Option<ExternalForce<f64>>,
+    /// Objects that scripts have made.
+    runtime: RuntimeLog,
     /// Parts of the runs that it was branched from, in the order of time.
     before: Vec<Segment>,
     /// Its own part.
@@ -52,6 +54,7 @@ pub(super) struct Taken {
     pub row: Vec<f64>,
     pub frame: Vec<f32>,
     pub contacts: Contacts,
+    pub runtime: Vec<RuntimeEvent>,
 }
 
 impl Track {
@@ -64,7 +67,7 @@ impl Track {
         let trajectory = Trajectory::new(model, &loaded.experiment);
         let row_bytes = 8 * columns.len() as u64 * loaded.experiment.n_steps;
         let every = trajectory.every.max(row_bytes.div_ceil(MAX_ROW_BYTES));
-        let (view, layout) = (SceneView::new(&loaded.scene), trajectory.layout);
+        let (view, layout, runtime) = (SceneView::new(&loaded.scene), trajectory.layout, trajectory.runtime);
         let trace = lockstep.trace();
         let mut new = Self {
             lockstep,
@@ -78,6 +81,7 @@ impl Track {
             every,
             snapshots: Thinned::new(usize::MAX),
             push: None,
+            runtime,
             before: Vec::new(),
             segment: Segment::new(settings),
             loaded,
@@ -157,7 +161,8 @@ impl Track {
         self.layout.write(&seen, t, &mut frame);
         let mut contacts = Contacts::default();
         contacts.record(&seen);
-        Taken { t, row, frame, contacts }
+        self.runtime.update(t, self.lockstep.controllers());
+        Taken { t, row, frame, contacts, runtime: std::mem::take(&mut self.runtime.events) }
     }
 
     /// Bounds the memory of the snapshots.

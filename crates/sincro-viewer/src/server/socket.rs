@@ -9,7 +9,7 @@ use std::sync::mpsc::{SyncSender, TrySendError};
 use std::time::Duration;
 
 use axum::extract::ws::{Message, WebSocket};
-use sincro_sim::replay::CONTACT;
+use sincro_sim::replay::{CONTACT, RuntimeEvent};
 use tokio::time::{Instant, interval, sleep_until, timeout};
 
 use super::connection::Line;
@@ -19,6 +19,8 @@ use crate::live::{Command, LiveState};
 const PAUSE: Duration = Duration::from_millis(16);
 /// Frames in one message at most.
 const MAX_FRAMES: usize = 1000;
+/// Changes of objects that were made at run time in one message at most.
+const MAX_EVENTS: usize = 1000;
 
 /// Interval of pings, which browsers answer by themselves.
 const PING: Duration = Duration::from_secs(20);
@@ -29,8 +31,8 @@ const TAKE: Duration = Duration::from_secs(10);
 
 /// Content that was sent to one viewer.
 struct Seen {
-    /// Frames of each run.
-    frames: Vec<usize>,
+    /// Frames of each run, and changes of its objects that were made at run time.
+    frames: Vec<(usize, usize)>,
     words: u64,
     engine: String,
 }
@@ -150,12 +152,16 @@ impl Seen {
         for (id, run) in content.runs.iter().enumerate() {
             if id == self.frames.len() {
                 news.push(Message::text(run.header.clone()));
-                self.frames.push(0);
+                self.frames.push((0, 0));
             }
-            let from = self.frames[id];
+            let (from, known) = self.frames[id];
             let to = run.times.len().min(from + MAX_FRAMES);
+            let until = run.runtime.len().min(known + MAX_EVENTS);
+            self.frames[id] = (to, until);
+            if known < until {
+                news.push(Message::text(runtime(id, &run.runtime[known..until])));
+            }
             if from < to {
-                self.frames[id] = to;
                 news.push(Message::binary(frames(id, run, from, to)));
             }
         }
@@ -173,6 +179,11 @@ impl Seen {
         }
         news
     }
+}
+
+/// Changes of objects that scripts have made, as JSON.
+fn runtime(id: usize, events: &[RuntimeEvent]) -> String {
+    serde_json::json!({ "type": "runtime", "id": id, "events": events }).to_string()
 }
 
 fn frames(id: usize, run: &crate::live::RunLog, from: usize, to: usize) -> Vec<u8> {

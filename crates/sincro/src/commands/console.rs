@@ -185,7 +185,7 @@ fn figures(check: &CheckReport) -> String {
 
 /// A unit as it follows a number.
 fn spaced(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+    if matches!(unit, "" | "1") { String::new() } else { format!(" {unit}") }
 }
 
 /// Findings of the audit, each with the name of its run, and the settings that would help.

@@ -11,6 +11,7 @@ mod buffers;
 mod collections;
 mod control;
 mod distances;
+mod drawings;
 mod fields;
 mod graphs;
 pub mod ik;
@@ -63,6 +64,25 @@ pub struct Function {
     pub run: fn(&mut SimApi<'_>, Arguments<'_>) -> Outcome,
 }
 
+impl Function {
+    /// Returns true if argument `k`, counted from 0, may be nil by the call tip: `string colorName=nil`.
+    ///
+    /// ```
+    /// let paint = sincro_coppelia::api::functions::function("setShapeColor").unwrap();
+    /// assert_eq!([0, 1, 2, 3].map(|k| paint.may_be_nil(k)), [false, true, false, false]);
+    /// ```
+    #[must_use]
+    pub fn may_be_nil(&self, k: usize) -> bool {
+        let arguments = self.tip.split_once('(').map_or("", |(_, arguments)| arguments.trim_end_matches(')'));
+        let mut depth = 0;
+        let separator = |c: char| {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            c == ',' && depth == 0
+        };
+        arguments.split(separator).nth(k).is_some_and(|argument| argument.ends_with("=nil"))
+    }
+}
+
 /// Functions of the module `sim`, by category (objects, poses, joints, signals …), each once; adapters offer all of
 /// them.
 pub fn functions() -> impl Iterator<Item = &'static Function> {
@@ -81,6 +101,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         ik_groups::FUNCTIONS,
         buffers::FUNCTIONS,
         windows::FUNCTIONS,
+        drawings::FUNCTIONS,
         motions::FUNCTIONS,
         moves::FUNCTIONS,
         vision::FUNCTIONS,

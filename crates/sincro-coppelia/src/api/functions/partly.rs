@@ -22,6 +22,14 @@ const PARTLY: &[(&[&str], &str)] = &[
         &["createPrimitiveShape", "createPureShape", "createMeshShape", "createShape", "createHeightfieldShape"],
         "static, without contact",
     ),
+    (
+        &["addDrawingObject", "addDrawingObjectItem"],
+        "shown in the viewer; all items of one colour and size, points with a normal as balls",
+    ),
+    (
+        &["addParticleObject", "addParticleObjectItem"],
+        "shown in the viewer on their way by velocity and gravity; they touch and push nothing",
+    ),
     (&["importShape", "importMesh", "loadModel"], "STL and OBJ files of the scene's folder"),
     (&["scaleObject", "scaleObjects", "groupShapes", "ungroupShape"], "runtime shapes only"),
     (&["loadScene"], "scene folders of this program, beside the one that is served"),

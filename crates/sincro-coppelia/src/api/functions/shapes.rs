@@ -90,7 +90,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
     Function {
         name: "setShapeColor",
-        tip: "sim.setShapeColor(int shapeHandle,string colorName,int colorComponent,float[3] rgbData)",
+        tip: "sim.setShapeColor(int shapeHandle,string colorName=nil,int colorComponent,float[3] rgbData)",
         run: |d, a| paint(d, a, (2, 3)),
     },
     Function {

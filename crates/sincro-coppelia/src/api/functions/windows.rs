@@ -1,5 +1,5 @@
-//! Functions: what a window would show. It is taken, and nothing is done: scripts and clients that draw run here as
-//! they are.
+//! Functions: what a window would show. It is taken, and nothing is done: scripts and clients that open views and
+//! consoles run here as they are.
 
 use super::{Function, Outcome, one};
 use crate::api::{Arguments, SimApi};
@@ -38,22 +38,10 @@ pub(super) const FUNCTIONS: &[Function] = &[
     ),
     shown("endDialog", "int result=sim.endDialog(int dialogHandle)"),
     shown(
-        "addDrawingObject",
-        "int drawingObjectHandle=sim.addDrawingObject(int objectType,float size,float duplicateTolerance,int parentObjectHandle,int maxItemCount,float[3] color=nil)",
-    ),
-    shown("addDrawingObjectItem", "int result=sim.addDrawingObjectItem(int drawingObjectHandle,float[] itemData)"),
-    shown(
         "addBanner",
         "int bannerID=sim.addBanner(string label,float size,int options,float[6] positionAndEulerAngles=nil,int parentObjectHandle=nil)",
     ),
     shown("removeBanner", "int result=sim.removeBanner(int bannerID)"),
-    shown("removeDrawingObject", "sim.removeDrawingObject(int drawingObjectHandle)"),
-    shown(
-        "addParticleObject",
-        "int particleObjectHandle=sim.addParticleObject(int objectType,float size,float density,any params,float lifeTime,int maxItemCount,float[3] color=nil)",
-    ),
-    shown("addParticleObjectItem", "sim.addParticleObjectItem(int objectHandle,float[] itemData)"),
-    shown("removeParticleObject", "sim.removeParticleObject(int particleObjectHandle)"),
     shown(
         "setShapeTexture",
         "sim.setShapeTexture(int shapeHandle,int textureId,int mappingMode,int options,float[2] uvScaling)",
@@ -61,7 +49,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// Returns true if the function with a present name, without `sim.`, only affects what windows show (views, consoles,
-/// drawings): it takes any arguments and does nothing.
+/// banners): it takes any arguments and does nothing.
 #[must_use]
 pub fn is_display_only(name: &str) -> bool {
     FUNCTIONS.iter().any(|f| f.name == name)

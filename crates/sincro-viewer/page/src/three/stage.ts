@@ -11,6 +11,7 @@ import type { Session } from "../session";
 import { Bodies } from "./bodies";
 import { Overlays } from "./overlays";
 import { Push } from "./push";
+import { RuntimeObjects, corners } from "./runtime";
 import { Vectors } from "./vectors";
 
 /** The page's own cameras: where they stand, seen from what they look at. */
@@ -40,6 +41,8 @@ export class Stage {
   private readonly axes = new AxesHelper(1);
   private ground: Object3D[] = [];
   private bodies = new Map<number, Bodies>();
+  /** What clients and scripts have made in the run that is looked at. */
+  private runtime: RuntimeObjects | null = null;
   private readonly overlays: Overlays;
   private readonly vectors: Vectors;
   /** The scene's camera through which one looks. */
@@ -227,6 +230,7 @@ export class Stage {
   /** Makes bodies for the runs that are shown, and drops the others. */
   private rebuild(): void {
     const { session } = this;
+    this.runtime?.clear();
     for (const bodies of this.bodies.values()) bodies.dispose();
     this.bodies = new Map();
     session.runs.forEach((run, k) => {
@@ -236,6 +240,7 @@ export class Stage {
       this.scene.add(bodies.root);
     });
     this.measure();
+    this.runtime = new RuntimeObjects(session.run, this.main);
     this.lay();
     this.overlays.rebuild(this.main);
     this.vectors.rebuild(this.main);
@@ -265,6 +270,7 @@ export class Stage {
       const size = (moving.isEmpty() ? solids : moving).getSize(new Vector3()).length();
       if (size > 0) this.main.span = Math.max(0.6 * size, 1e-6);
     }
+    corners(run).forEach((corner) => bounds.expandByPoint(corner));
     if (bounds.isEmpty()) bounds.set(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
     const least = 0.25 * this.main.span;
     const size = bounds.getSize(new Vector3());
@@ -362,6 +368,8 @@ export class Stage {
   private place(): void {
     const { session } = this;
     for (const run of session.runs) this.bodies.get(run.id)?.place(run, session.t);
+    this.runtime?.place(session.t, session.shown.volumes);
+    this.node.dataset["runtime"] = String(this.runtime?.count ?? 0);
     this.scene.updateMatrixWorld(true);
     this.vectors.place(session.t);
     this.drawLegend();

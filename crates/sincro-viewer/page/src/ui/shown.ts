@@ -5,7 +5,7 @@ import { SHOWN, applies, type Session, type Shown } from "../session";
 import { cameraNames, type Stage } from "../three/stage";
 
 export function shown(session: Session, stage: Stage): HTMLElement {
-  const toggles = (Object.keys(SHOWN) as Shown[]).filter((key) => applies(session.view, key)).map((key) =>
+  const toggles = (Object.keys(SHOWN) as Shown[]).filter((key) => applies(session.view, session.runs, key)).map((key) =>
     el("label", { class: "sv-toggle" },
       el("input", {
         type: "checkbox", checked: session.shown[key], "data-shown": key,

@@ -1,0 +1,261 @@
+//! Objects that clients and scripts make while a run is on, as pictures show them: what appeared, moved, changed or
+//! went, and when.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::Serialize;
+use sincro_dynamics::geometry::{FieldOfView, Geometry};
+use sincro_dynamics::kinematics::Attached;
+use sincro_dynamics::spatial::Pose;
+
+use super::drawing::{Drawing, DrawingStyle};
+use super::scene::{ShapeView, hex, seven, shape_view};
+use super::volume::{self, Edge};
+use crate::controller::Controller;
+
+/// Numbers that the log of a run may take, about 32 MB; what changes beyond them is not shown.
+const MAX_NUMBERS: usize = 4_000_000;
+/// About how many numbers an entry takes beside its own.
+const ENTRY: usize = 16;
+
+/// Visible part of a [`RuntimeObject`].
+#[derive(Clone, Debug)]
+pub struct RuntimePart {
+    /// Geometry in its own frame `[m]`.
+    pub geometry: Arc<Geometry>,
+    /// Pose of that frame in the object `[m]`.
+    pub place: Pose<f64>,
+    /// Colour: red, green, blue, 0 to 255.
+    pub color: [u8; 3],
+}
+
+impl PartialEq for RuntimePart {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.geometry, &other.geometry) && (self.place, self.color) == (other.place, other.color)
+    }
+}
+
+/// Object that a controller has made, or a frame of the scene that it has moved, as
+/// [`Controller::runtime_objects`] describes it.
+#[derive(Clone, Debug)]
+pub struct RuntimeObject<'a> {
+    /// Number that the object keeps for the whole run, and that no other object of the controller has.
+    pub id: u32,
+    /// Path of the object.
+    pub path: &'a str,
+    /// Kind in English, such as `dummy`, `shape`, `proximity sensor`, `drawing`.
+    pub kind: &'static str,
+    /// Link (or the world) that carries it, and its pose there `[m]`.
+    pub at: Attached<f64>,
+    /// Visible parts.
+    pub parts: Vec<RuntimePart>,
+    /// Field of view of a proximity sensor, along z of the object; `None` for all else.
+    pub field: Option<FieldOfView>,
+    /// Items of a drawing, in the axes of the object; `None` for all else.
+    pub drawing: Option<&'a Drawing>,
+}
+
+/// Object made at run time as it is drawn; a change of anything but pose and items gives a new view.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RuntimeView {
+    /// Path of the object.
+    pub path: String,
+    /// Kind in English, such as `dummy`, `shape`, `proximity sensor`, `drawing`.
+    pub kind: &'static str,
+    /// Index of the mover that carries it; `None` if it is fixed in the world.
+    pub mover: Option<usize>,
+    /// Pose of its frame in that of its mover, or in the world: position x, y, z `[m]`, quaternion x, y, z, w.
+    pub pose: [f64; 7],
+    /// Visible shapes.
+    pub shapes: Vec<ShapeView>,
+    /// Edges of the volume of a proximity sensor, in its frame `[m]`; empty for all else.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub volume: Vec<Edge>,
+    /// Look of a drawing; `None` for all else.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drawing: Option<DrawingView>,
+}
+
+/// Look of a drawing, as the page takes it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DrawingView {
+    /// Figure of an item: `points`, `balls`, `lines`, `line_strip`, `triangles` or `particles`.
+    pub kind: &'static str,
+    /// Number of entries of an item.
+    pub width: usize,
+    /// Diameter of a ball or particle `[m]`, of a point `[pixel]`, or width of a line `[pixel]`.
+    pub size: f64,
+    /// Colour as `#rrggbb`.
+    pub color: String,
+    /// Time for which a particle is seen `[s]`.
+    pub lifetime: f64,
+    /// True if particles fall with the gravity of the world.
+    pub falls: bool,
+}
+
+/// What has happened to an object that was made at run time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RuntimeChange {
+    /// It is there from now on, or looks different; a drawing has no items yet.
+    Put(Box<RuntimeView>),
+    /// It is carried by this mover (`None`: the world), at this pose there, as in [`RuntimeView`].
+    Move(Option<usize>, [f64; 7]),
+    /// Items of a drawing, from this index on: they replace those that were there. Entries as in the units of
+    /// [`DrawingKind`](super::DrawingKind).
+    Items(usize, Vec<f32>),
+    /// All items of a drawing have gone.
+    Clear(()),
+    /// The object has gone.
+    Gone(()),
+}
+
+/// Entry of a [`RuntimeLog`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RuntimeEvent {
+    /// Time from which it holds `[s]`.
+    pub t: f64,
+    /// Number of the object in the run.
+    pub id: u64,
+    /// What has happened to it.
+    #[serde(flatten)]
+    pub change: RuntimeChange,
+}
+
+/// Log of the objects that controllers have made in a run: [`RuntimeLog::update`] compares them with what it knows.
+#[derive(Clone, Debug, Default)]
+pub struct RuntimeLog {
+    /// Link of each mover.
+    links: Vec<usize>,
+    known: BTreeMap<u64, Known>,
+    /// Everything that has happened, in the order of time.
+    pub events: Vec<RuntimeEvent>,
+    /// Numbers that the events take.
+    n_numbers: usize,
+}
+
+impl PartialEq for RuntimeLog {
+    fn eq(&self, other: &Self) -> bool {
+        self.events == other.events
+    }
+}
+
+/// What is known of an object.
+#[derive(Clone, Debug)]
+struct Known {
+    path: String,
+    at: Attached<f64>,
+    parts: Vec<RuntimePart>,
+    field: Option<FieldOfView>,
+    style: Option<DrawingStyle>,
+    /// Version of its items.
+    version: (u64, u64),
+    /// Present in the update that goes on.
+    is_there: bool,
+}
+
+impl RuntimeLog {
+    /// Creates an empty log; `links` has the link of each mover, as [`Layout::links`](super::Layout::links).
+    #[must_use]
+    pub fn new(links: &[usize]) -> Self {
+        Self { links: links.to_vec(), ..Self::default() }
+    }
+
+    /// Adds what has changed up to time `t` `[s]` of what the controllers have made.
+    pub fn update(&mut self, t: f64, controllers: &[Box<dyn Controller>]) {
+        self.known.values_mut().for_each(|known| known.is_there = false);
+        for (k, controller) in controllers.iter().enumerate() {
+            let mut visit = |object: &RuntimeObject<'_>| self.visit(t, (k as u64) << 32 | u64::from(object.id), object);
+            controller.runtime_objects(&mut visit);
+        }
+        let gone: Vec<u64> = self.known.iter().filter(|(_, known)| !known.is_there).map(|(id, _)| *id).collect();
+        for id in gone {
+            self.known.remove(&id);
+            self.push(t, id, RuntimeChange::Gone(()), 0);
+        }
+    }
+
+    fn visit(&mut self, t: f64, id: u64, object: &RuntimeObject<'_>) {
+        let style = object.drawing.map(|drawing| drawing.style);
+        let is_same = |known: &Known| {
+            (known.path.as_str(), known.field, known.style) == (object.path, object.field, style)
+                && known.parts == object.parts
+        };
+        match self.known.get_mut(&id).filter(|known| is_same(known)) {
+            Some(known) => {
+                known.is_there = true;
+                if (known.at.link, known.at.pose) != (object.at.link, object.at.pose) {
+                    known.at = object.at;
+                    let (mover, pose) = (self.mover(&object.at), seven(&object.at.pose));
+                    self.push(t, id, RuntimeChange::Move(mover, pose), pose.len());
+                }
+            }
+            None => {
+                let known = Known {
+                    path: object.path.to_owned(),
+                    at: object.at,
+                    parts: object.parts.clone(),
+                    field: object.field,
+                    style,
+                    version: (0, 0),
+                    is_there: true,
+                };
+                let version = object.drawing.map_or((0, 0), |drawing| (drawing.version().0, 0));
+                self.known.insert(id, Known { version, ..known });
+                let view = self.view(object);
+                let size = view.shapes.iter().map(|s| 3 * (s.vertices.len() + s.triangles.len())).sum::<usize>();
+                self.push(t, id, RuntimeChange::Put(Box::new(view)), size);
+            }
+        }
+        if let Some(drawing) = object.drawing {
+            self.items(t, id, drawing);
+        }
+    }
+
+    fn items(&mut self, t: f64, id: u64, drawing: &Drawing) {
+        let (version, known) = (drawing.version(), self.known.get_mut(&id).expect("it was visited"));
+        let (cleared, mut written) = known.version;
+        known.version = version;
+        if cleared != version.0 {
+            written = 0;
+            self.push(t, id, RuntimeChange::Clear(()), 0);
+        }
+        for (from, numbers) in drawing.since(written) {
+            self.push(t, id, RuntimeChange::Items(from, numbers.to_vec()), numbers.len());
+        }
+    }
+
+    fn push(&mut self, t: f64, id: u64, change: RuntimeChange, size: usize) {
+        if self.n_numbers + size > MAX_NUMBERS {
+            return;
+        }
+        self.n_numbers += size + ENTRY;
+        self.events.push(RuntimeEvent { t, id, change });
+    }
+
+    fn mover(&self, at: &Attached<f64>) -> Option<usize> {
+        at.link.and_then(|link| self.links.iter().position(|l| *l == link))
+    }
+
+    fn view(&self, object: &RuntimeObject<'_>) -> RuntimeView {
+        let shape = |part: &RuntimePart| shape_view(part.geometry.surface(), &part.place, Some(part.color));
+        let drawing = object.drawing.map(|drawing| drawing.style).map(|style| DrawingView {
+            kind: style.kind.word(),
+            width: style.kind.width(),
+            size: style.size,
+            color: hex(style.color),
+            lifetime: style.lifetime,
+            falls: style.falls,
+        });
+        RuntimeView {
+            path: object.path.to_owned(),
+            kind: object.kind,
+            mover: self.mover(&object.at),
+            pose: seven(&object.at.pose),
+            shapes: object.parts.iter().map(shape).collect(),
+            volume: object.field.map(|f| volume::edges(f.volume(), f.offset(), f.range())).unwrap_or_default(),
+            drawing,
+        }
+    }
+}
