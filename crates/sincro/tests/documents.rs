@@ -1,4 +1,4 @@
-//! The tutorial and the how-to pages do what they say: their files are written, their commands run.
+//! The README, the tutorial and the how-to pages do what they say: their files are written, their commands run.
 //!
 //! A line that is a path in backquotes and a colon names the file of the fenced block behind it. In a block of the kind
 //! `console` every line that begins with `$ sincro` is run in the folder of the page, in order, and must end with
@@ -16,10 +16,10 @@ use sincro_testing::{CommandLine, SceneFolder};
 const SINCRO: CommandLine = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
 
 /// Programs whose commands stand in the pages and are not run here.
-const FOREIGN: [&str; 8] = ["cargo", "git", "tar", "sudo", "python3", "pip", "mdbook", "rustup"];
+const FOREIGN: [&str; 10] = ["cargo", "git", "tar", "sudo", "python3", "pip", "mdbook", "rustup", "cc", "./self-test"];
 
 /// Pages whose commands are run.
-const PAGES: [&str; 15] = [
+const PAGES: [&str; 16] = [
     "tutorial.md",
     "from-vrep-simulink.md",
     "from-mujoco.md",
@@ -35,6 +35,7 @@ const PAGES: [&str; 15] = [
     "how-to/results.md",
     "how-to/script.md",
     "campaigns.md",
+    "export-c.md",
 ];
 
 fn docs() -> PathBuf {
@@ -135,9 +136,20 @@ fn serves(page: &str, folder: &Path, arguments: &mut Vec<&str>) {
     assert!(found, "{page}: `{}` does not say where it serves", arguments.join(" "));
 }
 
+/// A folder in which the scenes of the project are at their place.
+fn folder_with_scenes() -> SceneFolder {
+    let folder = SceneFolder::new();
+    let scenes = docs().join("../scenes").canonicalize().unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(&scenes, folder.join("scenes")).unwrap();
+    #[cfg(windows)]
+    std::os::windows::fs::symlink_dir(&scenes, folder.join("scenes")).unwrap();
+    folder
+}
+
 /// Does everything that a page says, in a folder of its own.
 fn follow(page: &str) {
-    let folder = SceneFolder::new();
+    let folder = folder_with_scenes();
     let text = fs::read_to_string(docs().join(page)).unwrap();
     let pieces = pieces(&text);
     assert!(pieces.iter().any(|piece| matches!(piece, Piece::Command(_))), "{page} has no command");
@@ -166,6 +178,25 @@ fn the_pages_for_those_who_come_from_elsewhere_do_what_they_say() {
 #[test]
 fn the_how_to_pages_do_what_they_say() {
     PAGES[4..].iter().for_each(|page| follow(page));
+}
+
+/// Its commands are those of a checkout: `cargo run --release -- COMMAND`. One that changes a number may leave a check
+/// that does not hold.
+#[test]
+fn the_readme_does_what_it_says() {
+    let folder = folder_with_scenes();
+    let text = fs::read_to_string(docs().join("../README.md")).unwrap();
+    let commands = text.lines().filter_map(|line| line.strip_prefix("cargo run --release -- "));
+    let mut n_run = 0;
+    // all experiments are run elsewhere
+    for command in commands.filter(|command| !command.starts_with("reproduce")) {
+        let command = command.split(" #").next().unwrap_or(command).trim();
+        let may_fail = command.starts_with("run") && (command.contains("--set") || command.contains("--step"));
+        let fails = if may_fail { " # exit 1" } else { "" };
+        run("README.md", &folder, &format!("sincro {command}{fails}"));
+        n_run += 1;
+    }
+    assert!(n_run >= 6, "{n_run} commands of the README were run");
 }
 
 #[test]
