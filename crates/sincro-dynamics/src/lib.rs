@@ -28,6 +28,7 @@
 //! be set between steps; every algorithm below it is a function of the three.
 
 pub mod actuation;
+#[cfg(feature = "batch")]
 pub mod batch;
 mod compile;
 pub mod constraint;
@@ -45,6 +46,7 @@ pub mod recursions;
 pub mod scratch;
 pub mod state;
 pub mod stiffness;
+#[cfg(feature = "tangent")]
 pub mod tangent;
 pub mod world;
 

@@ -82,12 +82,14 @@ pub mod proximity;
 pub mod replay;
 pub mod result_folder;
 pub mod results;
+#[cfg(feature = "tasks")]
 pub mod rollout;
 pub mod run;
 pub mod sensors;
 pub mod snapshot;
 pub mod sweep;
 pub mod table;
+#[cfg(feature = "tasks")]
 pub mod task;
 pub mod trace;
 pub mod validity;

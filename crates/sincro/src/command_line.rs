@@ -5,9 +5,9 @@
 
 use std::ffi::OsString;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-#[cfg(feature = "cli")]
 use crate::diagnostics;
 use crate::{Verdict, commands};
 
@@ -49,8 +49,10 @@ enum Command {
     #[cfg(feature = "analysis")]
     /// Print mass matrix, inverse and forward dynamics of a scene at given states
     Dynamics(commands::dynamics::Arguments),
+    #[cfg(feature = "formats")]
     /// Import a robot from URDF, SDF or MJCF as a scene folder, with a report of every element
     Import(commands::import::Arguments),
+    #[cfg(feature = "formats")]
     /// Write a scene in another format, and say what the format cannot
     #[command(subcommand)]
     Export(commands::export::Format),
@@ -143,6 +145,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             cli.command
         }
         Err(refused) => {
+            if let Some(exit) = refuse_absent(&refused) {
+                return exit.into();
+            }
             let _ = refused.print();
             return u8::try_from(refused.exit_code()).unwrap_or(2);
         }
@@ -163,7 +168,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Trim(arguments) => commands::trim::run(&arguments),
         #[cfg(feature = "analysis")]
         Command::Dynamics(arguments) => commands::dynamics::run(&arguments),
+        #[cfg(feature = "formats")]
         Command::Import(arguments) => commands::import::run(&arguments),
+        #[cfg(feature = "formats")]
         Command::Export(format) => commands::export::run(&format),
         #[cfg(feature = "adapters")]
         Command::View(arguments) => commands::view::run(&arguments),
@@ -194,6 +201,28 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         },
     };
     exit.into()
+}
+
+/// Commands that are there with a feature of the program only.
+const OPTIONAL: [(&str, bool, &[&str]); 5] = [
+    ("campaigns", cfg!(feature = "campaigns"), &["sweep", "fit", "tune"]),
+    ("analysis", cfg!(feature = "analysis"), &["linearize", "trim", "dynamics"]),
+    ("formats", cfg!(feature = "formats"), &["import", "export"]),
+    ("adapters", cfg!(feature = "adapters"), &["view", "replay", "serve"]),
+    ("cli", cfg!(feature = "cli"), &["completions", "man", "bench"]),
+];
+
+/// Says which feature a command needs, if it is one that this program was built without.
+fn refuse_absent(refused: &clap::Error) -> Option<Exit> {
+    let ContextValue::String(command) = refused.get(ContextKind::InvalidSubcommand)? else { return None };
+    let is_absent =
+        |(_, is_there, commands): &&(&str, bool, &[&str])| !is_there && commands.contains(&command.as_str());
+    let (feature, ..) = OPTIONAL.iter().find(is_absent)?;
+    let message = format!("this program was built without `{command}`");
+    let help = format!(
+        "build it with `cargo build --release -p sincro --no-default-features --features run,{feature}`, or with all commands: `cargo build --release`"
+    );
+    Some(diagnostics::refuse(&message, Some(&help)))
 }
 
 /// Lets FMUs run in processes of their own: this program again, as their worker.

@@ -73,6 +73,7 @@ pub(crate) fn refuse_diagnostics(diagnostics: &Diagnostics) -> Exit {
 }
 
 /// Prints why a robot is not imported.
+#[cfg(feature = "formats")]
 pub(crate) fn refuse_import(diagnostics: &Diagnostics) -> Exit {
     print_diagnostics(&diagnostics.0);
     let errors = diagnostics.0.iter().filter(|p| p.is_error()).count();

@@ -48,7 +48,7 @@ pub mod compare;
 mod diagnostics;
 #[cfg(feature = "adapters")]
 pub mod export;
-#[cfg(feature = "run")]
+#[cfg(feature = "formats")]
 pub mod export_c;
 #[cfg(feature = "analysis")]
 pub mod linearization;

@@ -219,6 +219,7 @@ impl<R: Real> Mechanism<R> {
         &self.base
     }
 
+    #[cfg(feature = "tangent")]
     pub(crate) fn base_mut(&mut self) -> &mut [R] {
         &mut self.base
     }

@@ -16,14 +16,18 @@ pub(crate) mod diff;
 pub(crate) mod draw;
 #[cfg(feature = "analysis")]
 pub(crate) mod dynamics;
+#[cfg(feature = "formats")]
 pub(crate) mod export;
+#[cfg(feature = "formats")]
 pub(crate) mod export_c;
-#[cfg(feature = "adapters")]
+#[cfg(all(feature = "adapters", feature = "formats"))]
 pub(crate) mod export_fmu;
+#[cfg(feature = "formats")]
 pub(crate) mod export_robot;
 #[cfg(feature = "campaigns")]
 pub(crate) mod fit;
 mod gallery;
+#[cfg(feature = "formats")]
 pub(crate) mod import;
 #[cfg(feature = "analysis")]
 pub(crate) mod linearize;

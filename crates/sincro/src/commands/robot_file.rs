@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+#[cfg(feature = "formats")]
 use sincro_import::{Imported, Options, import, is_robot_file};
 
 use crate::{Exit, diagnostics};
@@ -20,9 +21,14 @@ impl SceneSource {
     ///
     /// The robot is refused; the reasons have been printed.
     pub fn open(path: &Path) -> Result<Self, Exit> {
-        if !(is_robot_file(path) && path.is_file()) {
-            return Ok(Self { folder: path.to_path_buf(), temporary: None });
+        if is_robot_file(path) && path.is_file() {
+            return Self::import(path);
         }
+        Ok(Self { folder: path.to_path_buf(), temporary: None })
+    }
+
+    #[cfg(feature = "formats")]
+    fn import(path: &Path) -> Result<Self, Exit> {
         let imported = import(path, &Options::default()).map_err(|found| diagnostics::refuse_import(&found))?;
         let name = path.file_stem().map_or_else(|| "robot".into(), |stem| stem.to_os_string());
         let temporary = std::env::temp_dir().join(format!("sincro-robot-{}", std::process::id()));
@@ -33,6 +39,15 @@ impl SceneSource {
         })?;
         tell(path, &imported);
         Ok(source)
+    }
+
+    #[cfg(not(feature = "formats"))]
+    fn import(path: &Path) -> Result<Self, Exit> {
+        let message = format!("`{}` is a robot file, and this program was built without their import", path.display());
+        Err(diagnostics::refuse(
+            &message,
+            Some("build it with `--features run,formats`, or import the robot elsewhere"),
+        ))
     }
 
     /// The folder.
@@ -49,7 +64,15 @@ impl Drop for SceneSource {
     }
 }
 
+/// By its name.
+#[cfg(not(feature = "formats"))]
+fn is_robot_file(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|kind| ["urdf", "xacro", "xml", "mjcf", "sdf", "world"].iter().any(|known| kind == *known))
+}
+
 /// Says in one line that something was lost, if it was.
+#[cfg(feature = "formats")]
 fn tell(path: &Path, imported: &Imported) {
     let (counts, warnings) = (imported.report.counts, imported.warnings.len());
     if counts.dropped > 0 || warnings > 0 {
