@@ -12,8 +12,8 @@ use sincro_scene::script::{Kind, Script, ScriptError};
 use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
-use sincro_sim::replay::RuntimeObject;
 use sincro_sim::run::{Halt, LockStep};
+use sincro_sim::runtime_object::RuntimeObject;
 
 /// Controller of a lock-step that holds the object registry, on which clients and scripts act, and the scripts of the
 /// scene, if it has any. Commands that are held in the registry win over those of scene and diagram.

@@ -12,7 +12,7 @@ use sincro_dynamics::state::State as WorldState;
 use sincro_dynamics::world::World;
 
 use crate::proximity::Detection;
-use crate::replay::RuntimeObject;
+use crate::runtime_object::RuntimeObject;
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::ScriptError;
 
@@ -316,8 +316,8 @@ pub trait Controller: Any + Send + fmt::Debug {
         &[]
     }
 
-    /// Calls `_visit` with each object that the controller has made or moved at run time, for pictures: shapes, sensors,
-    /// dummies, drawings; none by default.
+    /// Calls `_visit` with each object that the controller has made or moved at run time, for pictures: shapes,
+    /// sensors, dummies, drawings; none by default.
     fn runtime_objects(&self, _visit: &mut dyn FnMut(&RuntimeObject<'_>)) {}
 
     /// Receives the result of the proximity sensor that is object `_sensor` of the scene: the detection, `None` if

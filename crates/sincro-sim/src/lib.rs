@@ -61,6 +61,7 @@
 //! | [`controller`], [`diagram_controller`] | controllers in lock-step; block diagrams as one |
 //! | [`sensors`], [`proximity`] | sensors of a scene in a run |
 //! | [`run`] | the step, and a run from its start to its end |
+//! | [`runtime_object`] | objects that clients and scripts make at run time, for pictures |
 //! | [`trace`], [`snapshot`], [`validity`], [`replay`] | hash of a run, state as bytes, validity of rotor theory, keyframes |
 //! | [`audit`] | laws, solver, energy balance and inputs of every run, against the limits of its accuracy |
 //! | [`table`], [`formats`], [`sweep`], [`check`], [`results`], [`result_folder`], [`file`](mod@file) | columns of numbers, sweeps, checks, `run.json`, folders and files of results |
@@ -85,6 +86,7 @@ pub mod results;
 #[cfg(feature = "tasks")]
 pub mod rollout;
 pub mod run;
+pub mod runtime_object;
 pub mod sensors;
 pub mod snapshot;
 pub mod sweep;

@@ -76,7 +76,7 @@ pub struct ReplayRun {
     pub frames: Frames,
     /// Recorded signals.
     pub signals: Signals,
-    /// What has happened to objects that clients and scripts have made, in the order of time.
+    /// Changes of objects that clients and scripts have made, in the order of time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub runtime: Vec<RuntimeEvent>,
 }
@@ -217,7 +217,7 @@ fn kept(trajectory: &Trajectory, most_bytes: usize) -> impl Iterator<Item = usiz
     thinned(trajectory.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1))
 }
 
-/// What has happened to objects that were made at run time: between two frames that are kept, where an object moves
+/// Changes of objects that were made at run time: between two frames that are kept, where an object moves
 /// several times, its last place. Drawings have their first `most_numbers` numbers.
 fn runtime(trajectory: &Trajectory, most_bytes: usize, most_numbers: usize) -> Vec<RuntimeEvent> {
     let RuntimeLog { events, .. } = &trajectory.runtime;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::spatial::{Pose, Vec3};
-use sincro_sim::replay::{Drawing, DrawingKind, DrawingStyle, RuntimeObject, RuntimePart};
+use sincro_sim::runtime_object::{Drawing, DrawingKind, DrawingStyle, RuntimeObject, RuntimePart};
 
 use super::registry::{Handle, Kind, ObjectRegistry, WORLD};
 use super::{ApiError, SimApi};
@@ -165,7 +165,7 @@ impl Drawings {
         self.list.retain(|_, entry| entry.is_persistent);
     }
 
-    /// What hung on an object hangs on the world.
+    /// Removes the drawings of an object.
     pub(super) fn forget(&mut self, own: Handle) {
         self.list.retain(|_, entry| entry.parent != Some(own));
     }

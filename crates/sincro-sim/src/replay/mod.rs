@@ -5,7 +5,6 @@
 //! user may change; [`RuntimeLog`] follows the objects that clients and scripts make. Nothing here changes a run.
 
 mod contacts;
-mod drawing;
 mod properties;
 mod runtime;
 mod scene;
@@ -14,9 +13,8 @@ mod trajectory;
 mod volume;
 
 pub use contacts::{CONTACT, Contacts};
-pub use drawing::{Drawing, DrawingKind, DrawingStyle};
 pub use properties::{Property, edited, properties};
-pub use runtime::{DrawingView, RuntimeChange, RuntimeEvent, RuntimeLog, RuntimeObject, RuntimePart, RuntimeView};
+pub use runtime::{DrawingView, RuntimeChange, RuntimeEvent, RuntimeLog, RuntimeView};
 pub use scene::{CameraView, JointView, ObjectView, RotorView, SceneView, ShapeView};
 pub use trajectory::{Layout, Trajectory};
 pub use volume::Edge;

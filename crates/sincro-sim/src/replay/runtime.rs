@@ -2,59 +2,19 @@
 //! went, and when.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use serde::Serialize;
-use sincro_dynamics::geometry::{FieldOfView, Geometry};
+use sincro_dynamics::geometry::FieldOfView;
 use sincro_dynamics::kinematics::Attached;
-use sincro_dynamics::spatial::Pose;
 
-use super::drawing::{Drawing, DrawingStyle};
 use super::scene::{ShapeView, hex, seven, shape_view};
 use super::volume::{self, Edge};
-use crate::controller::Controller;
+use crate::runtime_object::{Drawing, DrawingStyle, RuntimeObject, RuntimePart};
 
 /// Numbers that the log of a run may take, about 32 MB; what changes beyond them is not shown.
 const MAX_NUMBERS: usize = 4_000_000;
 /// About how many numbers an entry takes beside its own.
 const ENTRY: usize = 16;
-
-/// Visible part of a [`RuntimeObject`].
-#[derive(Clone, Debug)]
-pub struct RuntimePart {
-    /// Geometry in its own frame `[m]`.
-    pub geometry: Arc<Geometry>,
-    /// Pose of that frame in the object `[m]`.
-    pub place: Pose<f64>,
-    /// Colour: red, green, blue, 0 to 255.
-    pub color: [u8; 3],
-}
-
-impl PartialEq for RuntimePart {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.geometry, &other.geometry) && (self.place, self.color) == (other.place, other.color)
-    }
-}
-
-/// Object that a controller has made, or a frame of the scene that it has moved, as
-/// [`Controller::runtime_objects`] describes it.
-#[derive(Clone, Debug)]
-pub struct RuntimeObject<'a> {
-    /// Number that the object keeps for the whole run, and that no other object of the controller has.
-    pub id: u32,
-    /// Path of the object.
-    pub path: &'a str,
-    /// Kind in English, such as `dummy`, `shape`, `proximity sensor`, `drawing`.
-    pub kind: &'static str,
-    /// Link (or the world) that carries it, and its pose there `[m]`.
-    pub at: Attached<f64>,
-    /// Visible parts.
-    pub parts: Vec<RuntimePart>,
-    /// Field of view of a proximity sensor, along z of the object; `None` for all else.
-    pub field: Option<FieldOfView>,
-    /// Items of a drawing, in the axes of the object; `None` for all else.
-    pub drawing: Option<&'a Drawing>,
-}
 
 /// Object made at run time as it is drawn; a change of anything but pose and items gives a new view.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -94,7 +54,7 @@ pub struct DrawingView {
     pub falls: bool,
 }
 
-/// What has happened to an object that was made at run time.
+/// Change of an object that was made at run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RuntimeChange {
@@ -103,7 +63,7 @@ pub enum RuntimeChange {
     /// It is carried by this mover (`None`: the world), at this pose there, as in [`RuntimeView`].
     Move(Option<usize>, [f64; 7]),
     /// Items of a drawing, from this index on: they replace those that were there. Entries as in the units of
-    /// [`DrawingKind`](super::DrawingKind).
+    /// [`DrawingKind`](crate::runtime_object::DrawingKind).
     Items(usize, Vec<f32>),
     /// All items of a drawing have gone.
     Clear(()),
@@ -118,7 +78,7 @@ pub struct RuntimeEvent {
     pub t: f64,
     /// Number of the object in the run.
     pub id: u64,
-    /// What has happened to it.
+    /// Its change.
     #[serde(flatten)]
     pub change: RuntimeChange,
 }
@@ -141,7 +101,7 @@ impl PartialEq for RuntimeLog {
     }
 }
 
-/// What is known of an object.
+/// Latest state of an object.
 #[derive(Clone, Debug)]
 struct Known {
     path: String,
@@ -162,13 +122,12 @@ impl RuntimeLog {
         Self { links: links.to_vec(), ..Self::default() }
     }
 
-    /// Adds what has changed up to time `t` `[s]` of what the controllers have made.
-    pub fn update(&mut self, t: f64, controllers: &[Box<dyn Controller>]) {
+    /// Adds what has changed up to time `t` `[s]`. `visit_all` calls its argument with each object that is there, and
+    /// with the index of the controller that has made it, as
+    /// [`LockStep::visit_runtime_objects`](crate::run::LockStep::visit_runtime_objects) does.
+    pub fn update(&mut self, t: f64, visit_all: impl FnOnce(&mut dyn FnMut(usize, &RuntimeObject<'_>))) {
         self.known.values_mut().for_each(|known| known.is_there = false);
-        for (k, controller) in controllers.iter().enumerate() {
-            let mut visit = |object: &RuntimeObject<'_>| self.visit(t, (k as u64) << 32 | u64::from(object.id), object);
-            controller.runtime_objects(&mut visit);
-        }
+        visit_all(&mut |controller, object| self.visit(t, (controller as u64) << 32 | u64::from(object.id), object));
         let gone: Vec<u64> = self.known.iter().filter(|(_, known)| !known.is_there).map(|(id, _)| *id).collect();
         for id in gone {
             self.known.remove(&id);

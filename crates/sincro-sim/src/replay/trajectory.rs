@@ -19,7 +19,6 @@ use sincro_dynamics::world::Observation;
 
 use super::contacts::{CONTACT, Contacts};
 use super::runtime::RuntimeLog;
-use crate::controller::Controller;
 use sincro_scene::experiment::Experiment;
 use sincro_scene::record::probe::{self, View};
 
@@ -185,11 +184,6 @@ impl Trajectory {
         self.times.push(t);
         self.layout.write(seen, t, &mut self.numbers);
         self.contacts.record(seen);
-    }
-
-    /// Adds to the last frame what the controllers of the run have made up to it.
-    pub fn record_runtime(&mut self, controllers: &[Box<dyn Controller>]) {
-        self.runtime.update(self.times.last().copied().unwrap_or(0.0), controllers);
     }
 
     /// Returns the number of frames so far.

@@ -14,6 +14,7 @@ use super::world_with_room;
 use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, Source};
 use crate::diagram_controller::DiagramController;
 use crate::load::Loaded;
+use crate::runtime_object::RuntimeObject;
 use crate::sensors::Sensors;
 use crate::snapshot::Snapshot;
 use crate::trace::Trace;
@@ -215,10 +216,11 @@ impl LockStep {
         found.map(|controller| (controller, world))
     }
 
-    /// Returns all controllers that were attached, in that order.
-    #[must_use]
-    pub fn controllers(&self) -> &[Box<dyn Controller>] {
-        &self.controllers
+    /// Calls `visit` with each object that controllers have made at run time, and the index of its controller, from 0.
+    pub fn visit_runtime_objects(&self, visit: &mut dyn FnMut(usize, &RuntimeObject<'_>)) {
+        for (k, controller) in self.controllers.iter().enumerate() {
+            controller.runtime_objects(&mut |object| visit(k, object));
+        }
     }
 
     /// All controllers besides the diagram.

@@ -139,7 +139,7 @@ impl Recording {
         let is_due = |trajectory: &&mut Trajectory| trajectory.is_due(tick) && tick <= self.last_tick;
         if let Some(trajectory) = self.trajectory.as_mut().filter(|trajectory| is_due(trajectory) || is_last) {
             trajectory.record(&lockstep.observe(t).0, tick, t);
-            trajectory.record_runtime(lockstep.controllers());
+            trajectory.runtime.update(t, |visit| lockstep.visit_runtime_objects(visit));
         }
     }
 

@@ -48,7 +48,7 @@ pub struct RunLog {
     pub width: usize,
     /// Points of contact of each frame.
     pub contacts: Contacts,
-    /// What has happened to objects that scripts have made.
+    /// Changes of objects that scripts have made.
     pub runtime: Vec<RuntimeEvent>,
 }
 

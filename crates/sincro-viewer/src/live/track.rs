@@ -161,7 +161,8 @@ impl Track {
         self.layout.write(&seen, t, &mut frame);
         let mut contacts = Contacts::default();
         contacts.record(&seen);
-        self.runtime.update(t, self.lockstep.controllers());
+        let lockstep = &self.lockstep;
+        self.runtime.update(t, |visit| lockstep.visit_runtime_objects(visit));
         Taken { t, row, frame, contacts, runtime: std::mem::take(&mut self.runtime.events) }
     }
 

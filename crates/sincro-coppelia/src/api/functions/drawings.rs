@@ -1,6 +1,6 @@
 //! Functions: drawings and particles, which the viewer shows.
 
-use sincro_sim::replay::{DrawingKind, DrawingStyle};
+use sincro_sim::runtime_object::{DrawingKind, DrawingStyle};
 
 use super::{Function, Outcome, handle, one};
 use crate::api::drawings::{DrawingRequest, ItemLayout};

@@ -64,7 +64,7 @@ pub struct DrawingStyle {
 /// Drawing made at run time: a bounded list of items of one kind, in the frame of what carries it.
 ///
 /// ```
-/// use sincro_sim::replay::{Drawing, DrawingKind, DrawingStyle};
+/// use sincro_sim::runtime_object::{Drawing, DrawingKind, DrawingStyle};
 ///
 /// let style = DrawingStyle { kind: DrawingKind::Points, size: 0.01, color: [255, 0, 0], lifetime: 0.0, falls: false };
 /// let mut path = Drawing::new(style, 2, true); // the last two points
@@ -149,12 +149,12 @@ impl Drawing {
     }
 
     /// Number of clearings, and of items written since the last.
-    pub(super) fn version(&self) -> (u64, u64) {
+    pub(crate) fn version(&self) -> (u64, u64) {
         (self.n_cleared, self.n_written)
     }
 
     /// Items that were written since there were `n_written`, as stretches: index of the first, and entries.
-    pub(super) fn since(&self, n_written: u64) -> Vec<(usize, &[f32])> {
+    pub(crate) fn since(&self, n_written: u64) -> Vec<(usize, &[f32])> {
         let (width, n) = (self.style.kind.width(), self.n_items());
         let new = (self.n_written - n_written).min(n as u64) as usize;
         if new == 0 {
