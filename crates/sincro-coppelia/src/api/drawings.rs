@@ -11,7 +11,7 @@ use super::registry::{Handle, Kind, ObjectRegistry, WORLD};
 use super::{ApiError, SimApi};
 
 /// Drawings that may exist at once.
-const MAX_DRAWINGS: usize = 1000;
+const MAX_DRAWINGS: usize = 10_000;
 /// Items of one drawing.
 const MAX_ITEMS: i64 = 200_000;
 /// Numbers from which on identifiers of drawings begin, behind those of objects.

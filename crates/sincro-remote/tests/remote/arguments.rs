@@ -48,6 +48,7 @@ pub struct Made {
     shapes: [Value; 2],
     sensor: Value,
     collection: Value,
+    drawing: Value,
     motion: Value,
 }
 
@@ -59,7 +60,8 @@ impl Made {
         let shapes = [(); 2].map(|()| make("sim.createPrimitiveShape", &box_));
         let sensor = make("sim.createProximitySensor", &sensor_arguments());
         let collection = make("sim.createCollection", &[Value::Int(0)]);
-        Self { point, shapes, sensor, collection, motion: make("sim.ruckigPos", &motion_arguments()) }
+        let drawing = make("sim.addDrawingObject", &drawing_arguments());
+        Self { point, shapes, sensor, collection, drawing, motion: make("sim.ruckigPos", &motion_arguments()) }
     }
 }
 
@@ -77,6 +79,11 @@ fn sensor_arguments() -> Vec<Value> {
     vec![Value::Int(34), Value::Int(16), Value::Int(0), Value::List(vec![Value::Int(0); 8]), numbers]
 }
 
+/// Lines in the world.
+fn drawing_arguments() -> Vec<Value> {
+    vec![Value::Int(1), Value::Real(2.0), Value::Real(0.0), Value::Int(-1), Value::Int(10)]
+}
+
 /// A motion of one number.
 fn motion_arguments() -> Vec<Value> {
     let three = || Value::reals([0.1, 0.2, 0.3]);
@@ -86,7 +93,8 @@ fn motion_arguments() -> Vec<Value> {
 
 /// Arguments that fit where none of the others do.
 pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
-    let Things { joint, body, eye, made: Made { point, shapes: [shape, other], sensor, collection, motion } } = things;
+    let Things { joint, body, eye, made: Made { point, shapes: [shape, other], sensor, collection, drawing, motion } } =
+        things;
     let three = || Value::reals([0.1, 0.2, 0.3]);
     let turn = || Value::reals([0.0, 0.0, 0.0, 1.0]);
     let pose = || Value::reals([1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0]);
@@ -122,6 +130,12 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "createHeightfieldShape" => {
             vec![int(0), Value::Real(0.0), int(2), int(2), Value::Real(1.0), Value::reals([0.0, 0.1, 0.0, 0.1])]
         }
+        "addDrawingObject" => drawing_arguments(),
+        "addParticleObject" => {
+            vec![int(0), Value::Real(0.1), Value::Real(1.0), Value::Nil, Value::Real(1.0), int(10)]
+        }
+        "addDrawingObjectItem" | "addParticleObjectItem" => vec![drawing.clone(), Value::reals([0.1; 6])],
+        "removeDrawingObject" | "removeParticleObject" => vec![drawing.clone()],
         "createProximitySensor" => sensor_arguments(),
         "checkProximitySensor" => vec![sensor.clone(), int(-2)],
         "checkProximitySensorEx" => vec![sensor.clone(), int(-2), int(1), Value::Real(0.0), Value::Real(0.0)],
