@@ -6,7 +6,7 @@ use sincro_sim::Extensions;
 use sincro_sim::replay::{RuntimeChange, RuntimeEvent};
 use sincro_testing::{OpenSession, SceneFolder};
 
-/// A cart that goes along x at 1 m/s, and a mark.
+/// A cart that goes along x at 1 m/s, and a mark. The rail's frame is at the origin, its moving side at x = 0.5 m.
 const SCENE: &str = r#"
 [[joint]]
 name = "rail"
@@ -33,6 +33,11 @@ record = ["/rail.position"]
 
 const LINES: i64 = 1;
 const BALLS: i64 = 7;
+const POINT_STRIP: i64 = 8;
+const DISCS: i64 = 11;
+const ITEM_SIZES: i64 = 128;
+const ITEM_COLORS: i64 = 32;
+const VERTEX_COLORS: i64 = 64;
 const CYCLIC: i64 = 4096;
 const LOCAL: i64 = 8_388_608;
 const ADD_MULTIPLE: i64 = 1 << 24;
@@ -169,4 +174,90 @@ fn drawings_of_a_run_go_with_it_and_wrong_items_are_refused() {
     s.step().unwrap();
     s.stop().unwrap();
     assert!(refused(&mut s, "sim.removeDrawingObject", &[Value::Int(handle)]).contains("no drawing"));
+}
+
+/// Entries of all items that a drawing was given.
+fn items(events: &[RuntimeEvent]) -> Vec<Vec<f32>> {
+    let of = |e: &RuntimeEvent| match &e.change {
+        RuntimeChange::Items(_, numbers) => Some(numbers.clone()),
+        _ => None,
+    };
+    events.iter().filter_map(of).collect()
+}
+
+#[test]
+fn what_hangs_on_a_joint_stays_on_its_fixed_side() {
+    let mut s = session();
+    let rail = object(&mut s, "/rail");
+    let lines = drawing(&mut s, LINES, rail, 5);
+    draw(&mut s, lines, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    let events = run(s, "/drawing", |_, _| ());
+    let RuntimeChange::Put(view) = &events[0].change else { panic!("{events:?}") };
+    assert_eq!(view.mover, None);
+}
+
+/// The second point of a particle is where it comes to in one second; it is seen from the state in which it was made.
+#[test]
+fn particles_go_from_the_first_point_towards_the_second() {
+    let mut s = session();
+    let (size, density, lifetime) = (Value::Real(0.1), Value::Real(1.0), Value::Real(0.05));
+    let kind = Value::Int(256); // no gravity
+    let arguments = [kind, size, density, Value::Nil, lifetime, Value::Int(2)];
+    let jet = call(&mut s, "sim.addParticleObject", &arguments).as_int().unwrap();
+    let mut taken = Vec::new();
+    let events = run(s, "/particles", |s, _| {
+        let numbers = Value::reals([5.0, 0.0, 2.0, 5.0, 0.0, -1.0]);
+        let result = call(s, "sim.addParticleObjectItem", &[Value::Int(jet), numbers]);
+        taken.push(result.as_int().unwrap());
+    });
+    let first = &items(&events)[0];
+    assert_eq!(first[..6], [5.0, 0.0, 2.0, 0.0, 0.0, -3.0]);
+    // room for two, each for 0.05 s: the third has to wait for the end of the first
+    assert_eq!(taken[..8], [1, 1, 0, 0, 0, 1, 1, 0]);
+}
+
+#[test]
+fn items_have_as_many_numbers_as_their_flags_say() {
+    let mut s = session();
+    let n_numbers = [
+        (0, 3),
+        (VERTEX_COLORS, 3),
+        (ITEM_COLORS + ITEM_SIZES, 7),
+        (LINES + VERTEX_COLORS + ITEM_COLORS, 12),
+        (2 + ITEM_SIZES, 9),
+        (POINT_STRIP + VERTEX_COLORS, 6),
+        (5 + ITEM_SIZES, 7),
+        (DISCS + ITEM_SIZES, 8),
+        (DISCS + 131_072, 7),
+        (3 + 131_072, 3),
+    ];
+    for (kind, n) in n_numbers {
+        let handle = drawing(&mut s, kind, Value::Int(-1), 5);
+        let numbers = |n: usize| [Value::Int(handle), Value::reals(vec![0.5; n])];
+        let few = s.call("sim.addDrawingObjectItem", &numbers(n - 1)).expect_err("too few").0;
+        assert!(few.contains(&format!("item that has {n},")), "kind {kind}: {few}");
+        assert_eq!(call(&mut s, "sim.addDrawingObjectItem", &numbers(n)), Value::Int(1), "kind {kind}");
+    }
+}
+
+#[test]
+fn drawings_and_particles_are_removed_apart_and_with_what_carries_them() {
+    let mut s = session();
+    let point = call(&mut s, "sim.createDummy", &[Value::Real(0.01)]);
+    let on_point = drawing(&mut s, LINES, point.clone(), 5);
+    let lines = drawing(&mut s, LINES, Value::Int(-1), 0);
+    let (size, density, lifetime) = (Value::Real(0.1), Value::Real(1.0), Value::Real(1.0));
+    let of_jet = [Value::Int(0), size, density, Value::Nil, lifetime, Value::Int(2)];
+    let jet = call(&mut s, "sim.addParticleObject", &of_jet);
+    let refused = |s: &mut Session, name: &str, handle: Value| s.call(name, &[handle]).expect_err(name).0;
+    assert!(refused(&mut s, "sim.removeDrawingObject", jet.clone()).contains("is particles, no drawing"));
+    assert!(refused(&mut s, "sim.removeDrawingObject", Value::Int(-1)).contains("no drawing -1"));
+    call(&mut s, "sim.removeObjects", &[Value::List(vec![point])]);
+    assert!(refused(&mut s, "sim.removeDrawingObject", Value::Int(on_point)).contains("no drawing"));
+    call(&mut s, "sim.removeParticleObject", &[Value::Int(-2)]);
+    assert!(refused(&mut s, "sim.removeParticleObject", jet).contains("no drawing"));
+    // 0 items are 1,000
+    let all: Vec<f64> = (0..6 * 1001).map(f64::from).collect();
+    assert_eq!(draw(&mut s, lines + ADD_MULTIPLE, &all), 0, "one does not fit");
+    call(&mut s, "sim.removeDrawingObject", &[Value::Int(lines)]);
 }

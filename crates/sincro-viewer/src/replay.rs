@@ -5,15 +5,13 @@
 //! precision. A replay that goes into a page is thinned to a size; what was left out is said (`every`), and
 //! `signals.csv` has it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::{Campaign, CompletedRun};
 use sincro_sim::check::Outcome;
-use sincro_sim::replay::{
-    CONTACT, Property, RuntimeChange, RuntimeEvent, RuntimeLog, SceneView, Trajectory, properties,
-};
+use sincro_sim::replay::{CONTACT, Property, RuntimeChange, RuntimeEvent, SceneView, Trajectory, properties};
 use sincro_sim::results::Status;
 use sincro_sim::table::Table;
 
@@ -26,8 +24,8 @@ pub const FORMAT: &str = "sincro-film-2";
 const MAX_FRAME_BYTES: usize = 450_000;
 /// Bytes that the signals of all runs in a replay may have, before base 64.
 const MAX_SIGNAL_BYTES: usize = 450_000;
-/// Numbers that the items of all drawings in a replay may have.
-const MAX_DRAWN_NUMBERS: usize = 90_000;
+/// Numbers that all objects of a replay may have that were made at run time, and their changes.
+const MAX_RUNTIME_NUMBERS: usize = 150_000;
 
 /// Replay of finished runs: scene, frames and signals, as the page of the viewer reads them. [`Replay::of_campaign`]
 /// makes it.
@@ -79,6 +77,9 @@ pub struct ReplayRun {
     /// Changes of objects that clients and scripts have made, in the order of time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub runtime: Vec<RuntimeEvent>,
+    /// True if some of them are left out, because there was no room.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub runtime_is_cut: bool,
 }
 
 /// Frames of a [`ReplayRun`]. Lists of numbers are little-endian bytes in base 64, of 64 bits (doubles) or 32 bits
@@ -168,8 +169,13 @@ fn replay_run(name: &str, about: &str, done: &CompletedRun, share: f64, views: &
     let run = &done.simulated;
     let of_frames = (share * MAX_FRAME_BYTES as f64) as usize;
     let of_signals = (share * MAX_SIGNAL_BYTES as f64) as usize;
-    let of_drawings = (share * MAX_DRAWN_NUMBERS as f64) as usize;
+    let of_runtime = (share * MAX_RUNTIME_NUMBERS as f64) as usize;
     let bars = done.columns.iter().skip(1).map(|c| c.error_bar).collect::<Vec<_>>();
+    let (runtime, runtime_is_cut) = run.trajectory.as_ref().map_or_else(Default::default, |trajectory| {
+        let times: Vec<f64> = kept(trajectory, of_frames).map(|k| trajectory.times[k]).collect();
+        let (events, is_cut) = runtime(&trajectory.runtime.events, &times, of_runtime);
+        (events, is_cut || trajectory.runtime.is_cut)
+    });
     ReplayRun {
         name: name.to_owned(),
         about: about.to_owned(),
@@ -178,11 +184,8 @@ fn replay_run(name: &str, about: &str, done: &CompletedRun, share: f64, views: &
         trace: run.trace.to_string(),
         frames: run.trajectory.as_ref().map(|trajectory| frames(trajectory, of_frames)).unwrap_or_default(),
         signals: signals(&run.table, &bars, &done.outcomes, of_signals),
-        runtime: run
-            .trajectory
-            .as_ref()
-            .map(|trajectory| runtime(trajectory, of_frames, of_drawings))
-            .unwrap_or_default(),
+        runtime,
+        runtime_is_cut,
     }
 }
 
@@ -217,28 +220,50 @@ fn kept(trajectory: &Trajectory, most_bytes: usize) -> impl Iterator<Item = usiz
     thinned(trajectory.n_frames(), bytes.div_ceil(most_bytes.max(1)).max(1))
 }
 
-/// Changes of objects that were made at run time: between two frames that are kept, where an object moves
-/// several times, its last place. Drawings have their first `most_numbers` numbers.
-fn runtime(trajectory: &Trajectory, most_bytes: usize, most_numbers: usize) -> Vec<RuntimeEvent> {
-    let RuntimeLog { events, .. } = &trajectory.runtime;
-    let times: Vec<f64> = kept(trajectory, most_bytes).map(|k| trajectory.times[k]).collect();
-    let frame = |event: &RuntimeEvent| times.partition_point(|t| *t < event.t);
-    let mut last_moves: BTreeMap<(u64, usize), usize> = BTreeMap::new();
-    for (k, event) in events.iter().enumerate() {
-        if matches!(event.change, RuntimeChange::Move(..)) {
-            last_moves.insert((event.id, frame(event)), k);
-        }
-    }
-    let mut n_numbers = 0;
-    let stays = |(k, event): &(usize, &RuntimeEvent)| match &event.change {
-        RuntimeChange::Move(..) => last_moves[&(event.id, frame(event))] == *k,
-        RuntimeChange::Items(_, numbers) => {
-            n_numbers += numbers.len();
-            n_numbers <= most_numbers
-        }
-        RuntimeChange::Put(_) | RuntimeChange::Clear(()) | RuntimeChange::Gone(()) => true,
+/// Changes of objects that were made at run time in about `most_numbers` numbers, and whether some are left out. Of
+/// places that an object takes between two frames of the replay the last one stays, or between more of them where
+/// objects move much; of the items of a drawing those that are still there. An object whose changes have no room stays
+/// as it is until it goes.
+fn runtime(events: &[RuntimeEvent], times: &[f64], most_numbers: usize) -> (Vec<RuntimeEvent>, bool) {
+    let frames: Vec<usize> = events.iter().map(|event| times.partition_point(|t| *t < event.t)).collect();
+    // of each object and interval its last place
+    let places = |stride: usize| {
+        let moves = events.iter().enumerate().filter(|(_, event)| matches!(event.change, RuntimeChange::Move(..)));
+        moves.map(|(k, event)| ((event.id, frames[k].div_ceil(stride)), k)).collect::<BTreeMap<_, _>>()
     };
-    events.iter().enumerate().filter(stays).map(|(_, event)| event.clone()).collect()
+    let mut stride = 1;
+    let mut last_places = places(stride);
+    while last_places.len() * 32 > most_numbers && stride < times.len() {
+        stride *= 2;
+        last_places = places(stride);
+    }
+    // of each drawing and interval the last time that it was emptied
+    let clears = events.iter().enumerate().filter(|(_, event)| event.change == RuntimeChange::Clear(()));
+    let last_clears: BTreeMap<(u64, usize), usize> = clears.map(|(k, event)| ((event.id, frames[k]), k)).collect();
+    let (mut n_numbers, mut cut) = (0, BTreeSet::new());
+    let mut stays = |(k, event): &(usize, &RuntimeEvent)| {
+        let is_outdated = match &event.change {
+            RuntimeChange::Move(..) => last_places[&(event.id, frames[*k].div_ceil(stride))] != *k,
+            RuntimeChange::Items(..) | RuntimeChange::Clear(()) => {
+                last_clears.get(&(event.id, frames[*k])).is_some_and(|last| k < last)
+            }
+            RuntimeChange::Put(_) => false,
+            RuntimeChange::Gone(()) => return true,
+        };
+        if is_outdated || cut.contains(&event.id) {
+            return false;
+        }
+        n_numbers += event.change.size();
+        if n_numbers > most_numbers {
+            n_numbers -= event.change.size();
+            cut.insert(event.id);
+            return false;
+        }
+        true
+    };
+    let all: Vec<RuntimeEvent> =
+        events.iter().enumerate().filter(|event| stays(event)).map(|(_, event)| event.clone()).collect();
+    (all, !cut.is_empty())
 }
 
 /// Keyframes of a trajectory in at most so many bytes.
@@ -288,5 +313,59 @@ pub(crate) fn signals(table: &Table, bars: &[Option<f64>], outcomes: &[Outcome],
                 (signal.to_owned(), times, encoding::doubles(kept.map(|k| s.values[k])))
             })
             .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn event(t: f64, id: u64, change: RuntimeChange) -> RuntimeEvent {
+        RuntimeEvent { t, id, change }
+    }
+
+    fn moved(t: f64, id: u64) -> RuntimeEvent {
+        event(t, id, RuntimeChange::Move(None, [t, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+    }
+
+    fn drawn(t: f64, id: u64, n: usize) -> RuntimeEvent {
+        event(t, id, RuntimeChange::Items(0, vec![t as f32; n]))
+    }
+
+    #[test]
+    fn between_two_frames_the_last_place_stays() {
+        let events: Vec<RuntimeEvent> = (0..=40).map(|k| moved(0.25 * f64::from(k), 1)).collect();
+        let times: Vec<f64> = (0..=10).map(f64::from).collect();
+        let (kept, is_cut) = runtime(&events, &times, 100_000);
+        assert_eq!(kept.iter().map(|e| e.t).collect::<Vec<_>>(), times);
+        assert!(!is_cut);
+        // with less room at every second, fourth … frame, the last one always
+        let (kept, is_cut) = runtime(&events, &times, 150);
+        assert_eq!(kept.iter().map(|e| e.t).collect::<Vec<_>>(), [0.0, 4.0, 8.0, 10.0]);
+        assert!(!is_cut);
+    }
+
+    #[test]
+    fn a_drawing_that_is_made_anew_has_its_last_items_in_each_interval_only() {
+        let anew = |t: f64| [event(t, 1, RuntimeChange::Clear(())), drawn(t, 1, 30)];
+        let events: Vec<RuntimeEvent> = (0..40).flat_map(|k| anew(0.25 * f64::from(k))).collect();
+        let times: Vec<f64> = (0..=10).map(f64::from).collect();
+        let (kept, is_cut) = runtime(&events, &times, 100_000);
+        let whole: Vec<f64> = (0..10).map(f64::from).chain([9.75]).flat_map(|t| [t, t]).collect();
+        assert_eq!((kept.iter().map(|e| e.t).collect::<Vec<_>>(), is_cut), (whole, false));
+    }
+
+    #[test]
+    fn what_has_no_room_stays_as_it_is_until_it_goes() {
+        let mut events: Vec<RuntimeEvent> = (0..10).map(|k| drawn(f64::from(k), 1, 300)).collect();
+        events.insert(5, event(4.5, 1, RuntimeChange::Clear(())));
+        events.push(event(10.0, 2, RuntimeChange::Clear(())));
+        events.push(event(11.0, 1, RuntimeChange::Gone(())));
+        let times: Vec<f64> = (0..=12).map(f64::from).collect();
+        let (kept, is_cut) = runtime(&events, &times, 1000);
+        let found: Vec<(f64, u64)> = kept.iter().map(|e| (e.t, e.id)).collect();
+        // three lists of 308 fit; neither the clearing nor later items may follow, another object's change may
+        assert_eq!(found, [(0.0, 1), (1.0, 1), (2.0, 1), (10.0, 2), (11.0, 1)]);
+        assert!(is_cut);
     }
 }

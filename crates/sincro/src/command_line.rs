@@ -52,7 +52,7 @@ enum Command {
     #[cfg(feature = "formats")]
     /// Import a robot from URDF, SDF or MJCF as a scene folder, with a report of every element
     Import(commands::import::Arguments),
-    #[cfg(feature = "formats")]
+    #[cfg(any(feature = "formats", feature = "adapters"))]
     /// Write a scene in another format, and say what the format cannot
     #[command(subcommand)]
     Export(commands::export::Format),
@@ -170,7 +170,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Dynamics(arguments) => commands::dynamics::run(&arguments),
         #[cfg(feature = "formats")]
         Command::Import(arguments) => commands::import::run(&arguments),
-        #[cfg(feature = "formats")]
+        #[cfg(any(feature = "formats", feature = "adapters"))]
         Command::Export(format) => commands::export::run(&format),
         #[cfg(feature = "adapters")]
         Command::View(arguments) => commands::view::run(&arguments),
@@ -207,8 +207,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 const OPTIONAL: [(&str, bool, &[&str]); 5] = [
     ("campaigns", cfg!(feature = "campaigns"), &["sweep", "fit", "tune"]),
     ("analysis", cfg!(feature = "analysis"), &["linearize", "trim", "dynamics"]),
-    ("formats", cfg!(feature = "formats"), &["import", "export"]),
-    ("adapters", cfg!(feature = "adapters"), &["view", "replay", "serve"]),
+    ("formats", cfg!(feature = "formats"), &["import", "export", "c", "urdf", "mjcf", "sdf"]),
+    ("adapters", cfg!(feature = "adapters"), &["view", "replay", "serve", "fmu"]),
     ("cli", cfg!(feature = "cli"), &["completions", "man", "bench"]),
 ];
 

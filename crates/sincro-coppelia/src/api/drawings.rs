@@ -3,17 +3,20 @@
 
 use std::collections::BTreeMap;
 
-use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::spatial::{Pose, Vec3};
-use sincro_sim::runtime_object::{Drawing, DrawingKind, DrawingStyle, RuntimeObject, RuntimePart};
+use sincro_sim::runtime_object::{Drawing, DrawingKind, DrawingStyle, RuntimeObject};
 
 use super::registry::{Handle, Kind, ObjectRegistry, WORLD};
 use super::{ApiError, SimApi};
 
 /// Drawings that may exist at once.
 const MAX_DRAWINGS: usize = 10_000;
-/// Items of one drawing.
-const MAX_ITEMS: i64 = 200_000;
+/// Items of one drawing, as in V-REP.
+const MAX_ITEMS: i64 = 1_000_000;
+/// Items of a drawing that does not say how many, as in V-REP.
+const DEFAULT_ITEMS: i64 = 1000;
+/// Numbers of the items of all drawings together.
+const MAX_NUMBERS: usize = 4_000_000;
 /// Numbers from which on identifiers of drawings begin, behind those of objects.
 const FIRST_ID: u32 = 1 << 31;
 
@@ -21,12 +24,15 @@ const FIRST_ID: u32 = 1 << 31;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drawings {
     list: BTreeMap<i64, Entry>,
-    n_made: i64,
+    /// Number of drawings that were made.
+    n_made: u32,
 }
 
-/// A drawing and what it hangs on.
+/// Drawing, with the object that carries it.
 #[derive(Clone, Debug)]
 struct Entry {
+    /// Number that no other drawing had or has.
+    serial: u32,
     path: String,
     parent: Option<Handle>,
     drawing: Drawing,
@@ -35,15 +41,13 @@ struct Entry {
     is_persistent: bool,
 }
 
-/// Numbers of an item as clients give them, and what is done with them.
+/// Layout of an item as clients give it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ItemLayout {
-    /// Numbers that are drawn: positions, or position and velocity.
+    /// Numbers that are drawn, the first ones: positions.
     pub n_drawn: usize,
     /// All numbers of an item.
     pub n_given: usize,
-    /// Items nearer than this to another one are left out `[m]`.
-    pub tolerance: f64,
     /// True if positions are in the frame of the parent, not in the world.
     pub is_local: bool,
 }
@@ -54,9 +58,11 @@ pub(crate) struct DrawingRequest {
     pub style: DrawingStyle,
     pub layout: ItemLayout,
     pub parent: Option<Handle>,
-    /// Items that it may have.
+    /// Number of items that it may have; 0 is 1,000.
     pub capacity: i64,
     pub is_cyclic: bool,
+    /// Distance up to which an item is the same as another one `[m]`; 0: none is.
+    pub tolerance: f64,
     pub is_persistent: bool,
 }
 
@@ -70,22 +76,27 @@ impl SimApi<'_> {
         if let Some(parent) = request.parent {
             self.registry.entry(parent)?;
         }
-        let DrawingStyle { size, lifetime, .. } = request.style;
-        if !(size.is_finite() && size >= 0.0 && lifetime.is_finite()) {
-            return Err(ApiError(format!("{size} is no size of an item")));
+        let DrawingStyle { kind, size, lifetime, .. } = request.style;
+        for (what, x) in [("size of an item", size), ("lifetime", lifetime), ("tolerance", request.tolerance)] {
+            if !(x.is_finite() && x >= 0.0) {
+                return Err(ApiError(format!("{x} is no {what}: expected a number that is not negative")));
+            }
         }
         let drawings = &mut self.registry.drawings;
         if drawings.list.len() >= MAX_DRAWINGS {
             return Err(ApiError(format!("there are {MAX_DRAWINGS} drawings already: remove some")));
         }
-        drawings.n_made += 1;
-        let handle = drawings.n_made;
-        let capacity = request.capacity.clamp(0, MAX_ITEMS) as usize;
-        let what = if request.style.kind == DrawingKind::Particles { "particles" } else { "drawing" };
+        // handles of removed ones are given again: they must stay below the flags that are added to them
+        let handle = (1..).find(|handle| !drawings.list.contains_key(handle)).expect("there are few drawings");
+        drawings.n_made = drawings.n_made.wrapping_add(1) % FIRST_ID;
+        let serial = drawings.n_made;
+        let capacity = if request.capacity == 0 { DEFAULT_ITEMS } else { request.capacity.clamp(1, MAX_ITEMS) };
+        let what = if kind == DrawingKind::Particles { "particles" } else { "drawing" };
         let entry = Entry {
-            path: format!("/{what}{handle}"),
+            serial,
+            path: format!("/{what}{serial}"),
             parent: request.parent,
-            drawing: Drawing::new(request.style, capacity, request.is_cyclic),
+            drawing: Drawing::new(request.style, capacity as usize, request.is_cyclic, request.tolerance),
             layout: request.layout,
             is_persistent: request.is_persistent,
         };
@@ -93,64 +104,86 @@ impl SimApi<'_> {
         Ok(handle)
     }
 
-    /// Adds items to a drawing, or the first alone unless `all`; no numbers remove all items. Returns false if an item
-    /// was not taken because the drawing is full.
+    /// Adds items to a drawing, all or the first alone; with `replaces`, in place of those that it has. Returns false if
+    /// an item was not taken: the drawing is full, or has one there already.
     ///
     /// # Errors
     ///
     /// There is no such drawing, or the numbers are fewer than an item has, or not finite.
-    pub(crate) fn draw_items(&mut self, handle: i64, numbers: &[f64], all: bool) -> Result<bool, ApiError> {
-        let (layout, parent, kind) = {
-            let entry = self.registry.drawings.entry(handle)?;
-            (entry.layout, entry.parent, entry.drawing.style.kind)
-        };
-        if numbers.is_empty() {
-            self.registry.drawings.entry(handle)?.drawing.clear();
-            return Ok(true);
-        }
+    pub(crate) fn draw_items(
+        &mut self,
+        handle: i64,
+        numbers: &[f64],
+        all: bool,
+        replaces: bool,
+    ) -> Result<bool, ApiError> {
+        let room = MAX_NUMBERS.saturating_sub(self.registry.drawings.n_numbers());
+        let entry = self.registry.drawings.entry(handle)?;
+        let (layout, parent, kind) = (entry.layout, entry.parent, entry.drawing.style.kind);
         let (n, given) = (numbers.len(), layout.n_given);
-        if n < given || numbers.iter().any(|x| !x.is_finite()) {
+        // they are kept in single precision
+        if n < given || numbers.iter().any(|x| !(*x as f32).is_finite()) {
             return Err(ApiError(format!("{n} numbers for an item that has {given}, all finite")));
         }
+        if replaces {
+            entry.drawing.clear();
+        }
         let carrier = match parent {
-            Some(parent) => self.registry.entry(parent)?.moving,
+            Some(parent) => self.registry.entry(parent)?.frame,
             None => WORLD,
         };
         let x_pw = if layout.is_local { Pose::identity() } else { self.place(&carrier).inverse() };
-        let (t, drawing) = (self.t, &mut self.registry.drawings.entry(handle)?.drawing);
-        let mut all_taken = true;
-        for item in numbers.chunks_exact(given).take(if all { usize::MAX } else { 1 }) {
+        // the state is that after the step while scripts sense, whose own time is that before it
+        let t = if self.is_running() { self.world.state.tick as f64 * self.registry.base_step() } else { 0.0 };
+        let drawing = &mut self.registry.drawings.entry(handle)?.drawing;
+        let items = numbers.chunks_exact(given).take(if all { usize::MAX } else { 1 });
+        let (mut left, mut all_taken) = (room / kind.width(), true);
+        for item in items {
             let three = |k: usize| Vec3([item[k], item[k + 1], item[k + 2]]);
             let mut own = Vec::with_capacity(kind.width());
             if kind == DrawingKind::Particles {
+                // two points: a particle goes from the first to the second in one second
                 own.extend(x_pw.point(three(0)).0);
-                own.extend(x_pw.rot.mul_vec(three(3)).0);
+                own.extend(x_pw.rot.mul_vec(three(3) - three(0)).0);
                 own.push(t);
             } else {
                 (0..layout.n_drawn).step_by(3).for_each(|k| own.extend(x_pw.point(three(k)).0));
             }
-            let first = Vec3([own[0], own[1], own[2]]);
-            if layout.tolerance > 0.0 && drawing.has_near(first, layout.tolerance) {
-                continue;
-            }
-            all_taken &= drawing.push(&own);
+            let grows = !drawing.is_full();
+            let is_taken = (!grows || left > 0) && drawing.push(&own);
+            left -= usize::from(grows && is_taken);
+            all_taken &= is_taken;
         }
         Ok(all_taken)
     }
 
-    /// Removes a drawing, or all of them for none.
+    /// Removes all items of a drawing.
     ///
     /// # Errors
     ///
     /// There is no such drawing.
-    pub(crate) fn remove_drawing(&mut self, handle: Option<i64>) -> Result<(), ApiError> {
-        match handle {
-            None => self.registry.drawings.list.clear(),
-            Some(handle) => {
-                self.registry.drawings.entry(handle)?;
-                self.registry.drawings.list.remove(&handle);
-            }
+    pub(crate) fn clear_drawing(&mut self, handle: i64) -> Result<(), ApiError> {
+        self.registry.drawings.entry(handle)?.drawing.clear();
+        Ok(())
+    }
+
+    /// Removes a drawing, or all for none: those of particles, or all others.
+    ///
+    /// # Errors
+    ///
+    /// There is no such drawing.
+    pub(crate) fn remove_drawing(&mut self, handle: Option<i64>, particles: bool) -> Result<(), ApiError> {
+        let is_meant = |entry: &Entry| (entry.drawing.style.kind == DrawingKind::Particles) == particles;
+        let drawings = &mut self.registry.drawings;
+        let Some(handle) = handle else {
+            drawings.list.retain(|_, entry| !is_meant(entry));
+            return Ok(());
+        };
+        if !is_meant(drawings.entry(handle)?) {
+            let what = if particles { "a drawing, no particles" } else { "particles, no drawing" };
+            return Err(ApiError(format!("{handle} is {what}")));
         }
+        drawings.list.remove(&handle);
         Ok(())
     }
 }
@@ -160,12 +193,17 @@ impl Drawings {
         self.list.get_mut(&handle).ok_or_else(|| ApiError(format!("there is no drawing {handle}")))
     }
 
+    /// Numbers of all items.
+    fn n_numbers(&self) -> usize {
+        self.list.values().map(|entry| entry.drawing.n_items() * entry.drawing.style.kind.width()).sum()
+    }
+
     /// A run has ended: drawings that were made for it are gone, as in V-REP.
     pub(super) fn end_run(&mut self) {
         self.list.retain(|_, entry| entry.is_persistent);
     }
 
-    /// Removes the drawings of an object.
+    /// Removes the drawings that an object carries.
     pub(super) fn forget(&mut self, own: Handle) {
         self.list.retain(|_, entry| entry.parent != Some(own));
     }
@@ -174,6 +212,7 @@ impl Drawings {
 impl ObjectRegistry {
     /// Calls `visit` with everything that was made at run time, and with frames of the scene that were moved.
     pub(crate) fn visit_runtime_objects(&self, visit: &mut dyn FnMut(&RuntimeObject<'_>)) {
+        let mut parts = self.senses.parts_by_object();
         for entry in self.entries().filter(|e| e.is_runtime || self.moved_frames.contains(&e.handle)) {
             let kind = match entry.kind {
                 Kind::Shape => "shape",
@@ -182,29 +221,23 @@ impl ObjectRegistry {
                 Kind::Frame => "frame",
                 _ => "dummy",
             };
-            let parts = self.senses.parts_of(entry.handle);
-            let part = |(piece, place): (sincro_scene::scenery::Piece, Pose<f64>)| RuntimePart {
-                geometry: piece.geometry,
-                place,
-                color: piece.color,
-            };
             visit(&RuntimeObject {
                 id: entry.handle.0 as u32,
                 path: &entry.path,
                 kind,
                 at: entry.frame,
-                parts: parts.into_iter().map(part).collect(),
+                parts: parts.remove(&entry.handle).unwrap_or_default(),
                 field: self.senses.proximity.get(&entry.handle).map(|known| known.sensor.field),
                 drawing: None,
             });
         }
-        for (handle, entry) in &self.drawings.list {
-            let at = entry.parent.and_then(|parent| self.entry(parent).ok()).map_or(WORLD, |parent| parent.moving);
+        for entry in self.drawings.list.values() {
+            let at = entry.parent.and_then(|parent| self.entry(parent).ok()).map_or(WORLD, |parent| parent.frame);
             visit(&RuntimeObject {
-                id: FIRST_ID + *handle as u32,
+                id: FIRST_ID + entry.serial,
                 path: &entry.path,
                 kind: if entry.drawing.style.kind == DrawingKind::Particles { "particles" } else { "drawing" },
-                at: Attached { ..at },
+                at,
                 parts: Vec::new(),
                 field: None,
                 drawing: Some(&entry.drawing),

@@ -13,6 +13,7 @@ use super::{ApiError, Entry, Handle, Kind, ObjectRegistry};
 use sincro_scene::scene::Scene;
 use sincro_scene::scenery::{Piece, Scenery};
 use sincro_sim::proximity::{Detection, ProximitySensor};
+use sincro_sim::runtime_object::RuntimePart;
 
 /// Corners and heights of everything that clients and scripts make together.
 const MAX_CORNERS: usize = 2_000_000;
@@ -72,6 +73,16 @@ impl Senses {
     pub fn parts_of(&self, own: Handle) -> Vec<(Piece, Pose<f64>)> {
         let parts = self.runtime.iter().zip(&self.places).filter(|(piece, _)| handle_of(piece) == own);
         parts.map(|(piece, place)| (piece.clone(), *place)).collect()
+    }
+
+    /// Pieces of all runtime objects, for pictures.
+    pub fn parts_by_object(&self) -> BTreeMap<Handle, Vec<RuntimePart>> {
+        let mut parts: BTreeMap<Handle, Vec<RuntimePart>> = BTreeMap::new();
+        for (piece, place) in self.runtime.iter().zip(&self.places) {
+            let part = RuntimePart { geometry: piece.geometry.clone(), place: *place, color: piece.color };
+            parts.entry(handle_of(piece)).or_default().push(part);
+        }
+        parts
     }
 
     /// Returns true if a runtime object can be seen.

@@ -11,10 +11,8 @@ use super::scene::{ShapeView, hex, seven, shape_view};
 use super::volume::{self, Edge};
 use crate::runtime_object::{Drawing, DrawingStyle, RuntimeObject, RuntimePart};
 
-/// Numbers that the log of a run may take, about 32 MB; what changes beyond them is not shown.
+/// Numbers that the log of a run may take, about 32 MB.
 const MAX_NUMBERS: usize = 4_000_000;
-/// About how many numbers an entry takes beside its own.
-const ENTRY: usize = 16;
 
 /// Object made at run time as it is drawn; a change of anything but pose and items gives a new view.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -71,6 +69,20 @@ pub enum RuntimeChange {
     Gone(()),
 }
 
+impl RuntimeChange {
+    /// Returns about how many numbers it takes, in memory and in a file.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        let of_shape = |shape: &ShapeView| 32 + 3 * (shape.vertices.len() + shape.triangles.len());
+        match self {
+            Self::Put(view) => 32 + view.shapes.iter().map(of_shape).sum::<usize>() + 6 * view.volume.len(),
+            Self::Move(..) => 16,
+            Self::Items(_, numbers) => 8 + numbers.len(),
+            Self::Clear(()) | Self::Gone(()) => 8,
+        }
+    }
+}
+
 /// Entry of a [`RuntimeLog`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RuntimeEvent {
@@ -93,6 +105,8 @@ pub struct RuntimeLog {
     pub events: Vec<RuntimeEvent>,
     /// Numbers that the events take.
     n_numbers: usize,
+    /// True if something was left out, because there was no room for it: such an object stays as it was until it goes.
+    pub is_cut: bool,
 }
 
 impl PartialEq for RuntimeLog {
@@ -113,6 +127,8 @@ struct Known {
     version: (u64, u64),
     /// Present in the update that goes on.
     is_there: bool,
+    /// A change of it was left out: the later ones are, too.
+    is_cut: bool,
 }
 
 impl RuntimeLog {
@@ -130,8 +146,8 @@ impl RuntimeLog {
         visit_all(&mut |controller, object| self.visit(t, (controller as u64) << 32 | u64::from(object.id), object));
         let gone: Vec<u64> = self.known.iter().filter(|(_, known)| !known.is_there).map(|(id, _)| *id).collect();
         for id in gone {
+            self.events.push(RuntimeEvent { t, id, change: RuntimeChange::Gone(()) });
             self.known.remove(&id);
-            self.push(t, id, RuntimeChange::Gone(()), 0);
         }
     }
 
@@ -147,7 +163,7 @@ impl RuntimeLog {
                 if (known.at.link, known.at.pose) != (object.at.link, object.at.pose) {
                     known.at = object.at;
                     let (mover, pose) = (self.mover(&object.at), seven(&object.at.pose));
-                    self.push(t, id, RuntimeChange::Move(mover, pose), pose.len());
+                    self.push(t, id, RuntimeChange::Move(mover, pose));
                 }
             }
             None => {
@@ -159,12 +175,12 @@ impl RuntimeLog {
                     style,
                     version: (0, 0),
                     is_there: true,
+                    is_cut: false,
                 };
                 let version = object.drawing.map_or((0, 0), |drawing| (drawing.version().0, 0));
                 self.known.insert(id, Known { version, ..known });
                 let view = self.view(object);
-                let size = view.shapes.iter().map(|s| 3 * (s.vertices.len() + s.triangles.len())).sum::<usize>();
-                self.push(t, id, RuntimeChange::Put(Box::new(view)), size);
+                self.push(t, id, RuntimeChange::Put(Box::new(view)));
             }
         }
         if let Some(drawing) = object.drawing {
@@ -178,19 +194,21 @@ impl RuntimeLog {
         known.version = version;
         if cleared != version.0 {
             written = 0;
-            self.push(t, id, RuntimeChange::Clear(()), 0);
+            self.push(t, id, RuntimeChange::Clear(()));
         }
         for (from, numbers) in drawing.since(written) {
-            self.push(t, id, RuntimeChange::Items(from, numbers.to_vec()), numbers.len());
+            self.push(t, id, RuntimeChange::Items(from, numbers.to_vec()));
         }
     }
 
-    fn push(&mut self, t: f64, id: u64, change: RuntimeChange, size: usize) {
-        if self.n_numbers + size > MAX_NUMBERS {
-            return;
+    fn push(&mut self, t: f64, id: u64, change: RuntimeChange) {
+        let is_cut = &mut self.known.get_mut(&id).expect("it was visited").is_cut;
+        *is_cut |= self.n_numbers + change.size() > MAX_NUMBERS;
+        self.is_cut |= *is_cut;
+        if !*is_cut {
+            self.n_numbers += change.size();
+            self.events.push(RuntimeEvent { t, id, change });
         }
-        self.n_numbers += size + ENTRY;
-        self.events.push(RuntimeEvent { t, id, change });
     }
 
     fn mover(&self, at: &Attached<f64>) -> Option<usize> {

@@ -181,6 +181,9 @@ impl Recording {
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
         warnings.extend(about_constraints(world));
+        if trajectory.as_ref().is_some_and(|trajectory| trajectory.runtime.is_cut) {
+            warnings.push("scripts and clients made more objects and drawings than are kept for pictures: the pages lack the last".to_owned());
+        }
         let (messages, n_more) = lockstep.messages();
         if n_more > 0 {
             warnings.push(format!("scripts and clients said {n_more} more things than are kept"));

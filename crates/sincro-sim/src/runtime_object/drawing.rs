@@ -1,6 +1,8 @@
 //! Drawings that clients and scripts make at run time: points, lines, triangles and particles. Nothing in a run depends
 //! on them.
 
+use std::collections::HashMap;
+
 use sincro_dynamics::spatial::Vec3;
 
 /// Figure that each item of a [`Drawing`] is drawn as.
@@ -66,8 +68,8 @@ pub struct DrawingStyle {
 /// ```
 /// use sincro_sim::runtime_object::{Drawing, DrawingKind, DrawingStyle};
 ///
-/// let style = DrawingStyle { kind: DrawingKind::Points, size: 0.01, color: [255, 0, 0], lifetime: 0.0, falls: false };
-/// let mut path = Drawing::new(style, 2, true); // the last two points
+/// let style = DrawingStyle { kind: DrawingKind::Points, size: 2.0, color: [255, 0, 0], lifetime: 0.0, falls: false };
+/// let mut path = Drawing::new(style, 2, true, 0.0); // the last two points
 /// for x in [0.0, 0.1, 0.2] {
 ///     assert!(path.push(&[x, 0.0, 0.0]));
 /// }
@@ -81,6 +83,10 @@ pub struct Drawing {
     capacity: usize,
     /// True if a new item takes the place of the oldest one when it is full.
     is_cyclic: bool,
+    /// Distance up to which an item is the same as another one `[m]`; 0: none is.
+    tolerance: f64,
+    /// Items by the cell of space that they are in, as large as the tolerance.
+    cells: HashMap<[i64; 3], Vec<usize>>,
     items: Vec<f32>,
     /// Number of items written since it was cleared.
     n_written: u64,
@@ -90,13 +96,15 @@ pub struct Drawing {
 
 impl Drawing {
     /// Creates an empty drawing of at most `capacity` items. When it is full a new item replaces the oldest one if
-    /// `is_cyclic`, else it is not taken.
+    /// `is_cyclic`, or if that is a particle whose time is over, else it is not taken; nor is one within `tolerance`
+    /// `[m]` of another one, unless that is 0.
     #[must_use]
-    pub fn new(style: DrawingStyle, capacity: usize, is_cyclic: bool) -> Self {
-        Self { style, capacity, is_cyclic, items: Vec::new(), n_written: 0, n_cleared: 0 }
+    pub fn new(style: DrawingStyle, capacity: usize, is_cyclic: bool, tolerance: f64) -> Self {
+        let (cells, items) = (HashMap::new(), Vec::new());
+        Self { style, capacity, is_cyclic, tolerance, cells, items, n_written: 0, n_cleared: 0 }
     }
 
-    /// Adds an item of [`DrawingKind::width`] entries. Returns false if the drawing is full and not cyclic.
+    /// Adds an item of [`DrawingKind::width`] entries. Returns false if it is not taken.
     ///
     /// # Panics
     ///
@@ -104,16 +112,33 @@ impl Drawing {
     pub fn push(&mut self, item: &[f64]) -> bool {
         let width = self.style.kind.width();
         assert_eq!(item.len(), width, "an item of {}", self.style.kind.word());
-        let is_full = self.n_written >= self.capacity as u64;
-        if self.capacity == 0 || (is_full && !self.is_cyclic) {
+        if self.capacity == 0 {
             return false;
         }
-        let place = (self.n_written % self.capacity as u64) as usize * width;
+        let index = (self.n_written % self.capacity as u64) as usize;
+        let is_full = self.is_full();
+        if is_full && !self.is_cyclic && !self.is_over(index, item) {
+            return false;
+        }
+        if self.tolerance > 0.0 {
+            let first = Vec3([item[0], item[1], item[2]]);
+            if self.has_near(first) {
+                return false;
+            }
+            if is_full {
+                let old = self.cell(self.position(index));
+                if let Some(list) = self.cells.get_mut(&old) {
+                    list.retain(|known| *known != index);
+                }
+            }
+            let cell = self.cell(first);
+            self.cells.entry(cell).or_default().push(index);
+        }
         let numbers = item.iter().map(|x| *x as f32);
-        if place == self.items.len() {
+        if index * width == self.items.len() {
             self.items.extend(numbers);
         } else {
-            self.items[place..place + width].iter_mut().zip(numbers).for_each(|(old, new)| *old = new);
+            self.items[index * width..][..width].iter_mut().zip(numbers).for_each(|(old, new)| *old = new);
         }
         self.n_written += 1;
         true
@@ -122,6 +147,7 @@ impl Drawing {
     /// Removes all items.
     pub fn clear(&mut self) {
         self.items.clear();
+        self.cells.clear();
         self.n_written = 0;
         self.n_cleared += 1;
     }
@@ -132,20 +158,38 @@ impl Drawing {
         self.items.len() / self.style.kind.width()
     }
 
-    /// Returns the number of items that it may have.
+    /// Returns true if there is no room: a new item is not taken, or takes the place of another one.
     #[must_use]
-    pub fn capacity(&self) -> usize {
-        self.capacity
+    pub fn is_full(&self) -> bool {
+        self.n_written >= self.capacity as u64
     }
 
-    /// Returns true if there is an item within `distance` `[m]` of a position.
-    #[must_use]
-    pub fn has_near(&self, position: Vec3<f64>, distance: f64) -> bool {
-        let is_near = |item: &[f32]| {
-            let apart = Vec3([0, 1, 2].map(|k| f64::from(item[k]) - position.0[k]));
-            apart.dot(apart) < distance * distance
-        };
-        self.items.chunks_exact(self.style.kind.width()).any(is_near)
+    /// True if the time of a particle is over when a new one is added.
+    fn is_over(&self, index: usize, new: &[f64]) -> bool {
+        let time = self.style.kind.width() - 1;
+        self.style.kind == DrawingKind::Particles
+            && f64::from(self.items[index * (time + 1) + time]) + self.style.lifetime <= new[time]
+    }
+
+    /// First position of an item.
+    fn position(&self, index: usize) -> Vec3<f64> {
+        Vec3([0, 1, 2].map(|k| f64::from(self.items[index * self.style.kind.width() + k])))
+    }
+
+    fn cell(&self, position: Vec3<f64>) -> [i64; 3] {
+        // too far away for whole numbers is the last cell
+        position.0.map(|x| (x / self.tolerance).floor() as i64)
+    }
+
+    fn has_near(&self, position: Vec3<f64>) -> bool {
+        let [x, y, z] = self.cell(position);
+        let is_near = |index: &usize| (self.position(*index) - position).norm() <= self.tolerance;
+        let around = |k: i64| [k.saturating_sub(1), k, k.saturating_add(1)];
+        around(x).into_iter().any(|x| {
+            around(y).into_iter().any(|y| {
+                around(z).into_iter().any(|z| self.cells.get(&[x, y, z]).is_some_and(|list| list.iter().any(is_near)))
+            })
+        })
     }
 
     /// Number of clearings, and of items written since the last.
@@ -156,7 +200,7 @@ impl Drawing {
     /// Items that were written since there were `n_written`, as stretches: index of the first, and entries.
     pub(crate) fn since(&self, n_written: u64) -> Vec<(usize, &[f32])> {
         let (width, n) = (self.style.kind.width(), self.n_items());
-        let new = (self.n_written - n_written).min(n as u64) as usize;
+        let new = self.n_written.saturating_sub(n_written).min(n as u64) as usize;
         if new == 0 {
             return Vec::new();
         }
@@ -175,10 +219,13 @@ impl Drawing {
 mod tests {
     use super::*;
 
+    fn drawing(kind: DrawingKind, capacity: usize, is_cyclic: bool, tolerance: f64) -> Drawing {
+        let style = DrawingStyle { kind, size: 0.01, color: [0; 3], lifetime: 1.0, falls: false };
+        Drawing::new(style, capacity, is_cyclic, tolerance)
+    }
+
     fn points(capacity: usize, is_cyclic: bool) -> Drawing {
-        let kind = DrawingKind::Points;
-        let style = DrawingStyle { kind, size: 0.01, color: [0; 3], lifetime: 0.0, falls: false };
-        Drawing::new(style, capacity, is_cyclic)
+        drawing(DrawingKind::Points, capacity, is_cyclic, 0.0)
     }
 
     fn push(drawing: &mut Drawing, x: f64) -> bool {
@@ -217,10 +264,19 @@ mod tests {
     }
 
     #[test]
-    fn near_items_are_found() {
-        let mut drawing = points(5, false);
-        push(&mut drawing, 1.0);
-        assert!(drawing.has_near(Vec3([1.0, 0.009, 0.0]), 0.01));
-        assert!(!drawing.has_near(Vec3([1.0, 0.011, 0.0]), 0.01));
+    fn items_beside_others_are_not_taken() {
+        let mut drawing = drawing(DrawingKind::Points, 3, true, 0.01);
+        // 0.0101 lies in the next cell, −0.0099 in the one before
+        let taken = [1.0, 1.0099, 1.0101, 0.9902, -1e300, 1e300].map(|x| push(&mut drawing, x));
+        assert_eq!(taken, [true, false, true, false, true, true]);
+        // the first item was replaced: its place is free again
+        assert_eq!([1.0, 1.0, 1.0101].map(|x| push(&mut drawing, x)), [true, false, true]);
+    }
+
+    #[test]
+    fn a_particle_takes_the_place_of_one_whose_time_is_over() {
+        let mut jet = drawing(DrawingKind::Particles, 2, false, 0.0);
+        let mut add = |t: f64| jet.push(&[0.0, 0.0, 0.0, 0.0, 0.0, 1.0, t]);
+        assert_eq!([0.0, 0.5, 0.9, 1.0, 1.1, 1.5].map(&mut add), [true, true, false, true, false, true]);
     }
 }

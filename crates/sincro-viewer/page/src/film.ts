@@ -90,7 +90,7 @@ export interface DrawingView {
   falls: boolean;
 }
 
-/** What a client or script has made. */
+/** Object that a client or script has made. */
 export interface RuntimeView {
   path: string;
   kind: string;
@@ -101,7 +101,7 @@ export interface RuntimeView {
   drawing?: DrawingView;
 }
 
-/** What has happened at `t` [s] to an object that was made at run time. */
+/** Change at `t` [s] of an object that was made at run time. */
 export type RuntimeEvent = { t: number; id: number } & (
   | { put: RuntimeView }
   | { move: [number | null, Pose] }
@@ -125,6 +125,7 @@ export interface Reel {
     references: [string, string, string][];
   };
   runtime?: RuntimeEvent[];
+  runtime_is_cut?: boolean;
 }
 
 export interface Film {

@@ -81,6 +81,9 @@ export function layout(root: HTMLElement, session: Session): void {
     for (const menu of root.querySelectorAll<HTMLDetailsElement>("details.sv-menu[open]")) if (!menu.contains(event.target as Node)) menu.open = false;
   });
   keyboard(root, session, stage);
+  if (session.runs.some((run) => run.isCut)) {
+    session.say("There was no room for all that scripts and clients made at run time: some of it is missing here.");
+  }
   if (!isEmbedded) {
     document.title = `${session.film.title} – sincro`;
     root.tabIndex = -1;

@@ -184,7 +184,8 @@ export class Link {
         break;
       }
       case "runtime":
-        session.runs.find((known) => known.id === message.id)?.runtime.push(...message.events);
+        for (const event of message.events) session.runs.find((known) => known.id === message.id)?.runtime.push(event);
+        session.tell("frames");
         break;
       case "state": {
         const wasRunning = this.isRunning;

@@ -29,9 +29,11 @@ export class Run {
   readonly rowTimes: Rows<Float64Array>;
   readonly rows: Rows<Float64Array>;
   readonly references = new Map<string, Reference>();
-  /** What has happened to objects that were made at run time, in the order of time. */
+  /** Changes of objects that were made at run time, in the order of time. */
   readonly runtime: RuntimeEvent[] = [];
   every = 1;
+  /** Some of those changes are left out. */
+  isCut = false;
   stop = "";
   trace = "";
   isVisible: boolean;
@@ -75,7 +77,9 @@ export class Run {
     for (const [signal, t, values] of reel.signals.references) {
       run.references.set(signal, { times: doubles(t), values: doubles(values) });
     }
-    run.runtime.push(...(reel.runtime ?? []));
+    // one by one: a call has room for some ten thousand arguments
+    for (const event of reel.runtime ?? []) run.runtime.push(event);
+    run.isCut = reel.runtime_is_cut ?? false;
     run.every = reel.signals.every;
     run.stop = reel.stop;
     run.trace = reel.trace;

@@ -19,8 +19,8 @@ use crate::live::{Command, LiveState};
 const PAUSE: Duration = Duration::from_millis(16);
 /// Frames in one message at most.
 const MAX_FRAMES: usize = 1000;
-/// Changes of objects that were made at run time in one message at most.
-const MAX_EVENTS: usize = 1000;
+/// Numbers of the changes of objects in one message, beside the last one.
+const MAX_EVENT_NUMBERS: usize = 50_000;
 
 /// Interval of pings, which browsers answer by themselves.
 const PING: Duration = Duration::from_secs(20);
@@ -156,7 +156,16 @@ impl Seen {
             }
             let (from, known) = self.frames[id];
             let to = run.times.len().min(from + MAX_FRAMES);
-            let until = run.runtime.len().min(known + MAX_EVENTS);
+            let mut n_numbers = 0;
+            let until = known
+                + run.runtime[known..]
+                    .iter()
+                    .take_while(|event| {
+                        let has_room = n_numbers <= MAX_EVENT_NUMBERS;
+                        n_numbers += event.change.size();
+                        has_room
+                    })
+                    .count();
             self.frames[id] = (to, until);
             if known < until {
                 news.push(Message::text(runtime(id, &run.runtime[known..until])));
@@ -183,7 +192,8 @@ impl Seen {
 
 /// Changes of objects that scripts have made, as JSON.
 fn runtime(id: usize, events: &[RuntimeEvent]) -> String {
-    serde_json::json!({ "type": "runtime", "id": id, "events": events }).to_string()
+    let events = serde_json::to_string(events).expect("plain data has a JSON form");
+    format!(r#"{{"type":"runtime","id":{id},"events":{events}}}"#)
 }
 
 fn frames(id: usize, run: &crate::live::RunLog, from: usize, to: usize) -> Vec<u8> {

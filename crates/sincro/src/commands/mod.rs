@@ -16,11 +16,11 @@ pub(crate) mod diff;
 pub(crate) mod draw;
 #[cfg(feature = "analysis")]
 pub(crate) mod dynamics;
-#[cfg(feature = "formats")]
+#[cfg(any(feature = "formats", feature = "adapters"))]
 pub(crate) mod export;
 #[cfg(feature = "formats")]
 pub(crate) mod export_c;
-#[cfg(all(feature = "adapters", feature = "formats"))]
+#[cfg(feature = "adapters")]
 pub(crate) mod export_fmu;
 #[cfg(feature = "formats")]
 pub(crate) mod export_robot;

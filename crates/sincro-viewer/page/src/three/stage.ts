@@ -41,7 +41,7 @@ export class Stage {
   private readonly axes = new AxesHelper(1);
   private ground: Object3D[] = [];
   private bodies = new Map<number, Bodies>();
-  /** What clients and scripts have made in the run that is looked at. */
+  /** Objects that clients and scripts have made in the run that is looked at. */
   private runtime: RuntimeObjects | null = null;
   private readonly overlays: Overlays;
   private readonly vectors: Vectors;

@@ -5,8 +5,8 @@ import { SHOWN, applies, type Session, type Shown } from "../session";
 import { cameraNames, type Stage } from "../three/stage";
 
 export function shown(session: Session, stage: Stage): HTMLElement {
-  const toggles = (Object.keys(SHOWN) as Shown[]).filter((key) => applies(session.view, session.runs, key)).map((key) =>
-    el("label", { class: "sv-toggle" },
+  const toggles = (Object.keys(SHOWN) as Shown[]).map((key) =>
+    el("label", { class: "sv-toggle", "data-toggle": key },
       el("input", {
         type: "checkbox", checked: session.shown[key], "data-shown": key,
         onchange: (event) => {
@@ -15,6 +15,14 @@ export function shown(session: Session, stage: Stage): HTMLElement {
         },
       }), SHOWN[key].label),
   );
+  // a script may make the first sensor while the run goes on
+  const offer = () => {
+    for (const toggle of toggles) if (toggle.hidden) toggle.hidden = !applies(session.view, session.runs, toggle.dataset["toggle"] as Shown);
+  };
+  toggles.forEach((toggle) => (toggle.hidden = true));
+  offer();
+  session.on("runs", offer);
+  session.on("frames", offer);
   const cameras = el("select", {
     "aria-label": "camera", title: "camera (keys 1 to 9)",
     onchange: (event) => {

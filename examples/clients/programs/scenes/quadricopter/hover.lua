@@ -22,7 +22,7 @@ end
 
 function sysCall_actuation()
     local position = sim.getObjectPosition(base, sim.handle_world)
-    sim.addDrawingObjectItem(shadow, { position[1], position[2], 0.002, 0, 0, 1, 0.2 * sim.getObjectSizeFactor(base) })
+    sim.addDrawingObjectItem(shadow, { position[1], position[2], 0.002, 0, 0, 0, 1, 0.2 * sim.getObjectSizeFactor(base) })
     local velocity, rates = sim.getVelocity(base)
     local matrix = sim.getObjectMatrix(base, sim.handle_world)
     local goal = sim.getObjectPosition(target, sim.handle_world)
