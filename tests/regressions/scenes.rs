@@ -1,4 +1,5 @@
-//! Every scene folder: all checks of the run, its variants and its sweep hold, and the trace hash is the committed one.
+//! Every scene and model folder: all checks of the run, its variants and its sweep hold, and the trace hash is the
+//! committed one.
 //!
 //! The hash is the same in debug and release builds and on every machine; `SINCRO_BLESS=1` writes the file anew after a
 //! change that is meant to move trajectories (which `CHANGELOG.md` then tells under Trajectories).
@@ -31,12 +32,18 @@ const THIRD_PARTY: [&str; 12] = [
     "slider-crank-universal",
 ];
 
-fn folders() -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(root().join("scenes")).unwrap();
-    let mut folders: Vec<PathBuf> =
+fn experiments(folder: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root().join(folder)).unwrap();
+    let mut found: Vec<PathBuf> =
         entries.map(|e| e.unwrap().path()).filter(|p| p.join("experiment.toml").is_file()).collect();
-    folders.sort();
+    found.sort();
+    found
+}
+
+fn folders() -> Vec<PathBuf> {
+    let mut folders = experiments("scenes");
     folders.extend(THIRD_PARTY.map(|name| root().join("scenes/third-party").join(name)));
+    folders.extend(experiments("models"));
     folders
 }
 

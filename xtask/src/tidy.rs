@@ -272,10 +272,11 @@ fn arrows(root: &Path, found: &mut Vec<String>) {
     }
 }
 
-/// Every scene folder is whole. (The scene file may be that of another folder: who loads the experiment finds it.) A
-/// folder of scene folders needs a `README.md`.
+/// Every scene and model folder is whole. (The scene file may be that of another folder: who loads the experiment finds
+/// it.) A folder of scene folders needs a `README.md`.
 fn scenes(root: &Path, found: &mut Vec<String>) {
-    for folder in children(&root.join("scenes")).into_iter().filter(|p| p.is_dir()) {
+    let folders = children(&root.join("scenes")).into_iter().chain(children(&root.join("models")));
+    for folder in folders.filter(|p| p.is_dir()) {
         let nested: Vec<PathBuf> = children(&folder).into_iter().filter(|p| p.is_dir()).collect();
         let is_group = nested.iter().any(|p| p.join("experiment.toml").is_file());
         whole(&folder, if is_group { &["README.md"] } else { &["README.md", "experiment.toml"] }, found);

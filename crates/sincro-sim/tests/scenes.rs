@@ -1,4 +1,4 @@
-//! Every scene of the repository loads, with its variants.
+//! Every scene and model of the repository loads, with its variants.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use sincro_scene::overrides::Override;
 use sincro_sim::load;
 
 fn scenes() -> Vec<PathBuf> {
-    let mut found: Vec<PathBuf> = ["", "third-party"]
+    let mut found: Vec<PathBuf> = ["", "third-party", "../models"]
         .iter()
         .flat_map(|folder| std::fs::read_dir(sincro_testing::repository_scene(folder)).unwrap())
         .map(|entry| entry.unwrap().path())

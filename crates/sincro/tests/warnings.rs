@@ -163,6 +163,7 @@ fn no_shipped_scene_is_warned_of_what_it_means() {
     let mut scenes = Vec::new();
     let root = repository_scene("acrobot").join("../..");
     experiments(&root.join("scenes"), &mut scenes);
+    experiments(&root.join("models"), &mut scenes);
     experiments(&root.join("examples"), &mut scenes);
     assert!(scenes.len() > 100);
     let silent = ["nothing uses", "can touch nothing", "fixed in the world: it never", "has a path of the form"];
