@@ -83,7 +83,10 @@ impl Expander<'_> {
         }
         let read = self.folder.read_named(&name).map_err(Diagnostics::from);
         match read.and_then(|source| Document::parse(&source)) {
-            Ok(read) => {
+            Ok(mut read) => {
+                if let Some((folder, _)) = name.value.rsplit_once('/') {
+                    files_below(folder, &mut read.root);
+                }
                 self.files.push(name.value);
                 Some(read)
             }
@@ -274,6 +277,30 @@ impl Expander<'_> {
         }
         document.push_silently("/frame", Value::Object(frame), &at);
         document.put_silently(&format!("/frame/{n}/name"), Value::from(name), &at);
+    }
+}
+
+/// Names of files in a scene file that lies in a folder of its own, as seen from the folder of the scene.
+fn files_below(folder: &str, value: &mut Value) {
+    let below = |name: &mut Value| {
+        if let Value::String(name) = name
+            && !name.starts_with('/')
+        {
+            *name = format!("{folder}/{name}");
+        }
+    };
+    match value {
+        Value::Array(list) => list.iter_mut().for_each(|value| files_below(folder, value)),
+        Value::Object(table) => {
+            for (key, value) in table {
+                match (key.as_str(), value) {
+                    ("file", name) => below(name),
+                    ("include", Value::Array(names)) => names.iter_mut().for_each(below),
+                    (_, value) => files_below(folder, value),
+                }
+            }
+        }
+        _ => {}
     }
 }
 

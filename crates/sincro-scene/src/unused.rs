@@ -1,4 +1,5 @@
-//! Warnings of what nothing uses: blocks whose output goes nowhere, and sensors and frames that are measured by nobody.
+//! Warnings of what nothing uses: blocks whose output goes nowhere, and sensors and frames that are measured by nobody
+//! (a frame with a visual is seen).
 //!
 //! A thing is used if its name stands as a word in any text of scene, experiment or diagram, so that a warning is never
 //! about something that is named. Scripts and clients find objects by other ways: scenes with scripts, with a
@@ -22,7 +23,9 @@ pub(crate) fn warn_of_objects(scene: &Scene, documents: [&Document; 3]) -> Diagn
     }
     for (k, object) in scene.objects.iter().enumerate() {
         let (word, help) = match &object.kind {
-            ObjectKind::Frame if scene.objects.iter().all(|child| child.parent != Some(k)) => {
+            ObjectKind::Frame
+                if object.visuals.is_empty() && scene.objects.iter().all(|child| child.parent != Some(k)) =>
+            {
                 ("frame", "record `.position` or another signal of it, or leave it out")
             }
             ObjectKind::Sensor => ("sensor", "record its signals, or wire them into the diagram"),

@@ -179,3 +179,20 @@ fn a_file_of_a_newer_format_is_refused() {
     let said = folder("format = 3\n").load(&[]).unwrap_err();
     assert!(said.contains("the file has format 3"), "{said}");
 }
+
+#[test]
+fn files_of_a_scene_file_are_looked_for_in_its_own_folder() {
+    let robot =
+        "include = [\"more/floor.toml\"]\n[[instance]]\nfile = \"../ball.toml\"\n[[instance]]\nfile = \"part.toml\"\n";
+    let part = "[[body]]\nname = \"rock\"\nmass = 1.0\ninertia = { xx = 1.0, yy = 1.0, zz = 1.0 }\nvisual = [ { mesh = { file = \"rock.obj\" } } ]\n";
+    let tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    let scene = folder("[[instance]]\nfile = \"robots/robot.toml\"\n")
+        .with("robots/robot.toml", robot)
+        .with("robots/part.toml", part)
+        .with("robots/rock.obj", tetrahedron)
+        .with("robots/more/floor.toml", "[[frame]]\nname = \"floor\"\n");
+    let found = paths(&scene, &[]);
+    for path in ["/robot/floor", "/robot/ball/air/ball", "/robot/part/rock"] {
+        assert!(found.contains(&path.to_owned()), "{path}: {found:?}");
+    }
+}

@@ -44,9 +44,11 @@ impl SceneFolder {
         self
     }
 
-    /// Writes a file, in place of an earlier one of the same name.
+    /// Writes a file, in place of an earlier one of the same name; folders of its name are made.
     pub fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.path.join(name), text).unwrap();
+        let path = self.path.join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
     }
 
     /// Puts `to` in place of the first `from` in a file, which must contain it.

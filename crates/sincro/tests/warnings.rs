@@ -42,6 +42,16 @@ fn loop_of(kp: f64, kd: f64, sample_time: &str) -> String {
 }
 
 #[test]
+fn a_good_loop_from_a_sensor_is_not_told_of() {
+    let sensor = "[[sensor]]\nname = \"imu\"\nparent = \"/hinge/bob\"\nimu = {}\n";
+    for (gain, sample_time) in [(1.0, ""), (1.0, "sample_time = 0.01\n")] {
+        let diagram = loop_of(20.0, gain, sample_time).replace("/hinge.velocity", "/hinge/bob/imu.gyro[1]");
+        let said = warnings(&pendulum(0.3, sensor), "", Some(&diagram));
+        assert!(!said.iter().any(|line| line.contains("unstable")), "{said:?}");
+    }
+}
+
+#[test]
 fn a_loop_that_is_unstable_from_the_first_is_told_of() {
     let is_told = |initial: f64, diagram: &str| {
         let said = warnings(&pendulum(initial, ""), "", Some(diagram));

@@ -104,8 +104,8 @@ impl SimApi<'_> {
         Ok(handle)
     }
 
-    /// Adds items to a drawing, all or the first alone; with `replaces`, in place of those that it has. Returns false if
-    /// an item was not taken: the drawing is full, or has one there already.
+    /// Adds items to a drawing, all or the first alone; with `replaces`, in place of those that it has. Returns false
+    /// if an item was not taken: the drawing is full, or has one there already.
     ///
     /// # Errors
     ///

@@ -172,7 +172,7 @@ fn geom(out: &mut String, tree: &mut Tree<'_>, k: usize, piece: &Piece, more: &s
             Some(("box", s)) => format!("type=\"box\" size=\"{}\"", numbers(&[0.5 * s[0], 0.5 * s[1], 0.5 * s[2]])),
             Some(("sphere", s)) => format!("type=\"sphere\" size=\"{}\"", plain(s[0])),
             Some((word, s)) => format!("type=\"{word}\" size=\"{}\"", numbers(&[s[0], 0.5 * s[1]])),
-            None => return tree.note(&path, "MJCF has no cones"),
+            None => return tree.note(&path, "MJCF has no cones and tori"),
         },
         Surface::HalfSpace => "type=\"plane\" size=\"0 0 1\"".to_owned(),
         surface => match tree.mesh_file(k, surface) {

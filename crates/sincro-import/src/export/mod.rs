@@ -57,6 +57,16 @@ pub fn export(scene: &Scene, name: &str, format: Format) -> Result<Exported, Vec
     Ok(Exported { text, meshes: tree.meshes, notes: tree.notes })
 }
 
+/// True if several links or joints hang on an object.
+fn carries_several(scene: &Scene, object: usize) -> bool {
+    let is_part = |o: &&Object| {
+        let hangs = o.parent == Some(object);
+        let is_link = matches!(o.kind, ObjectKind::Body { .. } | ObjectKind::Fixture | ObjectKind::Frame);
+        hangs && (is_link || matches!(o.kind, ObjectKind::Joint { .. }))
+    };
+    scene.objects.iter().filter(is_part).count() > 1
+}
+
 /// A link: body, fixture or frame.
 struct Link {
     /// Index among the objects of the scene.
@@ -125,7 +135,8 @@ impl<'a> Tree<'a> {
     fn new(scene: &'a Scene, name: &str) -> Self {
         let mut tree =
             Self { scene, name: name.to_owned(), links: Vec::new(), meshes: BTreeMap::new(), notes: Vec::new() };
-        let mut link_of: Vec<Option<usize>> = vec![None; scene.objects.len()];
+        // the link that is rigid with an object, of a joint with its moving side, and the object's frame there
+        let mut carrier: Vec<Option<(usize, Pose<f64>)>> = vec![None; scene.objects.len()];
         let mut names = std::collections::BTreeSet::new();
         for (k, object) in scene.objects.iter().enumerate() {
             let mass = match &object.kind {
@@ -133,23 +144,35 @@ impl<'a> Tree<'a> {
                 ObjectKind::Fixture | ObjectKind::Frame => None,
                 _ => continue,
             };
-            let (mut joints, mut pose, mut at) = (Vec::new(), object.pose, object.parent);
-            let mut chain = Vec::new();
-            while let Some(p) = at.filter(|p| link_of[*p].is_none()) {
+            let (mut chain, mut at) = (Vec::new(), object.parent);
+            while let Some(p) = at.filter(|p| carrier[*p].is_none()) {
                 chain.push(p);
                 at = scene.objects[p].parent;
             }
-            let mut above = Pose::identity();
-            for p in chain.iter().rev() {
-                above = above.compose(&scene.objects[*p].pose);
-                let joint = tree.joint(&scene.objects[*p], above, &mut names);
-                joints.extend(joint);
+            let found = at.and_then(|p| carrier[p]);
+            let mut parent = found.map(|(link, _)| link);
+            let mut above = found.map_or_else(Pose::identity, |(_, frame)| frame);
+            let mut joints = Vec::new();
+            for p in chain.into_iter().rev() {
+                above = above.compose(&scene.objects[p].pose);
+                joints.extend(tree.joint(&scene.objects[p], above, &mut names));
+                if object.parent != Some(p) && carries_several(scene, p) {
+                    // another branch goes out from here
+                    carrier[p] = Some((tree.links.len(), Pose::identity()));
+                    let name = unique(&mut names, &scene.objects[p]);
+                    let joints = std::mem::take(&mut joints);
+                    let here = tree.links.len();
+                    tree.links.push(Link { object: p, name, parent, joints, pose: above, mass: None });
+                    (parent, above) = (Some(here), Pose::identity());
+                }
             }
-            pose = above.compose(&pose);
-            let parent = at.and_then(|p| link_of[p]);
-            link_of[k] = Some(tree.links.len());
+            let link = tree.links.len();
+            carrier[k] = Some((link, Pose::identity()));
+            if let Some(p) = object.parent.filter(|p| carrier[*p].is_none()) {
+                carrier[p] = Some((link, object.pose.inverse()));
+            }
             let name = unique(&mut names, object);
-            tree.links.push(Link { object: k, name, parent, joints, pose, mass });
+            tree.links.push(Link { object: k, name, parent, joints, pose: above.compose(&object.pose), mass });
         }
         tree
     }

@@ -136,7 +136,7 @@ fn piece_text(
             Some((word, size)) => {
                 format!("<{word}><radius>{}</radius><length>{}</length></{word}>", plain(size[0]), plain(size[1]))
             }
-            None => return tree.note(&path, "cones are not written"),
+            None => return tree.note(&path, "cones and tori are not written"),
         },
         Surface::HalfSpace => "<plane><normal>0 0 1</normal><size>100 100</size></plane>".to_owned(),
         surface => match tree.mesh_file(k, surface) {

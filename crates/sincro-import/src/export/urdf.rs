@@ -165,8 +165,12 @@ fn piece_text(out: &mut String, tree: &mut Tree<'_>, k: usize, word: &str, piece
         Surface::Solid(shape) => match solid(shape) {
             Some(("box", size)) => format!("<box size=\"{}\"/>", numbers(&size)),
             Some(("sphere", size)) => format!("<sphere radius=\"{}\"/>", plain(size[0])),
+            Some(("capsule", size)) => {
+                tree.note(&path, "a capsule is no shape of URDF: some readers leave it out");
+                format!("<capsule radius=\"{}\" length=\"{}\"/>", plain(size[0]), plain(size[1]))
+            }
             Some((word, size)) => format!("<{word} radius=\"{}\" length=\"{}\"/>", plain(size[0]), plain(size[1])),
-            None => return tree.note(&path, "URDF has no cones"),
+            None => return tree.note(&path, "URDF has no cones and tori"),
         },
         Surface::HalfSpace => return tree.note(&path, "URDF has no planes"),
         surface => match tree.mesh_file(k, surface) {

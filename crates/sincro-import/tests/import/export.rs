@@ -59,8 +59,52 @@ position = [0.0, 0.0, 0.1]
 
 fn masses(model: &Model<f64>) -> Vec<f64> {
     let (mut scratch, mut mass) = (Scratch::new(model), vec![0.0; model.n_v() * model.n_v()]);
-    mass_matrix(model, &[0.7, 0.1], &mut scratch, &mut mass);
+    let q = [0.7, 0.1, -0.4, 0.9, 0.3];
+    mass_matrix(model, &q[..model.n_q()], &mut scratch, &mut mass);
     mass
+}
+
+/// Joints that hang on a joint, beside its body, and on one that carries two joints and nothing else.
+#[test]
+fn a_joint_is_written_once_whatever_hangs_on_it() {
+    let body = |name: &str, parent: &str, mass: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nparent = \"{parent}\"\nposition = [0.1, 0.02, 0.3]\nrotation_deg = [10.0, 20.0, 0.0]\nmass = {mass:?}\ninertia = {{ xx = 0.04, yy = 0.03, zz = 0.02 }}\n"
+        )
+    };
+    let joint = |name: &str, parent: &str, axis: [f64; 3]| {
+        let parent = if parent.is_empty() { String::new() } else { format!("parent = \"{parent}\"\n") };
+        format!(
+            "[[joint]]\nname = \"{name}\"\n{parent}kind = \"revolute\"\naxis = {axis:?}\nposition = [0.2, 0.1, 0.4]\nrotation_deg = [0.0, 30.0, 5.0]\n"
+        )
+    };
+    let (x, y) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let scene = [
+        joint("a", "", y),
+        body("link", "/a", 2.0),
+        joint("b", "/a", x),
+        body("link", "/a/b", 1.0),
+        joint("c", "/a/b", y),
+        joint("d", "/a/b/c", x),
+        body("left", "/a/b/c/d", 0.5),
+        joint("e", "/a/b/c", y),
+        body("right", "/a/b/c/e", 0.7),
+    ];
+    let folder = Folder::new();
+    folder.file("own/scene.toml", scene.concat());
+    folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
+    let own =
+        sincro_scene::open::open(&folder.path().join("own"), &[], sincro_scene::fmu::Loaders::default(), true).unwrap();
+    let expected = masses(&own.scene.model);
+    for (format, file) in [(Format::Urdf, "r.urdf"), (Format::Mjcf, "r.xml"), (Format::Sdf, "r.sdf")] {
+        let exported = export(&own.scene, "own", format).unwrap();
+        let imported = folder.import(file, &exported.text).unwrap_or_else(|found| panic!("{found}\n{}", exported.text));
+        let back = folder.open(&imported).scene;
+        assert_eq!(back.model.n_v(), 5, "{file}\n{}", exported.text);
+        for (a, b) in masses(&back.model).iter().zip(&expected) {
+            assert!((a - b).abs() < 1e-13, "{file}: {a} {b}\n{}", exported.text);
+        }
+    }
 }
 
 #[test]
