@@ -152,15 +152,23 @@ impl Controller for ApiController {
         self.call_scripts(Phase::Initialization, Instant { tick: 0, t: 0.0, ..at })
     }
 
+    fn preview(&mut self, commands: &[f64]) {
+        if let Some(registry) = &mut self.registry {
+            registry.preview(commands);
+        }
+    }
+
     fn actuate(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         if let Some(registry) = &mut self.registry {
             registry.begin_tick(at.tick, &at.world.state.totals);
         }
         if self.is_due(at.tick) {
-            self.call_scripts(Phase::Actuation, at)?;
+            self.call_scripts(Phase::Actuation, Instant { world: &mut *at.world, ..at })?;
         }
         if let Some(registry) = &mut self.registry {
+            registry.drop_spent_forces(at.world);
             registry.move_targets();
+            registry.preview(&[]);
         }
         Ok(())
     }
@@ -182,7 +190,7 @@ impl Controller for ApiController {
 
     fn sense(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
         let Some(registry) = self.registry.as_mut().filter(|registry| registry.is_due(at.tick)) else { return Ok(()) };
-        at.world.clear_external_forces();
+        registry.are_forces_spent = true;
         registry.sense(&at.world.state.q);
         // the time of scripts is that at which the step began
         let tick = at.tick - registry.sample_ticks().min(at.tick);

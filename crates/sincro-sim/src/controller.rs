@@ -168,6 +168,7 @@ pub enum Forked {
 /// | call | instant | may write | if it fails |
 /// |---|---|---|---|
 /// | [`start`](Controller::start) | once, before the first tick | the world | the run stops at tick 0, nothing is advanced |
+/// | [`preview`](Controller::preview) | t_k, before all act | its own memory | cannot fail |
 /// | [`actuate`](Controller::actuate) | t_k, before the world advances | the world, its own memory | the run stops at t_k: the state is that of t_k |
 /// | [`latch`](Controller::latch) | t_k, after all have acted | commands, through [`Commands::set`] | cannot fail |
 /// | [`latched`](Controller::latched) | t_k, under the commands of the step | its own memory | cannot fail |
@@ -232,6 +233,10 @@ pub trait Controller: Any + Send + fmt::Debug {
     fn start(&mut self, _: Instant<'_>) -> Result<(), ScriptError> {
         Ok(())
     }
+
+    /// Takes note of the commands of scene and diagram for the base step that begins, each in the unit of its actuator:
+    /// they are latched after [`Controller::actuate`], unless a controller sets another.
+    fn preview(&mut self, _commands: &[f64]) {}
 
     /// Computes commands and forces of the base step that begins; the commands are passed on in [`Controller::latch`],
     /// forces are applied to the world directly.

@@ -14,7 +14,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 
 # scene, programs, statement before them, variant whose trace hash the run has; None: none is claimed, because the
-# program does what no run in process does (or scenes/thesis-quadrotor-lua/README.md)
+# program does what no run in process does
 RUNS = [
     ('two-dof-remote', ['check.m', 'two_dof.m'], '', 'main'),
     ('thesis-motor', ['thesis/motor.m'], '', 'main'),
@@ -31,7 +31,7 @@ RUNS = [
     ('thesis-quadrotor', ['thesis/quadrotor.m'], '', 'main'),
     ('thesis-quadrotor', ['thesis/quadrotor.m'], 'waypoints = [0, 0, 1; 0.1, 0, 1; 0.2, 0, 1];', 'flight-2'),
     ('thesis-quadrotor', ['thesis/open_loop.m'], '', 'open-loop'),
-    ('thesis-quadrotor-lua', ['thesis/quadrotor.m'], '', None),
+    ('thesis-quadrotor-lua', ['thesis/quadrotor.m'], '', 'main'),
     ('aerial-manipulator-remote', ['thesis/manipulator.m'], '', 'main'),
 ]
 

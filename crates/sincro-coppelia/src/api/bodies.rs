@@ -89,7 +89,7 @@ impl SimApi<'_> {
     }
 
     /// Applies a force `[N]` at a body's centre of mass and a torque `[N·m]` over the coming step of clients, both as
-    /// x, y, z in world axes. Forces of several calls add up; they are removed after the step.
+    /// x, y, z in world axes. Forces of several calls add up; they act for that step, and sensors show them at its end.
     ///
     /// # Errors
     ///
@@ -121,6 +121,7 @@ impl SimApi<'_> {
         if !numbers.copied().all(f64::is_finite) {
             return Err(ApiError::new("a force, torque or point has numbers that are not finite"));
         }
+        self.registry.drop_spent_forces(self.world);
         if let Some(link) = at.link {
             self.world.apply_external_force(ExternalForce { link, point: at.pose.pos, force, torque });
         }

@@ -268,9 +268,7 @@ impl SimApi<'_> {
     fn commanded(&self, joint: &JointEntry, mode: MotorMode) -> f64 {
         let motor = joint.motor.filter(|_| joint.drive.is_some_and(|d| d.mode == mode));
         let Some(motor) = motor else { return 0.0 };
-        // before the first step nothing is latched
-        let latched = || self.world.state.commands[motor];
-        let present = || if self.world.state.tick == 0 { self.registry.scene_command(motor, 0.0) } else { latched() };
+        let present = || self.registry.present_command(motor, &self.world.state);
         self.registry.held(motor).unwrap_or_else(present)
     }
 

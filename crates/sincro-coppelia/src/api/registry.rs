@@ -9,6 +9,8 @@ use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::World;
 
 use super::drawings::Drawings;
 use super::graphs::Graphs;
@@ -153,6 +155,8 @@ pub struct ObjectRegistry {
     /// Commands held from outside: they win over the scene's signals and the diagram.
     held: Vec<Option<f64>>,
     commands: Vec<Signal>,
+    /// Commands of scene and diagram for the step that begins, while scripts act; empty at other times.
+    upcoming: Vec<f64>,
     /// Base step `[s]`.
     step: f64,
     sample_ticks: u64,
@@ -186,6 +190,9 @@ pub struct ObjectRegistry {
     pub(super) zero: Vec<f64>,
     /// Differences from the scene.
     pub(super) changes: Vec<Change>,
+    /// True while the world's external forces are those of the step that has ended: sensors show what they do, and the
+    /// next step begins without them.
+    pub(crate) are_forces_spent: bool,
     /// True if the model was changed while stopped, and the next run must be made of it.
     pub(crate) is_model_changed: bool,
     /// Pairs of surfaces, in the model's order.
@@ -237,6 +244,7 @@ impl ObjectRegistry {
             joint_of: BTreeMap::new(),
             held: vec![None; scene.model.n_commands()],
             commands: scene.commands.clone(),
+            upcoming: Vec::new(),
             step: loaded.experiment.step,
             sample_ticks: sample_ticks.max(1),
             impulse: vec![0.0; scene.model.motors().len()],
@@ -257,6 +265,7 @@ impl ObjectRegistry {
             environments: Vec::new(),
             zero: vec![0.0; scene.model.n_v()],
             changes: Vec::new(),
+            are_forces_spent: false,
             is_model_changed: false,
             pairs: Vec::new(),
             passing: BTreeSet::new(),
@@ -517,6 +526,26 @@ impl ObjectRegistry {
         if self.is_due(tick) {
             self.impulse.copy_from_slice(&totals[2..]);
             self.has_stepped = true;
+        }
+    }
+
+    /// Takes note of the commands of scene and diagram for the step that begins; none when it has begun.
+    pub(crate) fn preview(&mut self, commands: &[f64]) {
+        self.upcoming.clear();
+        self.upcoming.extend_from_slice(commands);
+    }
+
+    /// Command `command` for the step that begins if scripts are acting, else as it was last latched, or
+    /// before the first step that of the scene; without what clients and scripts hold.
+    pub(super) fn present_command(&self, command: usize, state: &State<f64>) -> f64 {
+        let latched = || if state.tick == 0 { self.scene_command(command, 0.0) } else { state.commands[command] };
+        self.upcoming.get(command).copied().unwrap_or_else(latched)
+    }
+
+    /// Removes the external forces of the step that has ended from the world, if they are still there.
+    pub(crate) fn drop_spent_forces(&mut self, world: &mut World) {
+        if std::mem::take(&mut self.are_forces_spent) {
+            world.clear_external_forces();
         }
     }
 

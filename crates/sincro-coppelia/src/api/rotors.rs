@@ -23,9 +23,8 @@ impl SimApi<'_> {
     /// Target speed of a rotor [rad/s].
     pub(super) fn rotor_target(&self, rotor: usize) -> f64 {
         let Some(command) = self.world.model().rotors()[rotor].speed.command() else { return self.rotor_speed(rotor) };
-        let latched = self.world.state.commands[command];
-        let present = if self.world.state.tick == 0 { self.registry.scene_command(command, 0.0) } else { latched };
-        self.registry.held(command).unwrap_or(present)
+        let present = || self.registry.present_command(command, &self.world.state);
+        self.registry.held(command).unwrap_or_else(present)
     }
 
     /// Tells a rotor its speed [rad/s].

@@ -4,10 +4,11 @@ use sincro_coppelia::api::ObjectRegistry;
 use sincro_coppelia::api_controller::ApiController;
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::Loaded;
+use sincro_sim::results::Status;
 use sincro_sim::run::LockStep;
 use sincro_sim::trace::Trace;
 
-use super::world::{EXPERIMENT, PENDULUM, open};
+use super::world::{EXPERIMENT, PENDULUM, open, run};
 
 const TICKS: usize = 400;
 
@@ -70,4 +71,20 @@ fn one_law_through_every_door_gives_one_hash() {
         let script = open(&files).unwrap_or_else(|problems| panic!("{problems}"));
         assert_eq!(trace(&script, |_| {}), rust, "{code}");
     }
+}
+
+#[test]
+fn a_script_sees_what_the_diagram_commands_for_its_step() {
+    let code = "function sysCall_actuation()
+            local joint = sim.getObject('..')
+            local told = -20*sim.getJointPosition(joint) - 4*sim.getJointVelocity(joint)
+            assert(sim.getJointTargetForce(joint) == told, sim.getJointTargetForce(joint) .. ' is not ' .. told)
+        end";
+    let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"look.lua\"\n");
+    let experiment = format!("diagram = \"law.toml\"\n{EXPERIMENT}");
+    let law = "sample_time = 0.01\nwires = [\"/hinge.position -> law.q\", \"/hinge.velocity -> law.v\", \"law -> /hinge\"]\n\
+         [[block]]\nname = \"law\"\ntype = \"expression\"\nexpression = \"-20*q - 4*v\"\n";
+    let files = [("scene.toml", &*scene), ("experiment.toml", &*experiment), ("law.toml", law), ("look.lua", code)];
+    let loaded = open(&files).unwrap_or_else(|problems| panic!("{problems}"));
+    assert_eq!(run(&loaded).status, Status::Completed);
 }

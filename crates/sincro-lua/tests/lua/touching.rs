@@ -62,6 +62,22 @@ fn contacts_force_sensors_and_stops_are_seen() {
 }
 
 #[test]
+fn a_force_sensor_transmits_the_push_of_a_script() {
+    let code = "function sysCall_actuation()
+            sim.addForceAndTorque(sim.getObject('/load'), {3, 0, 5}, {0, 0, 0.5})
+        end
+        function sysCall_sensing()
+            local _, force, torque = simReadForceSensor(simGetObjectHandle('scale'))
+            local seen = math.abs(force[1] - 3) + math.abs(force[3] - 5 + 19.62) + math.abs(torque[3] - 0.5)
+            assert(seen < 1e-9, force[1] .. ' ' .. force[3] .. ' ' .. torque[3])
+        end";
+    let run = with_box(code, "record = [\"/scale.force.z\"]", "");
+    assert_eq!(run.status, Status::Completed);
+    let held = &run.table.column("/scale.force.z").unwrap().values;
+    assert!(held[1..].iter().all(|f| (f - 14.62).abs() < 1e-9), "the parent on the child: {held:?}");
+}
+
+#[test]
 fn a_script_on_a_joint_says_how_fast_its_motor_is() {
     let more = "[[script]]\nobject = \"/first\"\nfile = \"b.lua\"\n";
     let run = with_box("x = 1", "record = [\"/first.position\"]", more);

@@ -54,6 +54,8 @@ pub struct LockStep {
     commands: Vec<Signal>,
     /// Source of each command, as it was last latched.
     sources: Vec<Source>,
+    /// Commands of scene and diagram for the step that begins, and their sources; scratch.
+    upcoming: (Vec<f64>, Vec<Source>),
     step: f64,
     tick: u64,
     /// All that act besides the diagram, in their order.
@@ -161,6 +163,7 @@ impl LockStep {
             signals,
             floats,
             commands,
+            upcoming: (Vec::new(), Vec::new()),
             sources,
             step,
             tick: 0,
@@ -251,6 +254,7 @@ impl LockStep {
             floats: self.floats.clone(),
             commands: self.commands.clone(),
             sources: self.sources.clone(),
+            upcoming: self.upcoming.clone(),
             controllers,
             scene_model: Arc::clone(&self.scene_model),
             ..*self
@@ -421,6 +425,7 @@ impl LockStep {
     /// ```text
     /// step(k):
     ///   1 actuate   each controller, the diagram first: commands and forces of the step      t_k
+    ///               (controllers know what scene and diagram command)
     ///   2 latch     u ← signals of the scene, then each controller; the strongest source wins
     ///   3 remember  each controller: memory for its next tick
     ///   4 advance   the world goes from t_k to t_{k+1} under u, in sub-steps; a continuous diagram with it
@@ -442,6 +447,7 @@ impl LockStep {
     pub fn advance(&mut self) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
         // 1 actuate
+        self.preview();
         self.call(false, |controller, at| controller.actuate(at))?;
         // 2 latch
         self.latch();
@@ -477,19 +483,28 @@ impl LockStep {
     /// Latches the commands of the present tick without advancing, so that the world is under the inputs of its next
     /// step.
     pub fn latch(&mut self) {
-        let t = self.t();
         let mut commands = Commands::of_scene(&mut self.world.state.commands, &mut self.sources);
-        for (command, signal) in self.commands.iter().enumerate() {
-            commands.set(command, signal.value(t));
-        }
-        if let Some(diagram) = &self.control {
-            diagram.latch(&mut commands.by(Source::Diagram));
-        }
+        set_first(&mut commands, self.tick as f64 * self.step, &self.commands, self.control.as_ref());
         for (k, controller) in self.controllers.iter().enumerate() {
             controller.latch(&mut commands.by(Source::Controller(k)));
         }
         if let Some(diagram) = &mut self.control {
             diagram.note_sources(&self.sources);
+        }
+    }
+
+    /// Tells the controllers what scene and diagram command for the present tick.
+    fn preview(&mut self) {
+        if self.controllers.is_empty() {
+            return;
+        }
+        let t = self.t();
+        let (values, sources) = &mut self.upcoming;
+        values.clone_from(&self.world.state.commands);
+        sources.clone_from(&self.sources);
+        set_first(&mut Commands::of_scene(values, sources), t, &self.commands, self.control.as_ref());
+        for controller in &mut self.controllers {
+            controller.preview(&self.upcoming.0);
         }
     }
 
@@ -638,6 +653,16 @@ impl LockStep {
     /// Continuous states of the diagram: part of what is integrated.
     fn continuous(&self) -> &[f64] {
         self.control.as_ref().map_or(&[], |c| &c.runner.state.continuous)
+    }
+}
+
+/// Sets the commands of the scene's signals at time `t` `[s]`, then those of the diagram.
+fn set_first(commands: &mut Commands<'_>, t: f64, signals: &[Signal], diagram: Option<&DiagramController<f64>>) {
+    for (command, signal) in signals.iter().enumerate() {
+        commands.set(command, signal.value(t));
+    }
+    if let Some(diagram) = diagram {
+        diagram.latch(&mut commands.by(Source::Diagram));
     }
 }
 
