@@ -79,7 +79,8 @@ class AtWall(Plant):
         self.gamma = self.gamma + TS * self.rate
 
 
-def simulate(duration, task):
+def simulate(duration, task, weight_only=False):
+    """Rows t, p, roll, pitch, yaw, tip, place of the wall, force; with weight_only the controller knows the weight of the arm alone."""
     start = np.array([0.0, 0.0, 1.5])
     plant = AtWall(Wind(**WIND), GAMMA0.copy(), hover.start(start))
     flight, arm = Backstepping(z_integral=200.0), Arm(GAMMA0, gain=8.0)
@@ -95,7 +96,11 @@ def simulate(duration, task):
         wanted = 0.25 if t > 36.0 - 1e-9 else 0.15 if t > 16.0 - 1e-9 else 0.0
         place = task_filter.step(hold(task, t) + np.array([wanted / 10.0, 0, 0]))[0]
         u, acceleration = arm.step(plant.gamma, q, r.T @ (place - p) - BASE)
-        ahead = r.T @ inverse_dynamics(p, r, w, v, q, qd, np.zeros(3), cross(w, v), acceleration, links_only=True)[:3]
+        if weight_only:
+            zero, still = np.zeros(3), np.zeros(4)
+            ahead = r.T @ inverse_dynamics(p, r, zero, zero, q, still, zero, zero, still, links_only=True)[:3]
+        else:
+            ahead = r.T @ inverse_dynamics(p, r, w, v, q, qd, np.zeros(3), cross(w, v), acceleration, links_only=True)[:3]
         goal = np.array([0.535, 0.0, 1.5]) if t > 1.0 - 1e-9 else start
         plant.command = flight.step(place_filter.step(goal), p, v, euler(r), r.T @ w, ahead)
         plant.rate = u

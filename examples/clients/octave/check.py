@@ -33,6 +33,8 @@ RUNS = [
     ('thesis-quadrotor', ['thesis/open_loop.m'], '', 'open-loop'),
     ('thesis-quadrotor-lua', ['thesis/quadrotor.m'], '', 'main'),
     ('aerial-manipulator-remote', ['thesis/manipulator.m'], '', 'main'),
+    ('aerial-manipulator-contact-remote', ['thesis/manipulator_contact.m'], '', 'main'),
+    ('aerial-manipulator-grasp-remote', ['thesis/manipulator_grasp.m'], '', 'main'),
 ]
 
 

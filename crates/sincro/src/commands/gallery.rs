@@ -79,6 +79,8 @@ const CHAPTERS: [Chapter; 5] = [
             ("aerial-manipulator-contact", ""),
             ("aerial-manipulator-grasp", ""),
             ("aerial-manipulator-remote", ""),
+            ("aerial-manipulator-contact-remote", ""),
+            ("aerial-manipulator-grasp-remote", ""),
         ],
     ),
 ];

@@ -1,11 +1,12 @@
-function [u, law] = arm_law(law, gamma, delta, goal)
+function [u, law] = arm_law(law, gamma, delta, goal, times)
   % Adaptive compliant inverse kinematics of sections 5.2 and 5.3, one sample; equations: scenes/alexandros-position/README.md.
   %
   % law: memory, [] at the start, or where the motors are then [rad]. gamma, delta: angles of motors and springs [rad]; goal: where the
-  % tip is to go [m]. u: speeds [rad/s].
+  % tip is to go [m]; times: factor of Kp, 1 unless given. u: speeds [rad/s].
 
   Ts = 0.02;  Gamma = 800 * [10; 10; 0.1; 1; 1; 1; 0.1; 1];  Kp = 40 * [0.75; 0.8; 0.9; 0.55];  Ks = 0.32 * [1; 0.8; 0.7; 0.9];
   lambda = 0.5;  maxgdot = 5;
+  if nargin < 5, times = 1; end
   if ~isstruct(law)
     start = zeros(4, 1);
     if ~isempty(law), start = law(:); end
@@ -24,6 +25,6 @@ function [u, law] = arm_law(law, gamma, delta, goal)
   law.wanted = wanted;  law.before = law.q_r;
 
   [tip, J] = stiff_arm(law.q_r);                             % transpose inverse kinematics
-  law.q_r = law.q_r + Ts * limited(Kp .* (J' * (goal(:) - tip)));
+  law.q_r = law.q_r + Ts * limited(times * Kp .* (J' * (goal(:) - tip)));
   u = round(65536 * u) / 65536;                              % single precision carries it
 end
