@@ -6,6 +6,7 @@ use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{
     BodySpec, GearSpec, JointSpec, LoopJointSpec, MassProperties, Model, ModelBuilder, NodeId, Shape,
 };
+use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
@@ -42,6 +43,32 @@ fn a_stop_holds_a_load_and_says_how_much() {
         assert!((world.state.q[0] - 0.2).abs() < 1e-9, "{kind:?} {}", world.state.q[0]);
         let seen = world.observe(1.0);
         assert!((seen.limit_torque(0) + 3.0).abs() < 1e-9, "{kind:?}");
+    }
+}
+
+/// A slider against its stop, pressed on it with `hold` until a force `f` away from it at 0.1 s; 3 g, 120 N·s/m.
+fn gripper_finger(hold: f64, f: f64) -> Model<f64> {
+    let spec = JointSpec {
+        limits: vec![(0.0, 0.02)],
+        damping: vec![120.0],
+        torque: vec![Signal::Step { time: 0.1, from: -hold, to: f }],
+        ..slider()
+    };
+    cart(0.003, spec)
+}
+
+#[test]
+fn a_stop_lets_go_of_a_heavily_damped_slider_at_once() {
+    // x = f/c·(t − m/c) once the transient of 25 µs is over; a step of 20 ms is 800 times that
+    let expected = 0.6 / 120.0 * (0.04 - 0.003 / 120.0);
+    for (kind, tolerance) in [(MethodKind::DormandPrince, 1e-9), (MethodKind::Stiff, 1e-7)] {
+        for accuracy in [1e-6, 1e-7, 1e-8] {
+            let model = gripper_finger(0.3, 0.6);
+            let mut world = World::new(model.clone(), State::new(&model), kind, accuracy, 1e-3);
+            run(&mut world, 0.02, 7);
+            let found = world.state.q[0];
+            assert!((found - expected).abs() < tolerance, "{kind:?} {accuracy:e}: {found} is not {expected}");
+        }
     }
 }
 

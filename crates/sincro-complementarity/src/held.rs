@@ -186,11 +186,13 @@ fn excess<R: Real>(
     blocks: &[UnilateralConstraint<R>],
     lambda: &[R],
 ) -> f64 {
-    let normal = |k: usize| lambda[blocks[k].row].lane(0);
-    let group = |k: usize, g: usize| blocks[k].groups[g].as_ref();
+    // a law of a contact that is no constraint any more has no value
+    let of_row = |k: usize, x: &[R]| blocks.get(k).map_or(f64::NAN, |block| x[block.row].lane(0));
+    let normal = |k: usize| of_row(k, lambda);
+    let group = |k: usize, g: usize| blocks.get(k).and_then(|block| block.groups[g].as_ref());
     match law {
         HeldLaw::Unilateral(k) => -normal(k) / small.force * SLACK - SLACK,
-        HeldLaw::Open(k) => -rates[blocks[k].row].lane(0) / small.rate * SLACK - SLACK,
+        HeldLaw::Open(k) => -of_row(k, rates) / small.rate * SLACK - SLACK,
         HeldLaw::Stick(k, g) => group(k, g).map_or(f64::NAN, |group| {
             let beyond = norm(pair(group, lambda)) - group.coefficient * normal(k).max(0.0);
             beyond / small.force * SLACK - SLACK * group.slack

@@ -15,15 +15,20 @@ use crate::spatial::{Force, Vec3};
 
 impl<R: Real> Constraints<R> {
     /// Assembles rows, residuals and unilateral constraints of everything closed, at the poses of `scratch` and the
-    /// twists of `motions`.
-    pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, is_sliding: bool) {
+    /// twists of `motions`. `within` a sub-step friction slides as classified at its start, and what has left since
+    /// is no constraint any more: it may well be approached, and meets with an impact.
+    pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, within: bool) {
         let set = &*model.params.constraints;
         self.assemble_loops(model, q, scratch);
         for (slot, limit) in set.limits.iter().enumerate() {
             if self.memory.is_closed(slot) {
                 let sign = R::splat(limit.sign);
+                let distance = sign * (q[limit.coordinate] - R::splat(limit.bound));
+                if within && self.has_left(slot, distance, sign * v[limit.dof]) {
+                    continue;
+                }
                 self.rows.push(Row::of_joints([(limit.dof as u32, sign), (crate::joint::WORLD, R::zero())]));
-                self.residual.push(sign * (q[limit.coordinate] - R::splat(limit.bound)));
+                self.residual.push(distance);
                 let row = self.rows.len() - 1;
                 self.blocks.push(UnilateralConstraint::contact(slot, row, [None; 3]));
             }
@@ -32,7 +37,7 @@ impl<R: Real> Constraints<R> {
         for SlotCandidate { slot, pair, candidate } in candidates.iter() {
             let slot = set.limits.len() + *slot as usize;
             if self.memory.is_closed(slot) {
-                self.contact(slot, candidate, &set.pairs[*pair as usize], v, scratch, is_sliding);
+                self.contact(slot, candidate, &set.pairs[*pair as usize], v, scratch, within);
             }
         }
         self.candidates = candidates;
@@ -71,7 +76,7 @@ impl<R: Real> Constraints<R> {
         pair: &Pair,
         v: &[R],
         scratch: &Scratch<R>,
-        is_sliding: bool,
+        within: bool,
     ) {
         let at = candidate.kinematics(&self.motions.at(scratch));
         let row = self.rows.len();
@@ -80,8 +85,12 @@ impl<R: Real> Constraints<R> {
         let c = if self.sweeps { at.point - n.scale(at.distance) } else { at.point };
         let normal =
             Row::between(candidate.a, candidate.b, force_at(c, n), force_rate(c, n, at.point_dot, at.normal_dot));
-        self.add(normal, at.distance);
         let material = &pair.material;
+        if within && !material.stiffness.is_finite() && self.has_left(slot, at.distance, self.motions.rate(&normal, v))
+        {
+            return;
+        }
+        self.add(normal, at.distance);
         let given = material.stiffness.is_finite().then(|| {
             let rate = self.motions.rate(&normal, v);
             let k = R::splat(material.stiffness);
@@ -107,7 +116,7 @@ impl<R: Real> Constraints<R> {
                 };
                 self.add(row, R::zero());
             }
-            let is_sliding = is_sliding && self.memory.is_sliding(slot, g);
+            let is_sliding = within && self.memory.is_sliding(slot, g);
             let mut group = FrictionGroup {
                 row: first,
                 dim,
@@ -130,6 +139,11 @@ impl<R: Real> Constraints<R> {
             groups[g] = Some(group);
         }
         self.blocks.push(UnilateralConstraint { slot, row, open: false, given, is_compliant: given.is_some(), groups });
+    }
+
+    /// Returns true if a slot that was open at the start of the sub-step is apart now, or comes back with an impact.
+    fn has_left(&self, slot: usize, distance: R, rate: R) -> bool {
+        (distance.lane(0) > CLOSED_DISTANCE || rate.lane(0) < -self.zero_speed) && self.memory.starts_open(slot)
     }
 
     pub(super) fn add(&mut self, row: Row<R>, residual: R) {

@@ -199,6 +199,11 @@ impl<R: Real> WarmStart<R> {
         self.entry(slot).is_some_and(|entry| entry.closed)
     }
 
+    /// Returns true if the slot has no force in the modes of the start of the sub-step.
+    pub fn starts_open(&self, slot: usize) -> bool {
+        self.entry(slot).is_some_and(|entry| is_open(code(&entry.start)))
+    }
+
     /// Slots that are closed, in increasing order.
     pub fn closed_slots(&self) -> impl Iterator<Item = usize> {
         self.entries.iter().filter(|entry| entry.closed).map(|entry| entry.slot as usize)
@@ -320,7 +325,7 @@ impl<R: Real> WarmStart<R> {
             }
             let kept = &entry.numbers;
             lambda[block.row] = kept[0];
-            block.open = (code - 1) & 1 == 1 && block.given.is_none();
+            block.open = is_open(code) && block.given.is_none();
             for (g, group) in block.groups.iter_mut().enumerate() {
                 let Some(group) = group else { continue };
                 let first = [1, 3, 5][g];
@@ -438,6 +443,11 @@ impl<R: Real> WarmStart<R> {
 /// Code of a slot, without its feature.
 fn code<R: Real>(numbers: &[R; SLOT_LEN]) -> u32 {
     (numbers[SLOT_LEN - 1].lane(0) as u64 % FEATURE as u64) as u32
+}
+
+/// Returns true if a mode code stands for a slot without force.
+fn is_open(code: u32) -> bool {
+    code != 0 && (code - 1) & 1 == 1
 }
 
 /// Feature of a slot; 0 if it is not known.
