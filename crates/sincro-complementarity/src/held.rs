@@ -16,17 +16,63 @@ use super::solver::{MAX_TURNS, RANK, SLACK, Solver, Tolerances, norm, pair, turn
 /// Least change of a rate that is an observable one, relative to the largest rate.
 const OBSERVABLE: f64 = 0.1 * SLACK;
 
-/// Law that held modes may violate; indices of constraint and friction group.
+/// Constraint by what it stands for, wherever it is in the list of an evaluation: contacts that have left are in none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HeldLaw {
+pub struct ConstraintId {
+    /// Slot of the constraint.
+    slot: usize,
+    /// Number among the constraints of this slot: drives share one.
+    number: usize,
+}
+
+impl ConstraintId {
+    /// Returns the identity of constraint `k` of a list.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn of<R: Real>(blocks: &[UnilateralConstraint<R>], k: usize) -> Self {
+        let slot = blocks[k].slot;
+        Self { slot, number: blocks[..k].iter().filter(|block| block.slot == slot).count() }
+    }
+
+    /// The constraint in a list.
+    fn find<R: Real>(self, blocks: &[UnilateralConstraint<R>]) -> Option<&UnilateralConstraint<R>> {
+        blocks.iter().filter(|block| block.slot == self.slot).nth(self.number)
+    }
+}
+
+/// Law that held modes may violate; constraint, and index of its friction group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HeldLaw<C = ConstraintId> {
     /// A closed contact does not pull.
-    Unilateral(usize),
+    Unilateral(C),
     /// An open contact is not approached.
-    Open(usize),
+    Open(C),
     /// Sticking friction stays within its cone.
-    Stick(usize, usize),
+    Stick(C, usize),
     /// Impending slip is opposed by its friction.
-    Slip(usize, usize),
+    Slip(C, usize),
+}
+
+impl<C: Copy> HeldLaw<C> {
+    /// Constraint that it is about.
+    fn constraint(self) -> C {
+        match self {
+            Self::Unilateral(c) | Self::Open(c) | Self::Stick(c, _) | Self::Slip(c, _) => c,
+        }
+    }
+
+    /// The same law of a constraint that is named in another way.
+    fn about<D>(self, constraint: D) -> HeldLaw<D> {
+        match self {
+            Self::Unilateral(_) => HeldLaw::Unilateral(constraint),
+            Self::Open(_) => HeldLaw::Open(constraint),
+            Self::Stick(_, g) => HeldLaw::Stick(constraint, g),
+            Self::Slip(_, g) => HeldLaw::Slip(constraint, g),
+        }
+    }
 }
 
 /// A solution, kept while another one is sought.
@@ -117,9 +163,10 @@ impl<R: Real> Solver<R> {
         lambda: &[R],
     ) -> Option<HeldLaw> {
         let small = Tolerances::of(problem, lambda);
-        let mut worst: (Option<HeldLaw>, f64) = (None, 0.0);
-        let mut look = |law: HeldLaw| {
-            let excess = excess(law, small, &self.active_set.rates, blocks, lambda);
+        let mut worst: (Option<HeldLaw<usize>>, f64) = (None, 0.0);
+        let mut look = |law: HeldLaw<usize>| {
+            let block = &blocks[law.constraint()];
+            let excess = excess(law.about(block), small, &self.active_set.rates, lambda);
             if excess > worst.1 {
                 worst = (Some(law), excess);
             }
@@ -140,10 +187,11 @@ impl<R: Real> Solver<R> {
                 }
             }
         }
-        worst.0
+        worst.0.map(|law| law.about(ConstraintId::of(blocks, law.constraint())))
     }
 
-    /// Excess of `law` over its tolerance, relative to the largest force or rate; above zero if it is violated.
+    /// Excess of `law` over its tolerance, relative to the largest force or rate; above zero if it is violated. That of a
+    /// constraint which is none any more is −1.
     #[must_use]
     pub fn excess(
         &self,
@@ -152,7 +200,10 @@ impl<R: Real> Solver<R> {
         blocks: &[UnilateralConstraint<R>],
         lambda: &[R],
     ) -> f64 {
-        excess(law, Tolerances::of(problem, lambda), &self.active_set.rates, blocks, lambda)
+        let block = law.constraint().find(blocks);
+        block.map_or(-1.0, |block| {
+            excess(law.about(block), Tolerances::of(problem, lambda), &self.active_set.rates, lambda)
+        })
     }
 
     /// Finds the rates of `lambda`.
@@ -179,25 +230,18 @@ pub(crate) fn differ<R: Real>(problem: &ContactProblem<'_, R>, rates: &[R], othe
     rates.iter().zip(others).any(|(x, y)| (*x - *y).lane(0).abs() > share * largest)
 }
 
-fn excess<R: Real>(
-    law: HeldLaw,
-    small: Tolerances,
-    rates: &[R],
-    blocks: &[UnilateralConstraint<R>],
-    lambda: &[R],
-) -> f64 {
-    // a law of a contact that is no constraint any more has no value
-    let of_row = |k: usize, x: &[R]| blocks.get(k).map_or(f64::NAN, |block| x[block.row].lane(0));
-    let normal = |k: usize| of_row(k, lambda);
-    let group = |k: usize, g: usize| blocks.get(k).and_then(|block| block.groups[g].as_ref());
+fn excess<R: Real>(law: HeldLaw<&UnilateralConstraint<R>>, small: Tolerances, rates: &[R], lambda: &[R]) -> f64 {
+    let of_group = |block: &UnilateralConstraint<R>, g: usize, f: &dyn Fn(&FrictionGroup<R>, f64) -> f64| {
+        block.groups[g].as_ref().map_or(f64::NAN, |group| f(group, lambda[block.row].lane(0)))
+    };
     match law {
-        HeldLaw::Unilateral(k) => -normal(k) / small.force * SLACK - SLACK,
-        HeldLaw::Open(k) => -of_row(k, rates) / small.rate * SLACK - SLACK,
-        HeldLaw::Stick(k, g) => group(k, g).map_or(f64::NAN, |group| {
-            let beyond = norm(pair(group, lambda)) - group.coefficient * normal(k).max(0.0);
+        HeldLaw::Unilateral(block) => -lambda[block.row].lane(0) / small.force * SLACK - SLACK,
+        HeldLaw::Open(block) => -rates[block.row].lane(0) / small.rate * SLACK - SLACK,
+        HeldLaw::Stick(block, g) => of_group(block, g, &|group, normal| {
+            let beyond = norm(pair(group, lambda)) - group.coefficient * normal.max(0.0);
             beyond / small.force * SLACK - SLACK * group.slack
         }),
-        HeldLaw::Slip(k, g) => group(k, g).map_or(f64::NAN, |group| {
+        HeldLaw::Slip(block, g) => of_group(block, g, &|group, _| {
             let (rate, d) = (pair(group, rates), group.direction.map(|d| d.lane(0)));
             (rate[0] * d[0] + rate[1] * d[1] - small.held) / small.rate * SLACK
         }),

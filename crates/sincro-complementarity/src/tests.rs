@@ -2,6 +2,7 @@
 
 use super::active_set::ContactProblem;
 use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
+use super::held::ConstraintId;
 use super::solver::Solver;
 
 /// Numbers between −1 and 1, always the same.
@@ -158,11 +159,46 @@ fn held_modes_go_on_smoothly_beyond_the_laws() {
         assert!(solver.hold(&problem, &mut block, &mut lambda));
         assert!((lambda[0] - force).abs() < 1e-15);
         let violated = solver.worst_law(&problem, &block, &lambda);
-        assert_eq!(violated, (force < 0.0).then_some(super::HeldLaw::Unilateral(0)));
+        assert_eq!(violated, (force < 0.0).then_some(super::HeldLaw::Unilateral(ConstraintId::of(&block, 0))));
         if let Some(law) = violated {
             assert!(solver.excess(law, &problem, &block, &lambda) > 0.9);
         }
     }
+}
+
+/// A law is that of its constraint, also where another one before it is in the list no more.
+#[test]
+fn a_law_stays_with_its_constraint_when_another_one_leaves() {
+    // three contacts beside each other; the middle one pulls
+    let (a, b) = ([2.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 2.0], [-1.0, 1.0, -1.0]);
+    let without_friction = |rows: &[usize]| {
+        let mut blocks: Vec<_> = contacts(3, 0, 0.0);
+        for (k, block) in blocks.iter_mut().enumerate() {
+            (block.slot, block.row, block.groups) = (10 + k, k, [None; 3]);
+        }
+        let mut kept: Vec<_> = rows.iter().map(|k| blocks[*k]).collect();
+        kept.iter_mut().enumerate().for_each(|(row, block)| block.row = row);
+        kept
+    };
+    let mut solver = Solver::default();
+    let (mut blocks, mut lambda) = (without_friction(&[0, 1, 2]), vec![0.0; 3]);
+    let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
+    assert!(solver.hold(&problem, &mut blocks, &mut lambda));
+    let law = solver.worst_law(&problem, &blocks, &lambda).unwrap();
+    assert_eq!(law, super::HeldLaw::Unilateral(ConstraintId::of(&blocks, 1)));
+    let excess = solver.excess(law, &problem, &blocks, &lambda);
+    assert!(excess > 0.9);
+    // the first one has left: the law is still that of the second, at another place
+    let (mut fewer, mut lambda) = (without_friction(&[1, 2]), vec![0.0; 2]);
+    let (a, b) = ([2.0, 0.0, 0.0, 2.0], [1.0, -1.0]);
+    let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
+    assert!(solver.hold(&problem, &mut fewer, &mut lambda));
+    assert!((solver.excess(law, &problem, &fewer, &lambda) - excess).abs() < 1e-12);
+    // it has left itself: it obeys its law
+    let (mut last, mut lambda) = (without_friction(&[2]), vec![0.0; 1]);
+    let problem = ContactProblem { a: &[2.0], b: &[-1.0], n_free: 0 };
+    assert!(solver.hold(&problem, &mut last, &mut lambda));
+    assert!((solver.excess(law, &problem, &last, &lambda) + 1.0).abs() < 1e-15);
 }
 
 /// Four legs at the corners of a square share a load at (x, y) as springs of equal stiffness do, whatever the forces
