@@ -1,10 +1,10 @@
 """Grasp, lift, landing and release of the box, integrated independently of sincro from the start to the end: nothing is taken from a run.
 
-    python grasp.py                     writes reference-grasp.csv (about twelve minutes; numpy and scipy)
+    python grasp.py                     writes reference-grasp.csv (about twenty minutes; numpy and scipy)
 
 Free flight and carrying are integrated as in reference.py (DOP853): carried, fingers, box and last link are one rigid body, as they met. While fingers
 move or the box touches the shelf, the whole, manipulator, fingers and box, eighteen velocities, is stepped by the time stepping of Moreau and Jean (key
-acary2008, chapter 10) with h = 0.1 ms: M·(v' − v) = h·f + Jᵀ·P, f in the middle of the step, and for each contact Signorini's and Coulomb's laws between
+acary2008, chapter 10) with h = 0.05 ms: M·(v' − v) = h·f + Jᵀ·P, f in the middle of the step, and for each contact Signorini's and Coulomb's laws between
 the impulse P and the velocity at the end of the step, so that touching has no rebound. A gap g that would close has u_n + g/h ≥ 0: it ends closed, not
 overlapped. The impulses solve the equations of Alart and Curnier (1991) by a semismooth Newton iteration. The left finger's motor is ideal: its velocity
 is given, and jumps; the damping of the right finger is implicit.
@@ -22,7 +22,7 @@ spec.loader.exec_module(carrying)
 hover = carrying.hover
 from reference import BASE, E3, G, GAMMA0, TS, Arm, Backstepping, CommandFilter, Wind, chain, cross, euler, hold, inverse_dynamics, matrix
 
-H = 1e-4                                                    # step of the time stepping [s]
+H = 5e-5                                                    # step of the time stepping [s]
 STEPPED = [(14.0, 20.0), (36.0, 46.0)]                      # [s]
 PAD, FOOT, MU_PAD, MU_SPIN, MU_FOOT = 0.003, 0.002, 0.8, 0.008, (0.8 * 0.1) ** 0.5
 FEET = np.array([[0.012, 0.017, -0.028], [0.012, -0.017, -0.028], [-0.012, 0.0, -0.028]])
