@@ -61,8 +61,7 @@ impl fmt::Display for UnstableLoop {
 /// Finds out whether the diagram of a scene closes a loop that is unstable at the start: a small disturbance would grow
 /// a thousandfold within the run, and the loop is to blame, since the disturbance grows faster than with the commands
 /// held, or the run starts at an equilibrium, which the loop then does not hold. `None` if it is not, or cannot be
-/// told: without a loop, with continuous blocks that measure sensors or contacts, with contacts, scripts, FMUs, blocks
-/// in Lua or controllers of the program, and where linearising would take longer than a fraction of a second.
+/// told: without a loop, with blocks that measure sensors or contacts, with contacts, scripts, FMUs, blocks in Lua or controllers of the program, and where linearising would take longer than a fraction of a second.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -83,6 +82,11 @@ pub fn unstable_loop(loaded: &Loaded) -> Option<UnstableLoop> {
     if runs_foreign || touches || !loaded.scene.scripts.is_empty() || !loaded.controllers.is_empty() {
         return None;
     }
+    // what is known at ticks only is a constant in the equations: the loop would be open there
+    let readings = &loaded.controller.as_ref()?.wiring.early;
+    if readings.iter().flat_map(|reading| &reading.probes).any(|probe| is_known_at_ticks_only(*probe)) {
+        return None;
+    }
     let mut at = LockStep::new(loaded, method_for(loaded).0, false);
     at.start().ok()?;
     at.latch();
@@ -93,11 +97,6 @@ pub fn unstable_loop(loaded: &Loaded) -> Option<UnstableLoop> {
         let found = (n_steps <= MAX_STEPS).then(|| linearize_sampled(loaded, &at).ok()).flatten()?;
         (growth(&found.system), found.drift < STEADY)
     } else {
-        // what is known at ticks only is a constant in equations between them: the loop would be open there
-        let readings = &loaded.controller.as_ref()?.wiring.early;
-        if readings.iter().flat_map(|reading| &reading.probes).any(|probe| is_known_at_ticks_only(*probe)) {
-            return None;
-        }
         let found = linearize(loaded, &at, &Request { is_closed: true, ..Request::default() }).ok()?;
         (growth(&found.system), found.drift() < STEADY)
     };

@@ -30,7 +30,7 @@ use sincro_scene::experiment::check::Sense;
 /// # let done = run_campaign(folder.as_ref(), &[], &loaded, None, &interrupt, &mut |_, _| {})?;
 /// let report: RunReport = done.report; // of the scene `acrobot`
 /// assert_eq!((report.scene.as_str(), report.n_dof), ("acrobot", 2));
-/// assert_eq!((report.columns[0].path.as_str(), report.checks.len()), ("t", 1));
+/// assert!(report.columns[0].path == "t" && !report.checks.is_empty());
 /// assert_eq!(report.trace_hash, done.main.simulated.trace.to_string());
 /// # Ok(())
 /// # }
