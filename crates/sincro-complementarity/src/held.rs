@@ -190,8 +190,8 @@ impl<R: Real> Solver<R> {
         worst.0.map(|law| law.about(ConstraintId::of(blocks, law.constraint())))
     }
 
-    /// Excess of `law` over its tolerance, relative to the largest force or rate; above zero if it is violated. That of a
-    /// constraint which is none any more is −1.
+    /// Excess of `law` over its tolerance, relative to the largest force or rate; above zero if it is violated. That of
+    /// a constraint which is none any more is −1.
     #[must_use]
     pub fn excess(
         &self,

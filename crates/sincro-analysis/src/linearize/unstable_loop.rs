@@ -61,7 +61,8 @@ impl fmt::Display for UnstableLoop {
 /// Finds out whether the diagram of a scene closes a loop that is unstable at the start: a small disturbance would grow
 /// a thousandfold within the run, and the loop is to blame, since the disturbance grows faster than with the commands
 /// held, or the run starts at an equilibrium, which the loop then does not hold. `None` if it is not, or cannot be
-/// told: without a loop, with blocks that measure sensors or contacts, with contacts, scripts, FMUs, blocks in Lua or controllers of the program, and where linearising would take longer than a fraction of a second.
+/// told: without a loop, with blocks that measure sensors or contacts, with contacts, scripts, FMUs, blocks in Lua or
+/// controllers of the program, and where linearising would take longer than a fraction of a second.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
