@@ -55,6 +55,7 @@ static ISOLATED: OnceLock<IsolatedLoader> = OnceLock::new();
 /// Lets FMUs of all scenes that are opened from now on run in processes of their own: `program` with `arguments`, which
 /// calls [`sincro_fmu::import::isolated::serve`].
 #[cfg(feature = "adapters")]
+#[cfg_attr(not(feature = "run"), expect(dead_code, reason = "the command line calls it"))]
 pub(crate) fn isolate_fmus(program: PathBuf, arguments: Vec<String>) {
     let _ = ISOLATED.set(IsolatedLoader::new(program, arguments));
 }

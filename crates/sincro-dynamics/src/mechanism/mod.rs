@@ -219,7 +219,7 @@ impl<R: Real> Mechanism<R> {
         &self.base
     }
 
-    #[cfg(feature = "tangent")]
+    #[cfg(feature = "batch")]
     pub(crate) fn base_mut(&mut self) -> &mut [R] {
         &mut self.base
     }
