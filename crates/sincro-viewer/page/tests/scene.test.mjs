@@ -30,7 +30,8 @@ test("contact: points, forces and their sum; the scene's camera comes first", op
   assert.ok(content.subarray(1, 4).toString() === "PNG" && content.length > 5000, "the picture is one");
   await page.uncheck('[data-shown="contactForces"]');
   assert.doesNotMatch(await legend(page), /contact force/);
-  assert.equal(await page.locator('[data-shown="wind"]').count(), 0, "no switch for what there is not");
+  assert.ok(await page.locator('[data-toggle="contactForces"]').isVisible(), "a switch for what there is");
+  assert.equal(await page.locator('[data-toggle="wind"]').isVisible(), false, "none for what there is not");
   await page.keyboard.press("2");
   assert.match(await page.locator(".sv-menu select").inputValue(), /^front \(along y\)/);
   await page.keyboard.press("5");
