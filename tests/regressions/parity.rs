@@ -108,7 +108,7 @@ fn a_force_from_a_diagram_is_that_of_the_scene() {
     };
     let run = |force: &str, diagram: Option<Diagram>| -> Vec<u64> {
         let mut loaded = self::scene(&[]);
-        loaded.scene = scene(force);
+        loaded.scene = scene(force).into();
         loaded.controller = diagram.map(|d| ControlDiagram::new(d, &loaded.scene.model, 0.005, 0).unwrap());
         let mut run = LockStep::new(&loaded, MethodKind::Rk4, false);
         run.start().unwrap();
@@ -131,7 +131,7 @@ fn an_acceleration_is_measured_under_a_force_from_the_diagram() {
                 body = [{ name = \"brick\", parent = \"/free\", mass = 2.0, inertia = { xx = 0.1, yy = 0.2, zz = 0.25 } }]\n\
                 force = [{ name = \"push\", parent = \"/free/brick\", input = true }]";
     let mut loaded = scene(&[]);
-    loaded.scene = sincro_scene::scene::from_text(text).unwrap();
+    loaded.scene = sincro_scene::scene::from_text(text).unwrap().into();
     let mut d = Diagram::new();
     d.block("f", sincro_blocks::library::sources::Constant::new(3.0)).wire("f", "/free/brick/push.force.x");
     d.block("a", Gain::new(1.0)).wire("/free/brick.acceleration.x", "a");

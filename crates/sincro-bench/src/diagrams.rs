@@ -86,7 +86,7 @@ fn step(diagram: Option<Diagram>, method: MethodKind) -> Subject {
     let experiment = default_experiment(STEP, 1.0);
     let loaded = Loaded {
         experiment,
-        scene,
+        scene: scene.into(),
         controller,
         warnings: Vec::new(),
         sources: Vec::new(),

@@ -12,6 +12,7 @@ use sincro_scene::script::{Kind, Script, ScriptError};
 use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
+use sincro_sim::restructure::Restructured;
 use sincro_sim::run::{Halt, LockStep};
 use sincro_sim::runtime_object::RuntimeObject;
 
@@ -248,6 +249,17 @@ impl Controller for ApiController {
 
     fn changes(&self) -> &[Change] {
         self.registry.as_ref().map_or(&[], |registry| registry.changes())
+    }
+
+    fn take_restructured(&mut self) -> Vec<Restructured> {
+        self.registry.as_mut().map_or_else(Vec::new, |registry| registry.take_restructured())
+    }
+
+    fn restructured(&mut self, change: &Restructured) -> Result<(), String> {
+        if let Some(registry) = &mut self.registry {
+            registry.adopt_structure(change);
+        }
+        Ok(())
     }
 
     fn take_stop_request(&mut self) -> bool {

@@ -20,6 +20,7 @@
 //! | [`integrate`] | fixed-step and error-controlled methods: the crate `sincro-integrate` |
 //! | [`mechanism`], [`coupled`] | the system to integrate; systems integrated along with it |
 //! | [`initial`] | consistency of an initial state |
+//! | [`transfer`] | the state of a model carried over to another one: structure that changes |
 //! | [`world`], [`batch`] | a world that advances; many worlds in lanes |
 //! | [`tangent`] | a world with the derivative of its motion by one parameter |
 //!
@@ -48,6 +49,7 @@ pub mod state;
 pub mod stiffness;
 #[cfg(feature = "tangent")]
 pub mod tangent;
+pub mod transfer;
 pub mod world;
 
 pub use sincro_aero as aero;

@@ -10,6 +10,7 @@ use sincro_scene::diagnostic::{Located, Location, SourceText};
 use sincro_scene::record::Recorder;
 use sincro_scene::script::ScriptError;
 use sincro_sim::controller::{Commands, Controller, Forked, Instant};
+use sincro_sim::restructure::Restructured;
 use sincro_sim::{ControllerFactory, Loaded};
 
 use crate::numbers;
@@ -167,6 +168,10 @@ impl Controller for FunctionController {
                 commands.set(*command, *value);
             }
         }
+    }
+
+    fn restructured(&mut self, _: &Restructured) -> Result<(), String> {
+        Err("the structure changes, which a function of Python cannot follow".to_owned())
     }
 
     fn fork(&self) -> Forked {

@@ -9,7 +9,7 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::Recorder;
 use sincro_sim::Loaded;
 use sincro_sim::results::Status;
-use sincro_sim::run::{LockStep, method_for};
+use sincro_sim::run::{Followed, LockStep, method_for};
 use sincro_sim::trace::Trace;
 
 use crate::errors;
@@ -96,7 +96,7 @@ pub struct Live {
     raised: Raised,
     /// Reason of the end, if it is over.
     ended: Option<Box<Status>>,
-    recorders: BTreeMap<Vec<String>, Recorder>,
+    recorders: BTreeMap<Vec<String>, (Recorder, Followed)>,
     /// Energy at the start [J], time of the last step's begin [s], impulses of the motors at it [N·m·s].
     memory: Vec<f64>,
     is_scripted: bool,
@@ -193,10 +193,11 @@ impl Live {
             let entries = self.loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
             let model = &self.loaded.scene.model;
             let recorder = Recorder::new(&located("signal", names), model, &entries).map_err(LiveError::Names)?;
-            self.recorders.insert(names.to_vec(), recorder);
+            self.recorders.insert(names.to_vec(), (recorder, Followed::default()));
         }
         let Self { recorders, lockstep, memory, .. } = self;
-        let Some(recorder) = recorders.get_mut(names) else { return Ok(()) };
+        let Some((recorder, followed)) = recorders.get_mut(names) else { return Ok(()) };
+        lockstep.bring_up(recorder, followed);
         let t = lockstep.t();
         let (seen, signals) = lockstep.observe(t);
         // the memory is that of this model: it has the right length

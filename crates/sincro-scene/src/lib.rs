@@ -44,11 +44,13 @@
 //! | [`script`], [`fmu`], [`sensor`], [`scenery`], [`camera`] | parts of a scene: scripts, FMUs, sensors, visible pieces; rendered pictures: the crate `sincro-camera` |
 //! | [`scene`], [`record`], [`experiment`], [`diagram`] | the three files, and the catalogue of signals between them |
 //! | [`open`], [`numbers`] | a folder with all of them; every number in it that a setting reaches |
+//! | [`draft`] | a compiled scene that is edited object by object, and compiled again |
 
 pub mod apply_overrides;
 pub mod diagnostic;
 pub mod diagram;
 pub mod document;
+pub mod draft;
 mod expand;
 pub mod experiment;
 pub mod fmu;

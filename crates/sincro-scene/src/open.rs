@@ -1,5 +1,6 @@
 //! Opening a scene folder: reads, sets, checks and compiles everything in it, and reports all problems at once.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use crate::names::resolve_signals;
 use crate::normalize::{Parameters, newer_format, normalize, parameters_of};
 use crate::overrides::Override;
 use crate::record::{Recorder, catalogue};
-use crate::scene::{self, Scene, scene_schema};
+use crate::scene::{self, Scene, SceneSource, scene_schema};
 use crate::schema::validate;
 use crate::script::ScriptParser;
 use crate::tree;
@@ -345,8 +346,11 @@ fn open_one(folder: &Arc<Folder>, overrides: &[Override], loaders: Loaders) -> R
         diagnostics.merge(too_large(experiment));
     }
     match (experiment, scene) {
-        (Some(experiment), Some(scene)) if !diagnostics.any_error() => {
+        (Some(experiment), Some(mut scene)) if !diagnostics.any_error() => {
             diagnostics.merge(Diagnostics(scene.warnings.clone()));
+            let source =
+                |document| Arc::new(SceneSource { document, folder: folder.clone(), seed, parked: BTreeMap::new() });
+            scene.source = scene_document.map(source);
             Ok(Opened {
                 experiment,
                 scene,

@@ -13,7 +13,7 @@ use crate::camera::VisiblePiece;
 /// the viewer.
 #[derive(Clone, Debug)]
 pub struct Piece {
-    /// Index of its object among the objects of the scene.
+    /// Number of its object ([`Object::id`](crate::scene::Object)).
     pub object: usize,
     /// Link (or the world) that carries the piece, and its pose there `[m]`.
     pub at: Attached<f64>,

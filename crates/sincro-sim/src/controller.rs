@@ -12,6 +12,7 @@ use sincro_dynamics::state::State as WorldState;
 use sincro_dynamics::world::World;
 
 use crate::proximity::Detection;
+use crate::restructure::Restructured;
 use crate::runtime_object::RuntimeObject;
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::ScriptError;
@@ -167,18 +168,25 @@ pub enum Forked {
 ///
 /// | call | instant | may write | if it fails |
 /// |---|---|---|---|
-/// | [`start`](Controller::start) | once, before the first tick | the world | the run stops at tick 0, nothing is advanced |
+/// | [`start`](Controller::start) | once, before the first tick | the world | the run stops at tick 0, nothing is
+/// advanced |
 /// | [`preview`](Controller::preview) | t_k, before all act | its own memory | cannot fail |
-/// | [`actuate`](Controller::actuate) | t_k, before the world advances | the world, its own memory | the run stops at t_k: the state is that of t_k |
+/// | [`actuate`](Controller::actuate) | t_k, before the world advances | the world, its own memory | the run stops at
+/// t_k: the state is that of t_k |
 /// | [`latch`](Controller::latch) | t_k, after all have acted | commands, through [`Commands::set`] | cannot fail |
 /// | [`latched`](Controller::latched) | t_k, under the commands of the step | its own memory | cannot fail |
-/// | [`continuous`](Controller::continuous) | between t_k and t_{k+1} | its own states and commands | shows in the motion: the run stops there |
-/// | [`update_proximity_sensors`](Controller::update_proximity_sensors) | t_{k+1}, once the scene's proximity sensors are up to date | its own memory | cannot fail |
-/// | [`sense`](Controller::sense) | t_{k+1} | the world, for the next step | the run stops at t_{k+1}: the step has been made and is recorded |
+/// | [`continuous`](Controller::continuous) | between t_k and t_{k+1} | its own states and commands | shows in the
+/// motion: the run stops there |
+/// | [`update_proximity_sensors`](Controller::update_proximity_sensors) | t_{k+1}, once the scene's proximity sensors
+/// are up to date | its own memory | cannot fail |
+/// | [`sense`](Controller::sense) | t_{k+1} | the world, for the next step | the run stops at t_{k+1}: the step has
+/// been made and is recorded |
 /// | [`evaluate_outputs`](Controller::evaluate_outputs) | t_{k+1} | its continuous commands | cannot fail |
 /// | [`measure`](Controller::measure) | t_{k+1}, once all sensors have their samples | its own memory | as `sense` |
-/// | [`write_outputs`](Controller::write_outputs) | once, after the first `measure` | its continuous commands | cannot fail |
-/// | [`finish`](Controller::finish) | once, after the last tick | its own memory | the end of the run is reported as a stop |
+/// | [`write_outputs`](Controller::write_outputs) | once, after the first `measure` | its continuous commands | cannot
+/// fail |
+/// | [`finish`](Controller::finish) | once, after the last tick | its own memory | the end of the run is reported as a
+/// stop |
 ///
 /// A controller decides by the tick at which it is called whether a step of its own begins. All methods but
 /// [`Controller::name`] do nothing unless they are implemented. Nothing in it may depend on a clock or on the order of
@@ -353,6 +361,21 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Returns the changes of the model that the controller has made, in the order of time, for the results.
     fn changes(&self) -> &[Change] {
         &[]
+    }
+
+    /// Takes the changes of the structure that the controller has made in the world since the last call, in their
+    /// order.
+    fn take_restructured(&mut self) -> Vec<Restructured> {
+        Vec::new()
+    }
+
+    /// Receives a change of the structure that another controller has made in the world, or that comes with a snapshot.
+    ///
+    /// # Errors
+    ///
+    /// A sentence, if the controller cannot go on; the run stops.
+    fn restructured(&mut self, _change: &Restructured) -> Result<(), String> {
+        Ok(())
     }
 
     /// Returns true if the controller has asked to stop the run since the last call, and forgets the request.

@@ -17,9 +17,10 @@ use sincro_dynamics::world::World;
 use sincro_math::Real;
 
 use crate::controller::{Commands, Controller, Forked, Instant, NotFinite, Source};
+use crate::restructure::Restructured;
 use sincro_scene::diagram::{Wiring, is_known_at_ticks_only};
-use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{self, View};
+use sincro_scene::record::{Probe, ProbeMap};
 
 /// Block diagram that controls a world, with its state, in any number type: plain numbers in a run, dual numbers for
 /// linearisation.
@@ -39,6 +40,8 @@ pub struct DiagramController<R: Number> {
     held: Vec<f64>,
     /// True for each command that a stronger source has set in this step: continuous blocks do not write it.
     is_overridden: Vec<bool>,
+    /// Index of each command that the diagram gives.
+    terminals: Vec<usize>,
 }
 
 impl<R: Number> DiagramController<R> {
@@ -59,6 +62,7 @@ impl<R: Number> DiagramController<R> {
             sensed: vec![0.0; model.names().sensors.iter().map(|s| s.values.len()).sum()],
             held: vec![0.0; model.n_commands()],
             is_overridden: vec![false; model.n_commands()],
+            terminals: wiring.program().commands.iter().map(|command| command.terminal).collect(),
         }
     }
 
@@ -111,9 +115,9 @@ impl<R: Number> DiagramController<R> {
     }
 
     fn write_commands(&self, commands: &mut [R], continuous_only: bool) {
-        for command in &self.wiring.program().commands {
-            if (command.is_continuous || !continuous_only) && !self.is_overridden[command.terminal] {
-                commands[command.terminal] = self.runner.signals()[command.signal.start];
+        for (command, terminal) in self.wiring.program().commands.iter().zip(&self.terminals) {
+            if (command.is_continuous || !continuous_only) && !self.is_overridden[*terminal] {
+                commands[*terminal] = self.runner.signals()[command.signal.start];
             }
         }
     }
@@ -299,14 +303,41 @@ impl DiagramController<f64> {
     }
 }
 
+impl DiagramController<f64> {
+    /// Connects measurements and commands to the same objects of a model whose structure has changed.
+    fn rewire(&mut self, change: &Restructured) -> Result<(), String> {
+        let model = &change.scene.model;
+        let map = ProbeMap::new(&change.former, model, &|path| change.path_of(path));
+        let gone = |name: &str| format!("the diagram measures `{name}`, which has gone");
+        let mut wiring = (*self.wiring).clone();
+        for reading in wiring.early.iter_mut().chain(&mut wiring.late) {
+            for probe in &mut reading.probes {
+                *probe = map.probe(*probe).map_err(|name| gone(&name))?;
+            }
+        }
+        let former = &change.transferred.commands;
+        for terminal in &mut self.terminals {
+            let now = former.iter().position(|old| *old == Some(*terminal));
+            *terminal = now.ok_or("the diagram commands a motor, rotor or force that has gone")?;
+        }
+        self.wiring = Arc::new(wiring);
+        let fresh = Self::new(&self.wiring, model);
+        self.impulse = change.transferred.state.totals[2..].to_vec();
+        (self.zero, self.late_torque, self.late_accelerations) =
+            (fresh.zero, fresh.late_torque, fresh.late_accelerations);
+        (self.sensed, self.held, self.is_overridden) = (fresh.sensed, fresh.held, fresh.is_overridden);
+        Ok(())
+    }
+}
+
 impl Controller for DiagramController<f64> {
     fn name(&self) -> &str {
         "diagram"
     }
 
     fn latch(&self, commands: &mut Commands<'_>) {
-        for command in &self.wiring.program().commands {
-            commands.set(command.terminal, self.runner.signals()[command.signal.start]);
+        for (command, terminal) in self.wiring.program().commands.iter().zip(&self.terminals) {
+            commands.set(*terminal, self.runner.signals()[command.signal.start]);
         }
     }
 
@@ -347,6 +378,10 @@ impl Controller for DiagramController<f64> {
         self.runner.resume(saved.clone(), world.tick);
         self.tick = world.tick;
         self.impulse.copy_from_slice(&world.totals[2..]);
+    }
+
+    fn restructured(&mut self, change: &Restructured) -> Result<(), String> {
+        self.rewire(change)
     }
 
     fn fork(&self) -> Forked {

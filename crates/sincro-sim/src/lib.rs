@@ -61,6 +61,7 @@
 //! | [`controller`], [`diagram_controller`] | controllers in lock-step; block diagrams as one |
 //! | [`sensors`], [`proximity`] | sensors of a scene in a run |
 //! | [`run`] | the step, and a run from its start to its end |
+//! | [`restructure`], [`structure`] | change of the structure between two steps, and what it has become |
 //! | [`runtime_object`] | objects that clients and scripts make at run time, for pictures |
 //! | [`trace`], [`snapshot`], [`validity`], [`replay`] | hash of a run, state as bytes, validity of rotor theory, keyframes |
 //! | [`audit`] | laws, solver, energy balance and inputs of every run, against the limits of its accuracy |
@@ -81,6 +82,7 @@ mod number;
 pub mod prelude;
 pub mod proximity;
 pub mod replay;
+pub mod restructure;
 pub mod result_folder;
 pub mod results;
 #[cfg(feature = "tasks")]
@@ -89,6 +91,7 @@ pub mod run;
 pub mod runtime_object;
 pub mod sensors;
 pub mod snapshot;
+pub mod structure;
 pub mod sweep;
 pub mod table;
 #[cfg(feature = "tasks")]

@@ -37,7 +37,7 @@ pub struct Loaded {
     /// Experiment: times, recorded signals, checks, variants.
     pub experiment: Experiment,
     /// Compiled scene with its model.
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
     /// Block diagram that controls the scene, if there is one.
     pub controller: Option<ControlDiagram>,
     /// Warnings about the files, in their order.
@@ -203,6 +203,7 @@ fn with(
 impl Loaded {
     fn new(opened: Opened, extensions: Extensions) -> Self {
         let Opened { experiment, scene, controller, warnings, sources, folder } = opened;
+        let scene = Arc::new(scene);
         Self { experiment, scene, controller, warnings, sources, folder, extensions, controllers: Vec::new() }
     }
 

@@ -14,9 +14,9 @@ use sincro_scene::sensor::SensorSpec;
 pub struct ProximitySensor {
     /// Volume of detection, in the sensor's axes `[m]`.
     pub field: FieldOfView,
-    /// Indices of the objects that it detects; empty: all but those that [`ProximitySensor::admits`] leaves out.
+    /// Numbers of the objects that it detects; empty: all but those that [`ProximitySensor::admits`] leaves out.
     pub with: Vec<usize>,
-    /// Index of the object that carries it; `None`: it stands in the world.
+    /// Number of the object that carries it; `None`: it stands in the world.
     pub carrier: Option<usize>,
 }
 
@@ -24,7 +24,7 @@ impl ProximitySensor {
     /// Creates the proximity sensor of a sensor specification of `scene`; `None` for other kinds of sensors.
     #[must_use]
     pub fn of(spec: &SensorSpec, scene: &Scene) -> Option<Self> {
-        let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
+        let object_of = |path: &str| scene.object(path).map(|o| o.id);
         let with = || spec.with.iter().filter_map(|path| object_of(&path.value)).collect();
         spec.kind.field().map(|field| Self { field, with: with(), carrier: object_of(&spec.of) })
     }
@@ -33,7 +33,7 @@ impl ProximitySensor {
 /// Detection of a proximity sensor: the nearest point in its volume, in the sensor's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detection {
-    /// Index of the detected object: those of the scene first, then those that were made later, by scripts or clients.
+    /// Number of the detected object: those of the scene first, then those that were made later, by scripts or clients.
     pub object: usize,
     /// Distance of the point from the sensor's origin `[m]`.
     pub distance: f64,

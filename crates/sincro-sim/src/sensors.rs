@@ -17,6 +17,21 @@ use sincro_scene::scene::Scene;
 use sincro_scene::scenery::Scenery;
 use sincro_scene::sensor::{Errors, SensorKind, every};
 
+/// Timing and noise that samples depend on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Timing {
+    /// Base step `[s]`.
+    pub step: f64,
+    /// Seed of the experiment.
+    pub seed: u64,
+}
+
+impl Timing {
+    pub fn new(experiment: &Experiment) -> Self {
+        Self { step: experiment.step, seed: experiment.seed }
+    }
+}
+
 /// All sensors of a scene with what they gave last.
 #[derive(Clone, Debug)]
 pub(crate) struct Sensors {
@@ -51,15 +66,15 @@ struct Sensor {
 
 impl Sensors {
     /// Before their first sample.
-    pub fn new(scene: &Scene, experiment: &Experiment) -> Self {
+    pub fn new(scene: &Scene, timing: Timing) -> Self {
         let (mut list, mut first) = (Vec::new(), 0);
         for spec in &scene.sensors {
             let frames = &scene.model.names().frames;
             let frame = frames.iter().position(|f| f.name == spec.path).expect("a sensor is a frame of the model");
             let frame_of = |path: &str| frames.iter().position(|f| f.name == path);
-            let every = every(spec, experiment.step).expect("sample times have been checked");
+            let every = every(spec, timing.step).expect("sample times have been checked");
             let n = spec.kind.values().len();
-            let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
+            let object_of = |path: &str| scene.object(path).map(|o| o.id);
             let proximity = ProximitySensor::of(spec, scene);
             list.push(Sensor {
                 kind: spec.kind,
@@ -69,8 +84,8 @@ impl Sensors {
                 with: spec.with.iter().filter_map(|path| frame_of(&path.value)).collect(),
                 at: attached(&scene.model, frame),
                 every,
-                root_rate: 1.0 / (every as f64 * experiment.step).sqrt(),
-                seed: seed_of(experiment.seed, &spec.path),
+                root_rate: 1.0 / (every as f64 * timing.step).sqrt(),
+                seed: seed_of(timing.seed, &spec.path),
                 first,
                 n,
             });
@@ -82,6 +97,17 @@ impl Sensors {
         let scenery = if looks { scene.scenery().clone() } else { Scenery::default() };
         let zero = vec![0.0; if looks { scene.model.n_v() } else { 0 }];
         Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
+    }
+
+    /// Sensors of another scene; those that both have keep their last values.
+    pub fn continued(&self, scene: &Scene, timing: Timing) -> Self {
+        let mut new = Self::new(scene, timing);
+        for sensor in &new.list {
+            if let Some(old) = self.list.iter().find(|old| old.object == sensor.object && old.n == sensor.n) {
+                new.values[sensor.first..][..sensor.n].copy_from_slice(&self.values[old.first..][..old.n]);
+            }
+        }
+        new
     }
 
     /// Updates the proximity sensors that are due, before scripts sense, as in V-REP, and passes the detections to the

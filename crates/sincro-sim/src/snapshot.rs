@@ -3,21 +3,25 @@
 //! Little endian, in this order: magic and version, hash of the model it belongs to, tick, trace hash, the integration
 //! method and its error control, the seven vectors of [`State`] with their lengths, that of the sensors, the
 //! parameters of the model (none if they are those of the scene), the three of the diagram's state and the bytes that
-//! blocks keep elsewhere (if there is a diagram), and a checksum of all that.
+//! blocks keep elsewhere (if there is a diagram), the structure if it is not that of the start (text of its scene,
+//! numbers of its objects, coordinates after its last change), and a checksum of all that.
 
 use std::fmt;
 use std::hash::Hasher;
+use std::sync::Arc;
 
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::model::ModelParams;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
+use sincro_scene::draft;
 use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
+use crate::structure::Structure;
 use crate::trace::{Trace, plant_hash};
 
-const MAGIC: &[u8; 8] = b"sincro08";
+const MAGIC: &[u8; 8] = b"sincro09";
 
 /// Snapshot of a run: everything needed to go on from there bit for bit. Made by
 /// [`LockStep::snapshot`](crate::run::LockStep::snapshot).
@@ -58,6 +62,8 @@ pub struct Snapshot {
     pub sensors: Vec<f64>,
     /// State of the diagram: signals, continuous states, memory; `None` without a diagram.
     pub diagram: Option<sincro_blocks::runner::State<f64>>,
+    /// Structure, if it is not that of the start; `None` for that of the scene.
+    pub structure: Option<Structure>,
 }
 
 /// Error of reading a snapshot by [`Snapshot::from_bytes`].
@@ -116,6 +122,7 @@ impl Snapshot {
                 bytes.extend(outside);
             }
         }
+        write_structure(self.structure.as_ref(), &mut bytes);
         let sum = checksum(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
@@ -155,11 +162,7 @@ impl Snapshot {
             tick,
         };
         let sensors = reader.vector()?;
-        let (model, numbers) = (&loaded.scene.model, reader.vector()?);
-        let params = match numbers.is_empty() {
-            true => None,
-            false => Some(Box::new(model.params_from_numbers(&numbers).ok_or(SnapshotError::Damaged)?)),
-        };
+        let numbers = reader.vector()?;
         let diagram = match loaded.controller {
             None => None,
             Some(_) => Some(sincro_blocks::runner::State {
@@ -169,13 +172,63 @@ impl Snapshot {
                 outside: reader.byte_strings()?,
             }),
         };
-        Ok(Self { state, params, trace, method, control, sensors, diagram })
+        let structure = read_structure(&mut reader, loaded)?;
+        let model = structure.as_ref().map_or(&loaded.scene.model, |structure| &structure.scene.model);
+        let params = match numbers.is_empty() {
+            true => None,
+            false => Some(Box::new(model.params_from_numbers(&numbers).ok_or(SnapshotError::Damaged)?)),
+        };
+        Ok(Self { state, params, trace, method, control, sensors, diagram, structure })
     }
 }
 
 /// Place of a method among all.
 fn code(method: MethodKind) -> u64 {
     MethodKind::ALL.into_iter().position(|known| known == method).expect("every method has a code") as u64
+}
+
+/// Writes the structure: number of its changes (0: that of the start), its hash and energy, the texts of the scene, the
+/// numbers of the objects and the coordinates after the last change.
+fn write_structure(structure: Option<&Structure>, bytes: &mut Vec<u8>) {
+    bytes.extend(structure.map_or(0, |structure| structure.count).to_le_bytes());
+    let Some(structure) = structure else { return };
+    bytes.extend(structure.hash.to_le_bytes());
+    bytes.extend(structure.energy_added.to_le_bytes());
+    let text = structure.scene.source.as_ref().map_or("", |source| source.document.source.text.as_str());
+    let parked = structure.scene.source.as_ref().map_or_else(String::new, |source| draft::parked_text(source));
+    for text in [text, &parked] {
+        bytes.extend((text.len() as u64).to_le_bytes());
+        bytes.extend(text.as_bytes());
+    }
+    bytes.extend((structure.scene.objects.len() as u64).to_le_bytes());
+    structure.scene.objects.iter().for_each(|object| bytes.extend((object.id as u64).to_le_bytes()));
+    bytes.extend((structure.scene.initial.q.len() as u64).to_le_bytes());
+    structure.scene.initial.q.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+}
+
+fn read_structure(reader: &mut Reader<'_>, loaded: &Loaded) -> Result<Option<Structure>, SnapshotError> {
+    let damaged = SnapshotError::Damaged;
+    let count = reader.integer()?;
+    if count == 0 {
+        return Ok(None);
+    }
+    let (hash, energy_added) = (reader.integer()?, reader.number()?);
+    let mut text = || {
+        let n = usize::try_from(reader.integer()?).map_err(|_| damaged)?;
+        std::str::from_utf8(reader.take(n)?).map_err(|_| damaged)
+    };
+    let (text, parked) = (text()?, text()?);
+    let n = usize::try_from(reader.integer()?).map_err(|_| damaged)?;
+    let ids = (0..n).map(|_| reader.integer().map(|id| id as usize)).collect::<Result<Vec<_>, _>>()?;
+    let q = reader.vector()?;
+    let source = loaded.scene.source.as_ref().ok_or(SnapshotError::OtherModel)?;
+    let mut scene = draft::compile_text(text, source, &ids, parked).map_err(|_| SnapshotError::OtherModel)?;
+    scene.scripts.clone_from(&loaded.scene.scripts);
+    if scene.initial.q.len() != q.len() {
+        return Err(damaged);
+    }
+    scene.initial.q = q;
+    Ok(Some(Structure { scene: Arc::new(scene), hash, energy_added, count }))
 }
 
 fn checksum(bytes: &[u8]) -> u64 {

@@ -48,6 +48,13 @@ impl Trace {
         self.0 = hasher.finish();
     }
 
+    /// Adds the hash of a structure that differs from that of the start.
+    pub(crate) fn add_structure(&mut self, structure: u64) {
+        let mut hasher = XxHash3_64::with_seed(self.0);
+        hasher.write(&structure.to_le_bytes());
+        self.0 = hasher.finish();
+    }
+
     /// Adds states that are integrated together with the world; nothing if there are none. What a controller remembers
     /// from tick to tick is not hashed: the same motion has the same hash, whoever commands it.
     pub(crate) fn add_continuous(&mut self, states: &[f64]) {

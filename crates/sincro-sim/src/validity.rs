@@ -36,6 +36,18 @@ impl Register {
         Self { counts: vec![none; model.rotors().len()], zero: vec![0.0; model.n_v()] }
     }
 
+    /// Goes on with a model of another structure; `path_of` gives the path now of a rotor of the former one.
+    pub fn restructured(&mut self, former: &Model<f64>, model: &Model<f64>, path_of: &dyn Fn(&str) -> Option<String>) {
+        let mut new = Self::new(model);
+        for (name, counts) in former.names().rotors.iter().zip(&self.counts) {
+            let place = path_of(name).and_then(|path| model.names().rotors.iter().position(|rotor| *rotor == path));
+            if let Some(k) = place {
+                new.counts[k] = *counts;
+            }
+        }
+        *self = new;
+    }
+
     /// Checks every rotor at the end of a step, at time `t` `[s]`.
     pub fn update(&mut self, world: &mut World, t: f64) {
         if self.counts.is_empty() {

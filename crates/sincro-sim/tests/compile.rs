@@ -66,7 +66,7 @@ fn initial_states_of_every_kind_of_joint() {
             "[[body]]\nname = \"m\"\nparent = \"/{name}\"\ndensity = 1\nshape = [{{ sphere = {{ radius = 1 }} }}]\n"
         );
     }
-    let state = with_scene(&scene).scene.initial;
+    let state = with_scene(&scene).scene.initial.clone();
     assert_eq!(state.q, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.0, 0.8, 0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 0.0, 0.0]);
     assert_eq!(state.v, [1.0, 2.0, 0.0, 0.0, 0.0, 3.0, 4.0, 5.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
 }
@@ -154,7 +154,7 @@ fn a_nearly_unit_quaternion_is_made_one() {
         "kind = \"revolute\"\nmotor",
         "kind = \"ball\"\ninitial = { position = [0.6000001, 0, 0.8, 0] }\n# motor",
     );
-    let q = folder.load(&[]).unwrap().scene.initial.q;
+    let q = folder.load(&[]).unwrap().scene.initial.q.clone();
     let norm: f64 = q[1..].iter().map(|x| x * x).sum();
     assert!((norm - 1.0).abs() < 1e-15);
 }

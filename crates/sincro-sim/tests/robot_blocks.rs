@@ -34,7 +34,7 @@ fn with(scene: Scene, draw: impl FnOnce(&mut Diagram, &Context, usize)) -> LockS
     let (mut diagram, context) = (Diagram::new(), Context { parser: None, fmus: None, model: scene.model.clone() });
     draw(&mut diagram, &context, tool);
     let controller = ControlDiagram::new(diagram, &scene.model, 0.005, 0).unwrap_or_else(|p| panic!("{p:?}"));
-    let loaded = Loaded { scene, controller: Some(controller), ..loaded };
+    let loaded = Loaded { scene: scene.into(), controller: Some(controller), ..loaded };
     let mut run = LockStep::new(&loaded, MethodKind::DormandPrince, false);
     run.start().unwrap();
     run

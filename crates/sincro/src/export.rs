@@ -149,7 +149,7 @@ fn picture(loaded: &Loaded) -> Option<String> {
     let model = &loaded.scene.model;
     let mut lockstep = sincro_sim::run::LockStep::new(loaded, sincro_sim::run::method_for(loaded).0, false);
     let mut trajectory = sincro_sim::replay::Trajectory::new(model, &loaded.experiment);
-    trajectory.record(&lockstep.observe(0.0).0, 0, 0.0);
+    trajectory.record(&lockstep.observe(0.0).0, 0, 0.0, None);
     let view = sincro_sim::replay::SceneView::new(&loaded.scene);
     let size = (640.0, 400.0);
     (trajectory.n_frames() > 0).then(|| sincro_viewer::picture::still(&view, trajectory.frame(0), size))

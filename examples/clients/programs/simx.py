@@ -215,6 +215,19 @@ def simxRemoveObject(client, handle, mode):
     return _call(client, 0x1028, _ints(handle), b'', mode)[0]
 
 
+def simxRemoveModel(client, handle, mode):
+    return _call(client, 0x1037, _ints(handle), b'', mode)[0]
+
+
+def simxCopyPasteObjects(client, handles, mode):
+    code, data = _call(client, 0x102e, b'', struct.pack(f'<{len(handles)}i', *handles), mode)
+    return code, list(struct.unpack_from(f'<{struct.unpack_from("<i", data)[0]}i', data, 4)) if code == 0 else []
+
+
+def simxLoadModel(client, path, options, mode):
+    return _read(_call(client, 0x3003, _name(path), struct.pack('<B', options), mode), 'i', [-1])
+
+
 def simxGetObjectPosition(client, handle, against, mode):
     return _vector(_call(client, 0x200e, _ints(handle, against), b'', mode), 3)
 

@@ -38,7 +38,7 @@ impl ObjectRegistry {
 
 impl SimApi<'_> {
     /// When the next step begins `[s]`; 0 while stopped.
-    fn acts_at(&self) -> f64 {
+    pub(super) fn acts_at(&self) -> f64 {
         if self.is_running() { self.world.state.tick as f64 * self.registry.base_step() } else { 0.0 }
     }
 

@@ -4,9 +4,10 @@
 use std::collections::BTreeMap;
 
 use sincro_dynamics::spatial::{Pose, Vec3};
-use sincro_sim::runtime_object::{Drawing, DrawingKind, DrawingStyle, RuntimeObject};
+use sincro_sim::runtime_object::{Drawing, DrawingKind, DrawingStyle, RuntimeObject, RuntimePart};
 
 use super::registry::{Handle, Kind, ObjectRegistry, WORLD};
+use super::senses::handle_of;
 use super::{ApiError, SimApi};
 
 /// Drawings that may exist at once.
@@ -210,11 +211,34 @@ impl Drawings {
 }
 
 impl ObjectRegistry {
+    /// Visible parts of an object that was made: of a runtime object, or of one that is part of the model.
+    fn shown_parts(
+        &self,
+        of_runtime: &mut BTreeMap<Handle, Vec<RuntimePart>>,
+        entry: &super::Entry,
+    ) -> Vec<RuntimePart> {
+        if !self.added.contains(&entry.handle) {
+            return of_runtime.remove(&entry.handle).unwrap_or_default();
+        }
+        let x_of = entry.frame.pose.inverse();
+        let own = self.senses.scenery.pieces.iter().filter(|piece| handle_of(piece) == entry.handle);
+        let part = |piece: &sincro_scene::scenery::Piece| RuntimePart {
+            geometry: piece.geometry.clone(),
+            place: x_of.compose(&piece.at.pose),
+            color: piece.color,
+        };
+        own.map(part).collect()
+    }
+
     /// Calls `visit` with everything that was made at run time, and with frames of the scene that were moved.
     pub(crate) fn visit_runtime_objects(&self, visit: &mut dyn FnMut(&RuntimeObject<'_>)) {
         let mut parts = self.senses.parts_by_object();
-        for entry in self.entries().filter(|e| e.is_runtime || self.moved_frames.contains(&e.handle)) {
+        let is_shown =
+            |e: &&super::Entry| e.is_runtime || self.moved_frames.contains(&e.handle) || self.added.contains(&e.handle);
+        for entry in self.entries().filter(is_shown) {
             let kind = match entry.kind {
+                Kind::Body(_) => "body",
+                Kind::Joint(_) => "joint",
                 Kind::Shape => "shape",
                 Kind::Proximity => "proximity sensor",
                 Kind::Vision(_) => "vision sensor",
@@ -226,7 +250,7 @@ impl ObjectRegistry {
                 path: &entry.path,
                 kind,
                 at: entry.frame,
-                parts: parts.remove(&entry.handle).unwrap_or_default(),
+                parts: self.shown_parts(&mut parts, entry),
                 field: self.senses.proximity.get(&entry.handle).map(|known| known.sensor.field),
                 drawing: None,
             });

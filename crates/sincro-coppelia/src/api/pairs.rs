@@ -5,7 +5,7 @@ use sincro_dynamics::contact::Material;
 
 use super::registry::{Handle, ObjectRegistry};
 use super::{ApiError, SimApi};
-use sincro_sim::load::Loaded;
+use sincro_scene::scene::Scene;
 
 /// A pair of surfaces of the model, by its bodies.
 #[derive(Clone, Debug)]
@@ -28,8 +28,8 @@ pub struct ContactOverride {
 }
 
 /// The pairs of a scene, in the model's order.
-pub(super) fn pairs_of(loaded: &Loaded, registry: &ObjectRegistry) -> Vec<Pair> {
-    let set = loaded.scene.model.constraints();
+pub(super) fn pairs_of(scene: &Scene, registry: &ObjectRegistry) -> Vec<Pair> {
+    let set = scene.model.constraints();
     let body = |k: usize| {
         let name = &set.colliders[k].name;
         registry.entries().find(|e| e.path == *name).map_or(Handle(-1), |e| e.handle)

@@ -5,10 +5,11 @@ use sincro_dynamics::actuation::MotorMode;
 use super::lens::{vision_float, vision_int};
 use super::program::unknown;
 use super::registry::{Handle, Kind};
+use super::structure::Role;
 use super::{ApiError, SimApi};
 
-/// Message for a runtime shape, which is never dynamic.
-pub(super) const STATIC: &str = "what is made at run time is static and touches nothing: it is seen, measured and put somewhere; give bodies that move or touch in the scene";
+/// Message for a runtime shape that is no body of the model.
+pub(super) const STATIC: &str = "a shape that is made is static and touches nothing; the parameters 3003 (static) = 0 and 3004 (respondable) = 1 make it a body that moves and touches";
 
 impl SimApi<'_> {
     /// Whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control loop on,
@@ -52,15 +53,18 @@ impl SimApi<'_> {
         }
         if entry.kind == Kind::Shape && matches!(id, 3003 | 3004 | 3019) {
             // static and not respondable it is
-            return if (value != 0) == (id == 3003) { Ok(()) } else { Err(ApiError::new(STATIC)) };
+            let (is_static, is_respondable) = (id != 3003, id == 3004);
+            return match (value != 0) == (id == 3003) || id == 3019 {
+                true => Ok(()),
+                false => self.give_role(handle, Role { is_static, is_respondable, mass: None }),
+            };
         }
         let is_body = matches!(entry.kind, Kind::Body(_));
         let belongs = |what: &str| ApiError(format!("`{}`: {what}", entry.path));
         match id {
+            3004 if is_body && value != 0 && !self.has_contact(handle) => return self.add_contact(handle),
             3004 if is_body => return self.set_respondable(handle, value != 0),
-            3003 if is_body => {
-                return Err(belongs("whether a body moves belongs to the scene: hang it on a joint, or on `/`"));
-            }
+            3003 if is_body => return self.set_static(handle, value != 0),
             3019 if is_body => {
                 return Err(belongs(
                     "who touches whom belongs to the scene: `contact = { group = … }`; sysCall_contact may decide at each step",

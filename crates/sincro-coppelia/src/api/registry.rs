@@ -2,6 +2,10 @@
 //! world is in [`super::SimApi`].
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde_json::Map;
 
 use sincro_dynamics::actuation::{Motor, MotorMode};
 use sincro_dynamics::joint::JointKind;
@@ -21,13 +25,15 @@ use super::ports::LegacyPorts;
 use super::senses::Senses;
 use super::signals::Signals;
 use super::stored::Stored;
+use super::structure::Needed;
 use super::tubes::Tubes;
 use super::value::Value;
 use super::vision::Vision;
-use super::{ApiError, Phase, convention};
-use sincro_scene::scene::{Object, ObjectKind};
+use super::{ApiError, Phase};
+use sincro_scene::scene::{Object, Scene};
 use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
+use sincro_sim::restructure::Restructured;
 
 /// Number by which clients and scripts name an object: 1 for the first object of the scene, then in the order of the
 /// file; runtime objects follow. Negative numbers have meanings of their own (−1 `sim.handle_world`, −2
@@ -136,6 +142,8 @@ pub(crate) enum Request {
     Load(String),
     /// Close the scene.
     Close,
+    /// Write a model into the folder for files of clients: name and text.
+    Save(String, String),
 }
 
 /// Objects of a scene and runtime objects by handle, with signals, setpoints and everything else that clients and
@@ -149,18 +157,18 @@ pub struct ObjectRegistry {
     pub(super) names: BTreeMap<String, usize>,
     /// First number that may be free behind a name that is taken.
     pub(super) numbers: BTreeMap<String, usize>,
-    joints: Vec<JointEntry>,
+    pub(super) joints: Vec<JointEntry>,
     /// Joint of each handle, where there is one.
-    joint_of: BTreeMap<Handle, usize>,
+    pub(super) joint_of: BTreeMap<Handle, usize>,
     /// Commands held from outside: they win over the scene's signals and the diagram.
-    held: Vec<Option<f64>>,
-    commands: Vec<Signal>,
+    pub(super) held: Vec<Option<f64>>,
+    pub(super) commands: Vec<Signal>,
     /// Commands of scene and diagram for the step that begins, while scripts act; empty at other times.
-    upcoming: Vec<f64>,
+    pub(super) upcoming: Vec<f64>,
     /// Base step `[s]`.
-    step: f64,
+    pub(super) step: f64,
     sample_ticks: u64,
-    impulse: Vec<f64>,
+    pub(super) impulse: Vec<f64>,
     has_stepped: bool,
     /// Whole-number signals of scripts and clients, by name.
     pub integers: Signals<i64>,
@@ -227,6 +235,18 @@ pub struct ObjectRegistry {
     pub legacy_ports: Option<LegacyPorts>,
     /// Ports of the legacy API that scripts want to be open.
     port_requests: Vec<u16>,
+    /// Scene that the world is of now.
+    pub(super) scene: Arc<Scene>,
+    /// Objects of the scene that clients and scripts have added to it.
+    pub(super) added: BTreeSet<Handle>,
+    /// Joints that were made and move nothing yet, with their keys in a scene file: they are no part of the model.
+    pub(super) parked: BTreeMap<Handle, Map<String, serde_json::Value>>,
+    /// Needs of the diagram.
+    pub(super) needed: Arc<Needed>,
+    /// Changes of the structure that the lock-step has not taken yet.
+    pub(super) restructured: Vec<Restructured>,
+    /// Folder for files of clients, from which models may be loaded; none if they may send none.
+    pub(crate) sent_folder: Option<PathBuf>,
 }
 
 impl ObjectRegistry {
@@ -234,7 +254,7 @@ impl ObjectRegistry {
     /// 0 counts as 1.
     #[must_use]
     pub fn new(loaded: &Loaded, sample_ticks: u64) -> Self {
-        let (scene, names) = (&loaded.scene, loaded.scene.model.names());
+        let scene = &loaded.scene;
         let mut new = Self {
             entries: Vec::with_capacity(scene.objects.len()),
             n_created: 0,
@@ -283,71 +303,15 @@ impl ObjectRegistry {
             recorded_frames: BTreeSet::new(),
             legacy_ports: None,
             port_requests: Vec::new(),
+            scene: Arc::clone(scene),
+            added: BTreeSet::new(),
+            parked: BTreeMap::new(),
+            needed: Arc::new(Needed::new(loaded)),
+            restructured: Vec::new(),
+            sent_folder: None,
         };
-        for object in &scene.objects {
-            let handle = new.next_handle();
-            let parent = object.parent.map(|k| Handle(k as i32 + 1));
-            let of_parent = parent.and_then(|p| new.entry(p).ok()).map_or(WORLD, |p| p.moving);
-            let beside = Attached { pose: of_parent.pose.compose(&object.pose), ..of_parent };
-            let of_frame = || names.frame(&object.path).map(|f| Attached { link: f.link, pose: f.pose });
-            let (kind, frame, moving) = match &object.kind {
-                ObjectKind::Joint { kind, motor } => match names.joint(&object.path) {
-                    None => (Kind::Joint(None), beside, beside),
-                    Some(joint) => {
-                        if *kind == JointKind::Fixed {
-                            let measuring = Kind::ForceSensor(joint.v_idx);
-                            new.add(object, measuring, parent, (joint.base, joint.moving));
-                            continue;
-                        }
-                        let turn = axis_of(kind).map_or_else(Mat3::identity, convention::rotation_to);
-                        let own = axis_of(kind).is_some().then(|| {
-                            new.joint_of.insert(handle, new.joints.len());
-                            new.joints.push(JointEntry {
-                                handle,
-                                kind: *kind,
-                                q_idx: joint.q_idx,
-                                v_idx: joint.v_idx,
-                                motor: *motor,
-                                drive: motor.map(|m| scene.model.motors()[m]),
-                                scene_mode: motor.map(|m| scene.model.motors()[m].mode),
-                                target_velocity: None,
-                                target_position: None,
-                                target_force: None,
-                            });
-                            new.joints.len() - 1
-                        });
-                        (Kind::Joint(own), turned(joint.base, &turn), turned(joint.moving, &turn))
-                    }
-                },
-                ObjectKind::Body { mass } => {
-                    let at = of_frame().unwrap_or(beside);
-                    (Kind::Body(*mass), at, at)
-                }
-                ObjectKind::Frame | ObjectKind::Sensor => {
-                    let at = of_frame().unwrap_or(beside);
-                    let proximity = new.senses.proximity.contains_key(&handle);
-                    let other = if object.kind == ObjectKind::Frame { Kind::Frame } else { Kind::Sensor };
-                    (if proximity { Kind::Proximity } else { other }, at, at)
-                }
-                ObjectKind::Camera { sensor, .. } => {
-                    let kind = sensor.as_ref().map(|sensor| Kind::Vision(new.vision.add(sensor.clone(), false)));
-                    (kind.unwrap_or(Kind::Sensor), beside, beside)
-                }
-                ObjectKind::Fixture => {
-                    let at = of_frame().unwrap_or(beside);
-                    let none = MassProperties { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] };
-                    (Kind::Body(none), at, at)
-                }
-                ObjectKind::Force | ObjectKind::Drag => (Kind::Force, beside, beside),
-                ObjectKind::Rotor => {
-                    let index = names.rotors.iter().position(|name| *name == object.path);
-                    (Kind::Rotor(index.expect("every rotor has a name")), beside, beside)
-                }
-            };
-            new.solids.extend(unit_mass(object).map(|mass| (handle, mass)));
-            new.add(object, kind, parent, (frame, moving));
-        }
-        new.pairs = pairs::pairs_of(loaded, &new);
+        new.take_objects(scene, &scene.model);
+        new.pairs = pairs::pairs_of(scene, &new);
         let is_recorded = |e: &&Entry| {
             let names = loaded.experiment.record.iter().map(|name| &*name.value);
             e.kind == Kind::Frame
@@ -360,14 +324,6 @@ impl ObjectRegistry {
             new.script_parameters.extend(texts);
         }
         new
-    }
-
-    /// An object of the scene.
-    fn add(&mut self, object: &Object, kind: Kind, parent: Option<Handle>, at: (Attached<f64>, Attached<f64>)) {
-        let (handle, name, path) = (self.next_handle(), object.name.clone(), object.path.clone());
-        let is_runtime = false;
-        *self.names.entry(name.clone()).or_default() += 1;
-        self.entries.push(Some(Entry { handle, name, path, kind, is_runtime, parent, frame: at.0, moving: at.1 }));
     }
 
     pub(super) fn next_handle(&self) -> Handle {
@@ -620,6 +576,33 @@ impl ObjectRegistry {
         self.requests.push(request);
     }
 
+    /// Takes the changes of the structure that were made since the last call.
+    pub(crate) fn take_restructured(&mut self) -> Vec<Restructured> {
+        std::mem::take(&mut self.restructured)
+    }
+
+    /// Goes on with a structure that another controller has made, or that comes with a snapshot.
+    pub(crate) fn adopt_structure(&mut self, change: &Restructured) {
+        if !Arc::ptr_eq(&self.scene, &change.scene) {
+            let known: BTreeSet<usize> = self.scene.objects.iter().map(|object| object.id).collect();
+            let new = change.scene.objects.iter().filter(|object| !known.contains(&object.id));
+            self.added.extend(new.map(|object| Handle(object.id as i32 + 1)));
+            let model = change.scene.model.clone();
+            self.follow(change, &model);
+        }
+    }
+
+    /// The same objects, compiled with other numbers.
+    pub(crate) fn set_scene(&mut self, scene: &Arc<Scene>) {
+        self.scene = Arc::clone(scene);
+    }
+
+    /// Scene that the world is of now.
+    #[must_use]
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
     /// Takes what was asked for.
     pub(crate) fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
@@ -667,6 +650,11 @@ impl ObjectRegistry {
 
     /// A run has ended: the commands of joints are as they were `before` it, the rest stays.
     pub(crate) fn end_run(&mut self, before: Self) {
+        self.restructured.clear();
+        if !Arc::ptr_eq(&self.scene, &before.scene) {
+            self.end_restructured_run(before);
+            return;
+        }
         self.joints = before.joints;
         self.held = before.held;
         (self.motions, self.joint_motions) = (before.motions, before.joint_motions);
@@ -690,6 +678,28 @@ impl ObjectRegistry {
     }
 }
 
+impl ObjectRegistry {
+    /// A run has ended whose structure was changed: all objects are those of before it.
+    fn end_restructured_run(&mut self, before: Self) {
+        let mut new = before;
+        std::mem::swap(&mut self.log, &mut new.log);
+        std::mem::swap(&mut self.integers, &mut new.integers);
+        std::mem::swap(&mut self.floats, &mut new.floats);
+        std::mem::swap(&mut self.strings, &mut new.strings);
+        std::mem::swap(&mut self.named, &mut new.named);
+        std::mem::swap(&mut self.notes, &mut new.notes);
+        std::mem::swap(&mut self.requests, &mut new.requests);
+        std::mem::swap(&mut self.graphs, &mut new.graphs);
+        std::mem::swap(&mut self.tubes, &mut new.tubes);
+        std::mem::swap(&mut self.legacy_ports, &mut new.legacy_ports);
+        std::mem::swap(&mut self.port_requests, &mut new.port_requests);
+        new.stop_requests = self.stop_requests;
+        new.vision.forget();
+        new.reset_looks();
+        *self = new;
+    }
+}
+
 /// The world as something to hang on.
 pub(super) const WORLD: Attached<f64> = Attached {
     link: None,
@@ -698,7 +708,7 @@ pub(super) const WORLD: Attached<f64> = Attached {
 
 /// Mass properties of a body's solids at density 1; none if there are none, or something that is no solid of closed
 /// form.
-fn unit_mass(object: &Object) -> Option<MassProperties> {
+pub(super) fn unit_mass(object: &Object) -> Option<MassProperties> {
     if object.shapes.is_empty() || !object.surfaces.is_empty() {
         return None;
     }
@@ -707,13 +717,13 @@ fn unit_mass(object: &Object) -> Option<MassProperties> {
 }
 
 /// The axis of a joint with one coordinate, in its own frame.
-fn axis_of(kind: &JointKind) -> Option<[f64; 3]> {
+pub(super) fn axis_of(kind: &JointKind) -> Option<[f64; 3]> {
     match *kind {
         JointKind::Revolute { axis } | JointKind::Prismatic { axis } | JointKind::Screw { axis, .. } => Some(axis),
         _ => None,
     }
 }
 
-fn turned(at: Attached<f64>, rot: &Mat3<f64>) -> Attached<f64> {
+pub(super) fn turned(at: Attached<f64>, rot: &Mat3<f64>) -> Attached<f64> {
     Attached { pose: Pose { rot: at.pose.rot.mul(rot), ..at.pose }, ..at }
 }

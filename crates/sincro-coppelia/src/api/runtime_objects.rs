@@ -7,7 +7,7 @@ use super::ApiError;
 use super::registry::{Entry, Handle, Kind, ObjectRegistry, WORLD};
 
 /// Objects that may exist at once, beyond those of the scene.
-const MAX_CREATED: usize = 10_000;
+pub(super) const MAX_CREATED: usize = 10_000;
 
 impl ObjectRegistry {
     /// Creates a dummy, a named frame without mass, at the world's origin and returns its handle. If the name is taken,
@@ -63,6 +63,7 @@ impl ObjectRegistry {
         self.data.retain(|(h, _), _| *h != handle);
         self.senses.forget(handle);
         self.drawings.forget(handle);
+        self.parked.remove(&handle);
         Ok(())
     }
 
@@ -88,7 +89,7 @@ impl ObjectRegistry {
     }
 
     /// One object less has a name: numbers that have become free are taken again.
-    fn free_name(&mut self, name: &str) {
+    pub(super) fn free_name(&mut self, name: &str) {
         if let Some(n) = self.names.get_mut(name) {
             *n -= 1;
             if *n == 0 {

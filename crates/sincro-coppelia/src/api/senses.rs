@@ -1,6 +1,6 @@
 //! Visible pieces of a registry, of the scene and of runtime objects, with its proximity sensors and collections.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sincro_dynamics::contact::Surface;
@@ -33,6 +33,8 @@ pub(super) struct Senses {
     pub proximity: BTreeMap<Handle, ProximityEntry>,
     /// By their handles.
     pub collections: BTreeMap<Handle, Collection>,
+    /// Objects whose colour was set.
+    painted: BTreeSet<usize>,
 }
 
 /// A proximity sensor and what it saw last.
@@ -52,7 +54,7 @@ pub(super) struct ProximityEntry {
 impl Senses {
     /// Pieces and sensors of a scene.
     pub fn new(scene: &Scene) -> Self {
-        let object_of = |path: &str| scene.objects.iter().position(|o| o.path == path);
+        let object_of = |path: &str| scene.object(path).map(|o| o.id);
         let mut proximity = BTreeMap::new();
         for spec in &scene.sensors {
             let (Some(sensor), Some(own)) = (ProximitySensor::of(spec, scene), object_of(&spec.path)) else { continue };
@@ -131,9 +133,15 @@ impl Senses {
 
     /// Colours everything of an object.
     pub fn paint(&mut self, own: Handle, color: [u8; 3]) {
+        self.painted.insert(own.0 as usize - 1);
         for piece in self.scenery.pieces.iter_mut().chain(&mut self.runtime).filter(|piece| handle_of(piece) == own) {
             piece.color = color;
         }
+    }
+
+    /// Returns true if the colour of an object was set.
+    pub fn is_painted(&self, object: usize) -> bool {
+        self.painted.contains(&object)
     }
 
     /// A surface ready to be looked at; refused if it has no extent, or if there would be too many corners.

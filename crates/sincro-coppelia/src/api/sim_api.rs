@@ -171,6 +171,12 @@ impl<'a> SimApi<'a> {
             return Ok(());
         }
         let entry = entry.clone();
+        // what is fixed in the world, and what carries others, is put elsewhere with all that it carries
+        let is_base = matches!(entry.kind, Kind::Frame | Kind::Joint(_) | Kind::Sensor | Kind::ForceSensor(_));
+        let is_fixed = matches!(entry.kind, Kind::Body(_)) && entry.frame.link.is_none();
+        if (is_fixed || is_base && !self.is_free_joint(handle)) && self.is_of_model(handle) {
+            return self.place_in_model(handle, &x_wo);
+        }
         self.set_free(&entry, &x_wo)
     }
 
@@ -215,21 +221,19 @@ impl<'a> SimApi<'a> {
         Ok(())
     }
 
-    /// Hangs a runtime object, vision sensor or frame of the scene on another object, or on the world for none. With
-    /// `keep_in_place` its pose in the world stays, else that in its parent.
+    /// Hangs an object on another object, or on the world for none. With `keep_in_place` its pose in the world stays,
+    /// else that in its parent. A free body that is hung on another object is joined to it, as in a perfectly inelastic
+    /// impact; a body that moves is free when it is hung on the world.
     ///
     /// # Errors
     ///
-    /// `handle` or `parent` is no object, the model carries the object (bodies, joints), or it would hang on itself.
+    /// `handle` or `parent` is no object, the object would hang on itself, or the model cannot be so.
     pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> Result<(), ApiError> {
         if keep_in_place && self.registry.entry(handle)?.parent == parent {
             return Ok(());
         }
         if !self.registry.is_loose(handle) {
-            let path = &self.registry.entry(handle)?.path;
-            let help =
-                "frames and runtime objects can be hung elsewhere; bodies and joints hang as the scene file says";
-            return Err(ApiError(format!("`{path}` is carried by the model: {help}")));
+            return self.hang(handle, parent, keep_in_place);
         }
         let before = self.pose(handle, if keep_in_place { Reference::World } else { Reference::Parent })?;
         let path = match parent {
@@ -259,7 +263,7 @@ impl<'a> SimApi<'a> {
     /// # Errors
     ///
     /// `handle` is no object, or belongs to the scene.
-    pub fn remove(&mut self, handle: Handle) -> Result<(), ApiError> {
+    pub(crate) fn remove(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.before_move(handle);
         self.registry.remove(handle)
     }
@@ -270,7 +274,7 @@ impl<'a> SimApi<'a> {
     /// # Errors
     ///
     /// `handle` is no object, belongs to the scene or is a vision sensor, or 10,000 objects were created already.
-    pub fn copy(&mut self, handle: Handle) -> Result<Handle, ApiError> {
+    pub(crate) fn copy(&mut self, handle: Handle) -> Result<Handle, ApiError> {
         let entry = self.registry.runtime_object(handle, "copied")?;
         if let Kind::Vision(_) = entry.kind {
             return Err(ApiError(format!("`{}` is not copied: make another one", entry.path)));

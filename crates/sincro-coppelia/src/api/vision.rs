@@ -105,6 +105,12 @@ impl Vision {
         }
     }
 
+    /// The structure has changed: pictures that were handled have been drawn, and what draws them is made again.
+    pub fn restructured(&mut self) {
+        self.q.clear();
+        self.buffers.scratch = None;
+    }
+
     /// Forgets all pictures.
     pub fn forget(&mut self) {
         for slot in &mut self.slots {

@@ -64,6 +64,11 @@ impl Files {
         Self { folder, sent: BTreeSet::new() }
     }
 
+    /// Folder of the files.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// The place of a name: the last part of what the client calls it.
     ///
     /// # Errors

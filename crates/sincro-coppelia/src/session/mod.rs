@@ -23,10 +23,11 @@ use crate::api_controller::ApiController;
 use crate::host;
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
-use sincro_scene::scene::ObjectKind;
+use sincro_scene::scene::{ObjectKind, Scene};
 use sincro_sim::load::{Extensions, Loaded, load};
 use sincro_sim::results::Status;
 use sincro_sim::run::{LockStep, Recording, RunError, RunOptions, Simulated, method_for};
+use sincro_sim::structure::Structure;
 use sincro_sim::trace::Trace;
 
 /// Run of a session that has ended, whether it was completed, stopped by a client or failed; [`Session::take_finished`]
@@ -71,6 +72,8 @@ pub struct Session {
     grants: Grants,
     /// Ports of the legacy API; none if clients are not served.
     legacy_ports: Option<LegacyPorts>,
+    /// Structure that runs start with, if clients have changed it while stopped.
+    structure: Option<Structure>,
 }
 
 /// Permissions of clients beyond the simulation, given with [`Session::grant`]; none by default.
@@ -135,7 +138,7 @@ impl Session {
                 |ApiError(message)| Diagnostics::from(sincro_scene::diagnostic::Diagnostic::without_location(message));
             registry.set_sample_time(dt).map_err(refused)?;
         }
-        let lockstep = fresh(&loaded, method, registry);
+        let lockstep = fresh(&loaded, None, method, registry);
         let root = folder.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         Ok(Self {
             folder: folder.to_path_buf(),
@@ -150,6 +153,7 @@ impl Session {
             root,
             grants: Grants::default(),
             legacy_ports: None,
+            structure: None,
         })
     }
 
@@ -236,6 +240,7 @@ impl Session {
     /// names the function.
     pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, ApiError> {
         let result = functions::call(&mut self.sim(), name, arguments)?;
+        self.follow_structure()?;
         self.do_requests()?;
         Ok(result)
     }
@@ -255,6 +260,7 @@ impl Session {
         arguments: &[Value],
     ) -> Result<Vec<Value>, ApiError> {
         let results = ApiController::call_script(&mut self.lockstep, (object, kind), function, arguments)?;
+        self.follow_structure()?;
         self.do_requests()?;
         Ok(results)
     }
@@ -281,6 +287,7 @@ impl Session {
 
     /// Replaces the permissions of clients.
     pub fn grant(&mut self, grants: Grants) {
+        self.registry().sent_folder = grants.files.as_ref().map(|files| files.folder().to_path_buf());
         self.grants = grants;
     }
 
@@ -311,8 +318,21 @@ impl Session {
             return Err(ApiError::new(refused));
         }
         let results = ApiController::evaluate(&mut self.lockstep, (object, kind), text)?;
+        self.follow_structure()?;
         self.do_requests()?;
         Ok(results)
+    }
+
+    /// Lets the run go on with the structure that clients have made.
+    ///
+    /// # Errors
+    ///
+    /// A controller cannot: the run has then ended.
+    fn follow_structure(&mut self) -> Result<(), ApiError> {
+        self.lockstep.follow_structure().map_err(|halt| {
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            self.fail(status)
+        })
     }
 
     /// Does what clients and scripts have asked for.
@@ -329,6 +349,7 @@ impl Session {
                 Request::Stop => self.stop(),
                 Request::Load(path) => self.load(&path),
                 Request::Close => self.stop(),
+                Request::Save(name, text) => self.save(&name, &text),
             };
             if first.is_ok() {
                 first = done;
@@ -380,7 +401,7 @@ impl Session {
 
     /// Resolves the actuator modes, if a client has moved joints since the scene was opened.
     fn settle(&mut self, start: &State<f64>) {
-        let initial = &self.loaded.scene.initial;
+        let initial = &self.scene().initial;
         if start.q != initial.q || start.v != initial.v {
             self.lockstep.world().initialize(0.0);
         }
@@ -389,25 +410,56 @@ impl Session {
     /// Makes changes of the model that clients made while stopped part of the scene, until it is closed: the next run
     /// is made as if the file said so.
     fn adopt(&mut self) {
+        // the diagram is told when the run starts
+        let _ = self.lockstep.follow_structure();
         let (q, v) = (self.lockstep.state().q.clone(), self.lockstep.state().v.clone());
-        let scene = &mut self.loaded.scene;
+        self.structure = self.lockstep.structure().cloned();
+        let params = self.lockstep.world().model().params().clone();
+        let mut registry =
+            ApiController::take_registry(&mut self.lockstep).expect("a session's lock-step has a registry");
+        let scene = self.structure.as_mut().map_or(&mut self.loaded.scene, |structure| &mut structure.scene);
+        let scene = Arc::make_mut(scene);
         // motors keep the modes of the scene
-        let params = self.lockstep.world().model().params().with_motors_of(scene.model.params());
+        let params = params.with_motors_of(scene.model.params());
         Arc::make_mut(&mut scene.model).set_params(&params);
-        let registry = ApiController::take_registry(&mut self.lockstep).expect("a session's lock-step has a registry");
-        for (object, entry) in scene.objects.iter_mut().zip(registry.entries()) {
-            if let (ObjectKind::Body { mass }, Kind::Body(new)) = (&mut object.kind, &entry.kind) {
+        for object in &mut scene.objects {
+            let entry = registry.entry(Handle(object.id as i32 + 1)).ok();
+            if let (ObjectKind::Body { mass }, Some(Kind::Body(new))) = (&mut object.kind, entry.map(|e| &e.kind)) {
                 *mass = *new;
             }
         }
-        (self.method, self.warnings) = method_for(&self.loaded);
-        self.lockstep = fresh(&self.loaded, self.method, *registry);
-        let initial = &self.loaded.scene.initial;
+        if let Some(structure) = &mut self.structure {
+            let initial = &mut Arc::make_mut(&mut structure.scene).initial;
+            (initial.q, initial.v) = (q.clone(), v.clone());
+            registry.set_scene(&structure.scene);
+        } else {
+            registry.set_scene(&self.loaded.scene);
+        }
+        (self.method, self.warnings) = self.method();
+        self.lockstep = fresh(&self.loaded, self.structure.as_ref(), self.method, *registry);
+        let initial = &self.scene().initial;
         if q != initial.q || v != initial.v {
             // nothing of what was settled for other numbers is kept
-            self.lockstep.set_state(State { q, v, ..initial.clone() }, &[]);
+            let state = State { q, v, ..initial.clone() };
+            self.lockstep.set_state(state, &[]);
         }
         self.restore();
+    }
+
+    /// Scene that runs start with: that of the file, or what clients have made of it while stopped.
+    fn scene(&self) -> &Arc<Scene> {
+        self.structure.as_ref().map_or(&self.loaded.scene, |structure| &structure.scene)
+    }
+
+    /// Integration method of runs, with warnings about it.
+    fn method(&self) -> (MethodKind, Vec<String>) {
+        match &self.structure {
+            None => method_for(&self.loaded),
+            // the diagram is that of the file: it tells nothing about another structure
+            Some(structure) => {
+                method_for(&Loaded { scene: structure.scene.clone(), controller: None, ..self.loaded.clone() })
+            }
+        }
     }
 
     /// Pauses the run; nothing if there is none.
@@ -522,10 +574,17 @@ impl Session {
             Self::new(&folder, &[], loaded, None).map_err(|_| ApiError::new("the scene cannot be loaded"))?;
         other.finished = std::mem::take(&mut self.finished);
         other.root.clone_from(&self.root);
-        other.grants.clone_from(&self.grants);
+        other.grant(self.grants.clone());
         other.loaded.extensions = self.loaded.extensions;
         *self = other;
         Ok(())
+    }
+
+    /// Writes a model into the folder for files of clients.
+    fn save(&mut self, name: &str, text: &str) -> Result<(), ApiError> {
+        let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let name = if last.ends_with(".toml") { last.to_owned() } else { format!("{last}.toml") };
+        self.files()?.put(&name, text.as_bytes())
     }
 
     /// The file that a client has sent and means by a path, if there is one.
@@ -586,7 +645,7 @@ impl Session {
             *ApiController::take_registry(&mut self.lockstep).expect("a session's lock-step has a registry");
         registry.end_run(run.before);
         registry.phase = Phase::Stopped;
-        self.lockstep = fresh(&self.loaded, self.method, registry);
+        self.lockstep = fresh(&self.loaded, self.structure.as_ref(), self.method, registry);
         self.lockstep.set_state(run.start, &[]);
         self.restore();
         self.steps = 0;
@@ -613,9 +672,12 @@ impl Session {
 }
 
 /// A lock-step that has not started, with a registry.
-fn fresh(loaded: &Loaded, method: MethodKind, registry: ObjectRegistry) -> LockStep {
+fn fresh(loaded: &Loaded, structure: Option<&Structure>, method: MethodKind, registry: ObjectRegistry) -> LockStep {
     let mut lockstep = LockStep::new(loaded, method, false);
     ApiController::set_registry(&mut lockstep, registry);
+    if let Some(structure) = structure {
+        lockstep.set_structure(structure);
+    }
     lockstep
 }
 

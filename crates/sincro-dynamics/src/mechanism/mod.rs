@@ -397,6 +397,11 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
+    /// External forces from outside the model.
+    pub(crate) fn external_forces(&self) -> &[ExternalForce<R>] {
+        &self.external_forces
+    }
+
     /// Returns true if external forces act from outside the model.
     pub(crate) fn has_external_forces(&self) -> bool {
         !self.external_forces.is_empty()

@@ -13,6 +13,7 @@
 pub mod audit;
 mod builder;
 mod contacts;
+mod continued;
 mod drives;
 mod events;
 mod modes;

@@ -15,7 +15,7 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;
 use sincro_scene::record::Recorder;
 use sincro_sim::results::Status;
-use sincro_sim::run::{Halt, LockStep, method_for};
+use sincro_sim::run::{Followed, Halt, LockStep, method_for};
 use sincro_sim::trace::Trace;
 use sincro_sim::{Extensions, Loaded, load_without_variants};
 
@@ -50,6 +50,8 @@ struct Run {
     loaded: Loaded,
     lockstep: LockStep,
     recorder: Recorder,
+    /// Changes of the structure that the recorder has followed.
+    structure: Followed,
     /// Values of parameters that it began with.
     begun_with: Vec<f64>,
     trace: Trace,
@@ -465,6 +467,7 @@ impl Run {
             loaded,
             lockstep,
             recorder,
+            structure: Followed::default(),
             begun_with,
             trace,
             row: Vec::new(),
@@ -488,6 +491,7 @@ impl Run {
         }
         let t = self.lockstep.t();
         let is_start = !self.is_begun;
+        self.lockstep.bring_up(&mut self.recorder, &mut self.structure);
         self.memory.clear();
         self.memory.extend(self.recorder.memory());
         let (seen, signals) = self.lockstep.observe(t);
@@ -503,6 +507,7 @@ impl Run {
 
     /// Begins a communication step: means of outputs are those over it.
     fn begin_step(&mut self) {
+        self.lockstep.bring_up(&mut self.recorder, &mut self.structure);
         self.recorder.skip_row(&self.lockstep.state().totals, self.lockstep.t());
     }
 

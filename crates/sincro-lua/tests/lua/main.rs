@@ -13,6 +13,7 @@ mod names;
 mod parity;
 mod propeller;
 mod senses;
+mod structure;
 mod styles;
 mod touching;
 mod world;

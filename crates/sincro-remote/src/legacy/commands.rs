@@ -120,7 +120,7 @@ pub(super) const COMMANDS: &[Row] = &[
     row(0x1034, "simxGetModelProperty", Sim(objects::model_property)),
     row(0x1035, "simxSetModelProperty", Refused(MODEL_PROPERTIES)),
     row(0x1036, "simxGetObjectVelocity", Sim(objects::velocity)),
-    row(0x1037, "simxRemoveModel", Sim(objects::remove)),
+    row(0x1037, "simxRemoveModel", Sim(objects::remove_model)),
     row(0x1038, "simxGetJointMaxForce", Sim(joints::target_force)),
     row(0x1801, "simxSetObjectQuaternion", Sim(objects::set_quaternion)),
     row(0x2001, "simxGetUISlider", Refused(INTERFACES)),

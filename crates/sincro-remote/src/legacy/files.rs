@@ -9,7 +9,7 @@ pub(super) fn load_scene(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
     after(guard.act(|session| session.load(name)))
 }
 
-/// Meshes of the scene's folder; of others it says why not.
+/// Models, and meshes of the scene's folder.
 pub(super) fn load_model(guard: &mut SessionGuard, call: &Call<'_>) -> Reply {
     let made = functions::call(&mut guard.session.sim(), "loadModel", &[Value::from(call.name()?)])?;
     let handle = made.first().and_then(Value::as_int).and_then(|h| i32::try_from(h).ok());

@@ -37,15 +37,20 @@ pub(super) fn create_dummy(sim: &mut SimApi<'_>, _: &Call<'_>) -> Reply {
     ints([sim.registry.create_dummy("Dummy")?.0])
 }
 
-/// Copies of runtime objects.
+/// Copies of objects.
 pub(super) fn copies(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let handles = (0..call.data.len() / 4).map(|k| call.int(4 * k).map(Handle)).collect::<Result<Vec<_>, _>>()?;
-    let copies = handles.into_iter().map(|handle| sim.copy(handle)).collect::<Result<Vec<_>, _>>()?;
+    let copies = sim.copy_objects(&handles, false)?;
     counted(&copies)
 }
 
 pub(super) fn remove(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    after(sim.remove(call.handle()?))
+    after(sim.remove_objects(&[call.handle()?], false))
+}
+
+/// An object with all below it.
+pub(super) fn remove_model(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.remove_objects(&[call.handle()?], true))
 }
 
 pub(super) fn parent(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {

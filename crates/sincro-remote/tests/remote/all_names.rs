@@ -3,7 +3,7 @@
 
 use sincro_coppelia::api::Value;
 
-use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments, fitting};
+use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments, arguments_for, fitting};
 use super::scene::serve;
 use sincro_testing::clients::legacy::{Client as Legacy, Command, ONCE, floats, ints, text};
 use sincro_testing::clients::zmq::{Client as Zmq, field};
@@ -31,7 +31,7 @@ fn every_listed_name_answers_any_arguments() {
             let mut fits = false;
             things.made = Made::new(|name, arguments| client.call(name, arguments).unwrap().remove(0));
             let fitting = fitting(name, &things);
-            for args in arguments(&things.joint, &things.body).into_iter().chain(fitting) {
+            for args in arguments_for(name, &things.joint, &things.body).into_iter().chain(fitting) {
                 let answer = client.exchange(&format!("sim.{name}"), &args);
                 if let Some(Value::Text(reason)) = field(&answer, "err") {
                     assert!(!reason.is_empty() && !reason.contains('\n'), "{name}: {reason}");

@@ -152,7 +152,9 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "setShapeColor" => vec![shape.clone(), Value::Nil, int(0), three()],
         "setObjectColor" => vec![shape.clone(), int(0), int(0), three()],
         "copyPasteObjects" | "removeObjects" => vec![Value::List(vec![point.clone()])],
-        "removeObject" => vec![point.clone()],
+        "removeObject" | "removeModel" => vec![point.clone()],
+        "createJoint" => vec![int(10), int(5), int(0)],
+        "saveModel" => vec![body.clone()],
         "setObjectQuaternion" => vec![body.clone(), int(-1), turn()],
         "setObjectPose" => vec![body.clone(), pose(), int(-1)],
         "setObjectMatrix" => vec![body.clone(), int(-1), matrix()],
@@ -253,6 +255,20 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         _ if name.starts_with("setObjectFloat") => vec![joint.clone(), int(2017), Value::Real(1.0)],
         _ => return None,
     })
+}
+
+/// Functions that take the scene's own objects away from those that are called after them.
+const STRUCTURAL: [&str; 4] = ["removeObject", "removeModel", "setObjectParent", "removeObjects"];
+
+/// Arguments of many kinds for a function, without the scene's own objects where it would remove them.
+pub fn arguments_for(name: &str, joint: &Value, body: &Value) -> Vec<Vec<Value>> {
+    let mut all = arguments(joint, body);
+    if STRUCTURAL.contains(&name) {
+        // true is the handle 1 to a function that takes one
+        let own = [joint, body, &Value::Bool(true)];
+        all.retain(|list| own.iter().all(|object| !list.contains(object)));
+    }
+    all
 }
 
 /// Arguments of many kinds; the first ones fit most functions.

@@ -101,12 +101,14 @@ fn what_touches_is_told_to_legacy_clients() {
     let limits = client.call(0x200c, &ints(&[1, 16]), &[]).unwrap();
     let at = 16 + 4 * (limits.int(0) + limits.int(4)) as usize;
     assert_eq!((limits.float(at / 4), limits.float(at / 4 + 1)), (-0.5, 1.5));
-    // a copy of a point, not of the scene's own
+    // a copy of a point, and of the scene's own
     let point = client.call(0x0009, &[], &[0; 17]).unwrap().int(0);
     let copy = client.call(0x102e, &ints(&[1]), &ints(&[point])).unwrap();
     assert_eq!(copy.int(0), 1);
     assert_ne!(copy.int(4), point);
-    assert!(client.call(0x102e, &ints(&[1]), &ints(&[box_])).is_err());
+    let copy = client.call(0x102e, &ints(&[1]), &ints(&[box_])).unwrap().int(4);
+    assert!(client.call(0x1028, &ints(&[copy]), &[]).is_ok());
+    assert!(client.call(0x1028, &ints(&[copy]), &[]).is_err());
     client.last_errors();
     let refused = [
         (0x1003, "vision"),
@@ -132,7 +134,7 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x2001, "user interfaces"),
         (0x2006, "user interfaces"),
         (0x2010, "no shape"),
-        (0x3003, "no mesh"),
+        (0x3003, "there is no model"),
         (0x3004, "--grant files"),
         (0x3005, "user interfaces"),
         (0x3006, "--grant files"),

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use sincro_coppelia::api::Value;
 
-use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments, fitting};
+use super::arguments::{ELSEWHERE, Made, NEEDS_MORE, Things, arguments_for, fitting};
 use super::scene::serve;
 use sincro_testing::clients::ws::{Client, frame};
 use sincro_testing::clients::zmq::field;
@@ -46,7 +46,7 @@ fn every_name_answers_any_arguments_in_json_and_cbor() {
         let mut fits = false;
         things.made = made(&mut client);
         let fitting = fitting(name, &things);
-        for (k, args) in arguments(&things.joint, &things.body).into_iter().chain(fitting).enumerate() {
+        for (k, args) in arguments_for(name, &things.joint, &things.body).into_iter().chain(fitting).enumerate() {
             let whole = format!("sim.{name}");
             // CBOR has all values; the same in JSON, where it has them
             let answer = client.cbor(&whole, &args);

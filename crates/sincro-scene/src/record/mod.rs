@@ -5,11 +5,13 @@
 
 mod catalogue;
 pub mod contact;
+mod follow;
 pub mod probe;
 mod reference;
 
 pub use catalogue::{Entry, catalogue};
 pub use contact::ContactQuantity;
+pub use follow::{ProbeMap, present_name};
 pub use reference::signal_reference;
 
 use sincro_dynamics::coupled::MechanismResponse;
@@ -199,6 +201,8 @@ pub enum EnergyQuantity {
 #[derive(Clone, Debug)]
 pub struct Recorder {
     entries: Vec<Entry>,
+    /// Probe of each entry in the present model; none for what has gone.
+    bound: Vec<Option<Probe>>,
     motor_impulse: Vec<f64>,
     last_t: f64,
     energy_at_start: f64,
@@ -238,7 +242,8 @@ impl Recorder {
         let row = Vec::with_capacity(entries.len() + 1);
         let motor_impulse = vec![0.0; model.motors().len()];
         let n_sensed = model.names().sensors.iter().map(|s| s.values.len()).sum();
-        Ok(Self { entries, motor_impulse, last_t: 0.0, energy_at_start: 0.0, n_sensed, n_floats, row })
+        let bound = entries.iter().map(|entry| Some(entry.probe)).collect();
+        Ok(Self { entries, bound, motor_impulse, last_t: 0.0, energy_at_start: 0.0, n_sensed, n_floats, row })
     }
 
     /// Returns names and units of the columns of a row: `t` in `s`, then the signals in the order of their names.
@@ -258,7 +263,11 @@ impl Recorder {
         self.row.clear();
         self.row.push(t);
         for i in 0..self.entries.len() {
-            let value = match self.entries[i].probe {
+            let Some(probe) = self.bound[i] else {
+                self.row.push(f64::NAN);
+                continue;
+            };
+            let value = match probe {
                 Probe::Energy(quantity) => self.energy(&energy, &seen.state.totals, quantity),
                 Probe::Momentum(k) if k < 3 => momentum.ang[k],
                 Probe::Momentum(k) => momentum.lin[k - 3],

@@ -25,6 +25,7 @@ mod schema;
 mod script;
 mod sensor;
 mod signal_file;
+mod source;
 mod spring_damper;
 mod start;
 mod stills;
@@ -51,6 +52,7 @@ pub use mesh::{Triangles, mesh_of_file};
 pub use object::{Object, ObjectKind, ShapeInstance, ShownSurface};
 pub use pieces::frame_of;
 pub use schema::scene_schema;
+pub use source::SceneSource;
 pub use stills::Camera;
 pub use text::from_text;
 
@@ -108,6 +110,8 @@ pub struct Scene {
     pub scripts: Vec<Script>,
     /// Warnings about the scene file, in its order.
     pub warnings: Vec<Diagnostic>,
+    /// File that it was compiled from, everything in it written out; `None` if that was not kept.
+    pub source: Option<Arc<SceneSource>>,
     /// Made when somebody looks first.
     scenery: OnceLock<Scenery>,
 }
@@ -130,6 +134,12 @@ impl Scene {
     pub fn object(&self, path: &str) -> Option<&Object> {
         self.objects.iter().find(|object| object.path == path)
     }
+
+    /// Gives the objects other numbers, by their paths.
+    pub(crate) fn renumber(&mut self, mut id_of: impl FnMut(&str) -> usize) {
+        self.objects.iter_mut().for_each(|object| object.id = id_of(&object.path));
+        self.scenery = OnceLock::new();
+    }
 }
 
 /// Specification of an object for the builder.
@@ -151,6 +161,21 @@ pub(crate) fn compile(
     folder: &Folder,
     seed: u64,
     parser: Option<&dyn ScriptParser>,
+) -> Result<Scene, Diagnostics> {
+    compile_from(document, folder, (seed, parser), true)
+}
+
+/// As [`compile`], of a scene without scripts that goes on from the state of another one: its own initial state is not
+/// checked.
+pub(crate) fn compile_edited(document: &Document, folder: &Folder, seed: u64) -> Result<Scene, Diagnostics> {
+    compile_from(document, folder, (seed, None), false)
+}
+
+fn compile_from(
+    document: &Document,
+    folder: &Folder,
+    (seed, parser): (u64, Option<&dyn ScriptParser>),
+    is_start: bool,
 ) -> Result<Scene, Diagnostics> {
     let file: SceneFile = serde_json::from_value(document.root.clone())
         .map_err(|e| Diagnostic::error(&document.at(""), format!("the scene cannot be read: {e}")))?;
@@ -193,7 +218,7 @@ pub(crate) fn compile(
     assembly.join_by_springs(&file, document, folder, &mut diagnostics);
     contact::warn_of_idle(&file, document, &mut diagnostics);
     let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut diagnostics);
-    assembly.finish(&entries, &file, scripts, document, diagnostics)
+    assembly.finish(&entries, &file, (scripts, is_start), document, diagnostics)
 }
 
 /// Makes specifications, noting what is wrong.
@@ -356,6 +381,7 @@ impl Assembly {
         let contact::Skin { material: contact, surfaces, colors: surface_colors } = skin;
         let parent = place.parent;
         self.objects.push(Object {
+            id: self.objects.len(),
             path,
             name,
             kind,
@@ -425,7 +451,7 @@ impl Assembly {
         mut self,
         entries: &[Entry<'_>],
         file: &SceneFile,
-        scripts: Vec<Script>,
+        (scripts, is_start): (Vec<Script>, bool),
         document: &Document,
         mut diagnostics: Diagnostics,
     ) -> Result<Scene, Diagnostics> {
@@ -453,11 +479,15 @@ impl Assembly {
             pose_start::solve(&model, poses.as_slice(), pointer, &mut initial, document, &mut diagnostics);
         }
         spring_damper::set_free_lengths(&mut model, &initial, file, document, &mut diagnostics);
-        field::check(&model, &initial, document, &mut diagnostics);
+        if is_start {
+            field::check(&model, &initial, document, &mut diagnostics);
+        }
         self.check_fixtures(&model, &mut diagnostics);
         let commands = self.motors(&model);
-        let start = Start { model: &model, initial: &initial, file, objects: &self.objects, document };
-        start.check(&commands, &mut diagnostics);
+        if is_start {
+            let start = Start { model: &model, initial: &initial, file, objects: &self.objects, document };
+            start.check(&commands, &mut diagnostics);
+        }
         self.warn_of_idle_forces(&model, &mut diagnostics);
         self.warn_of_fixed_bodies(&model, document, !scripts.is_empty(), &mut diagnostics);
         contact::warn_of_excluded(&model, file, document, &mut diagnostics);
@@ -478,6 +508,7 @@ impl Assembly {
             objects: self.objects,
             scripts,
             warnings,
+            source: None,
             scenery: OnceLock::new(),
         })
     }

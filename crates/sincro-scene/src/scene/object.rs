@@ -26,6 +26,8 @@ use crate::diagnostic::Location;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Object {
+    /// Number that it keeps when the scene is edited ([`crate::draft`]); in a scene of a file its index.
+    pub id: usize,
     /// Path: that of the parent, `/`, and the name.
     pub path: String,
     /// Name, the last part of the path.

@@ -42,7 +42,7 @@ fn pieces_of(objects: &[Object], names: &Names, k: usize, plain: [u8; 3]) -> Vec
         let plain = if surface == Surface::HalfSpace { FLOOR } else { plain };
         let geometry = Arc::new(Geometry::new(surface)?);
         let at = Attached { pose: frame.pose.compose(&pose), ..frame };
-        Some(Piece { object: k, at, geometry, color: color.unwrap_or(plain) })
+        Some(Piece { object: objects[k].id, at, geometry, color: color.unwrap_or(plain) })
     };
     objects[k].shown().filter_map(piece).collect()
 }

@@ -1,9 +1,10 @@
 //! A scene from a text instead of a folder.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Scene, scene_schema};
+use super::{Scene, SceneSource, scene_schema};
 use crate::diagnostic::{Diagnostics, SourceText};
 use crate::document::Document;
 use crate::folder::Folder;
@@ -44,5 +45,7 @@ pub fn from_text(text: &str) -> Result<Scene, Diagnostics> {
     if found.any_error() {
         return Err(found.sorted());
     }
-    super::compile(&document, &Folder::new(Path::new("")), 0, None)
+    let folder = Arc::new(Folder::new(Path::new("")));
+    let scene = super::compile(&document, &folder, 0, None)?;
+    Ok(Scene { source: Some(Arc::new(SceneSource { document, folder, seed: 0, parked: BTreeMap::new() })), ..scene })
 }

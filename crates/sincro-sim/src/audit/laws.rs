@@ -1,5 +1,6 @@
 //! Worst residual of each law over a run, with its time and element.
 
+use sincro_dynamics::model::Model;
 use sincro_dynamics::world::audit::{Law, LawResidual};
 use sincro_dynamics::world::{MethodKind, Observation, World};
 use sincro_scene::experiment::Experiment;
@@ -14,6 +15,8 @@ use super::limits::{ISLAND, Limits};
 pub struct LawAudit {
     /// For each law the worst residual and its time `[s]`.
     worst: [Option<(LawResidual, f64)>; Law::ALL.len()],
+    /// Names of the elements of the worst residuals that were found in a model of another structure.
+    names: [Option<String>; Law::ALL.len()],
     /// Constraint problems without convergence: their worst residual, and the time `[s]` after the step that had it.
     unsolved: (f64, f64),
     /// Largest residual of an island of contacts, and the time `[s]` after the step that had it.
@@ -29,6 +32,7 @@ impl Default for LawAudit {
     fn default() -> Self {
         Self {
             worst: [None; Law::ALL.len()],
+            names: [const { None }; Law::ALL.len()],
             unsolved: (0.0, 0.0),
             rough: (0.0, 0.0),
             fallback: (0, 0.0),
@@ -38,6 +42,15 @@ impl Default for LawAudit {
 }
 
 impl LawAudit {
+    /// Goes on with a model of another structure; `former` is the one so far.
+    pub fn restructured(&mut self, former: &Model<f64>) {
+        for (worst, name) in self.worst.iter().zip(&mut self.names) {
+            if let (Some((residual, _)), None) = (worst, &name) {
+                *name = Some(residual.element.name(former));
+            }
+        }
+    }
+
     /// Takes the residuals of the laws at the state observed at time `t` `[s]`; to be called at each recorded instant.
     pub fn observe(&mut self, seen: &Observation<'_>, t: f64) {
         self.acceleration = seen.accelerations.iter().fold(self.acceleration, |largest, a| largest.max(a.abs()));
@@ -45,6 +58,7 @@ impl LawAudit {
             let worst = &mut self.worst[law as usize];
             if worst.is_none_or(|(known, _)| residual.relative() > known.relative()) {
                 *worst = Some((*residual, t));
+                self.names[law as usize] = None;
             }
         }
     }
@@ -74,7 +88,7 @@ impl LawAudit {
             let Some((residual, time)) = self.worst[law as usize] else { continue };
             laws.push(Finding {
                 law: word(law).to_owned(),
-                element: residual.element.name(world.model()),
+                element: self.names[law as usize].clone().unwrap_or_else(|| residual.element.name(world.model())),
                 time,
                 value: residual.value,
                 limit: limits.of(law, &residual, self.acceleration),

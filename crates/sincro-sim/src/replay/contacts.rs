@@ -8,6 +8,8 @@
 
 use sincro_dynamics::world::Observation;
 
+use super::frame_map::FrameMap;
+
 /// Number of entries per contact point in [`Contacts::frame`]: indices of the two surfaces, position x, y, z in the
 /// world `[m]`, force x, y, z on the first surface in world axes `[N]`.
 pub const CONTACT: usize = 8;
@@ -21,11 +23,13 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// Appends a frame with the contact points of the observed world, as many as there are.
-    pub fn record(&mut self, seen: &Observation<'_>) {
+    /// Appends a frame with the contact points of the observed world, as many as there are; `map` gives the surfaces at
+    /// the start of a run whose structure has changed.
+    pub fn record(&mut self, seen: &Observation<'_>, map: Option<&FrameMap>) {
         for point in seen.contacts() {
             // indices below 2²⁴ are exact in single precision; a model has far fewer surfaces
-            self.numbers.extend(point.surfaces.map(|k| k as f32));
+            let surfaces = point.surfaces.map(|k| map.map_or(k, |map| map.surfaces[k]));
+            self.numbers.extend(surfaces.map(|k| k as f32));
             self.numbers.extend(point.point.0.iter().chain(&point.force.0).map(|x| *x as f32));
         }
         self.ends.push(self.numbers.len() / CONTACT);

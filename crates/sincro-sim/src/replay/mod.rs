@@ -5,6 +5,7 @@
 //! user may change; [`RuntimeLog`] follows the objects that clients and scripts make. Nothing here changes a run.
 
 mod contacts;
+mod frame_map;
 mod properties;
 mod runtime;
 mod scene;
@@ -13,6 +14,7 @@ mod trajectory;
 mod volume;
 
 pub use contacts::{CONTACT, Contacts};
+pub use frame_map::FrameMap;
 pub use properties::{Property, edited, properties};
 pub use runtime::{DrawingView, RuntimeChange, RuntimeEvent, RuntimeLog, RuntimeView};
 pub use scene::{CameraView, JointView, ObjectView, RotorView, SceneView, ShapeView};

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use sincro_dynamics::geometry::FieldOfView;
 use sincro_dynamics::kinematics::Attached;
+use sincro_dynamics::spatial::Pose;
 
 use super::scene::{ShapeView, hex, seven, shape_view};
 use super::volume::{self, Edge};
@@ -140,10 +141,26 @@ impl RuntimeLog {
 
     /// Adds what has changed up to time `t` `[s]`. `visit_all` calls its argument with each object that is there, and
     /// with the index of the controller that has made it, as
-    /// [`LockStep::visit_runtime_objects`](crate::run::LockStep::visit_runtime_objects) does.
-    pub fn update(&mut self, t: f64, visit_all: impl FnOnce(&mut dyn FnMut(usize, &RuntimeObject<'_>))) {
+    /// [`LockStep::visit_runtime_objects`](crate::run::LockStep::visit_runtime_objects) does. `poses` has the poses of
+    /// the links in a run whose structure has changed, where links are no movers any more: objects then stand in the
+    /// world.
+    pub fn update(
+        &mut self,
+        t: f64,
+        poses: Option<&[Pose<f64>]>,
+        visit_all: impl FnOnce(&mut dyn FnMut(usize, &RuntimeObject<'_>)),
+    ) {
         self.known.values_mut().for_each(|known| known.is_there = false);
-        visit_all(&mut |controller, object| self.visit(t, (controller as u64) << 32 | u64::from(object.id), object));
+        visit_all(&mut |controller, object| {
+            let id = (controller as u64) << 32 | u64::from(object.id);
+            match (poses, object.at.link) {
+                (Some(poses), Some(link)) => {
+                    let at = Attached { link: None, pose: poses[link].compose(&object.at.pose) };
+                    self.visit(t, id, &RuntimeObject { at, ..object.clone() });
+                }
+                _ => self.visit(t, id, object),
+            }
+        });
         let gone: Vec<u64> = self.known.iter().filter(|(_, known)| !known.is_there).map(|(id, _)| *id).collect();
         for id in gone {
             self.events.push(RuntimeEvent { t, id, change: RuntimeChange::Gone(()) });

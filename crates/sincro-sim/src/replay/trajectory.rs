@@ -13,12 +13,15 @@
 //! Points of contact are kept beside the frames ([`Contacts`]): their number varies. A frame has single precision,
 //! about seven digits; `signals.csv` has all of them.
 
+use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Quat;
 use sincro_dynamics::world::Observation;
 
 use super::contacts::{CONTACT, Contacts};
+use super::frame_map::FrameMap;
 use super::runtime::RuntimeLog;
+use super::scene::seven;
 use sincro_scene::experiment::Experiment;
 use sincro_scene::record::probe::{self, View};
 
@@ -104,6 +107,43 @@ impl Layout {
         &frame[end - self.n_q..end]
     }
 
+    /// Appends the frame of a world whose structure has changed to `out`, as [`Layout::write`] does: what has gone is
+    /// NaN.
+    pub fn write_mapped(&self, map: &FrameMap, seen: &Observation<'_>, t: f64, out: &mut Vec<f32>) {
+        let poses = seen.scratch().link_poses();
+        let place = |at: &Attached<f64>| at.link.map_or(at.pose, |link| poses[link].compose(&at.pose));
+        for mover in &map.movers {
+            out.extend(mover.as_ref().map_or([f32::NAN; 7], |at| seven(&place(at)).map(|x| x as f32)));
+        }
+        let view = View::observed(seen, t);
+        for rotor in &map.rotors {
+            let numbers = |k: usize| {
+                let (speed, load, _) = probe::rotor(&view, k);
+                [speed, load.thrust, load.torque].map(|x| x as f32)
+            };
+            out.extend(rotor.map_or([f32::NAN; 3], numbers));
+        }
+        for force in &map.forces {
+            let numbers = |k: usize| {
+                let wrench = &seen.model().wrenches()[k];
+                let r_wl = &poses[wrench.link].rot;
+                r_wl.mul_vec(wrench.wrench(t, r_wl, &seen.state.commands).lin).0.map(|x| x as f32)
+            };
+            out.extend(force.map_or([f32::NAN; 3], numbers));
+        }
+        for drag in &map.drags {
+            out.extend(drag.map_or([f32::NAN; 3], |k| probe::drag(&view, k).0.map(|x| x as f32)));
+        }
+        for &k in &self.wind_links {
+            let velocity = map.movers[k].as_ref().zip(seen.model().wind());
+            let velocity = velocity.map_or([f64::NAN; 3], |(at, wind)| wind.at(t).velocity_at(place(at).pos).0);
+            out.extend(velocity.map(|x| x as f32));
+        }
+        let number = |list: &[f64], k: &Option<usize>| k.map_or(f32::NAN, |k| list[k] as f32);
+        out.extend(map.q.iter().map(|k| number(&seen.state.q, k)));
+        out.extend(map.v.iter().map(|k| number(&seen.state.v, k)));
+    }
+
     /// Appends the frame of the observed world at time `t` `[s]` to `out`: [`Layout::width`] numbers.
     pub fn write(&self, seen: &Observation<'_>, t: f64, out: &mut Vec<f32>) {
         let poses = seen.scratch().link_poses();
@@ -179,11 +219,16 @@ impl Trajectory {
     }
 
     /// Appends the frame of the observed world after `tick` base steps, at time `t` `[s]`.
-    pub fn record(&mut self, seen: &Observation<'_>, tick: u64, t: f64) {
+    ///
+    /// `map` tells where things are in a run whose structure has changed.
+    pub fn record(&mut self, seen: &Observation<'_>, tick: u64, t: f64, map: Option<&FrameMap>) {
         self.ticks.push(tick);
         self.times.push(t);
-        self.layout.write(seen, t, &mut self.numbers);
-        self.contacts.record(seen);
+        match map {
+            Some(map) => self.layout.write_mapped(map, seen, t, &mut self.numbers),
+            None => self.layout.write(seen, t, &mut self.numbers),
+        }
+        self.contacts.record(seen, map);
     }
 
     /// Returns the number of frames so far.

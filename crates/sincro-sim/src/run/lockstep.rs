@@ -1,10 +1,10 @@
 //! A scene and its diagram, tick by tick: what a run, a server and a test all drive.
 
 use std::any::Any;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sincro_blocks::runner::LoopOpening;
-use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
@@ -14,11 +14,14 @@ use super::world_with_room;
 use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, Source};
 use crate::diagram_controller::DiagramController;
 use crate::load::Loaded;
+use crate::restructure::{Edit, Renamed, Restructured, restructure};
 use crate::runtime_object::RuntimeObject;
-use crate::sensors::Sensors;
+use crate::sensors::{Sensors, Timing};
 use crate::snapshot::Snapshot;
+use crate::structure::Structure;
 use crate::trace::Trace;
-use sincro_scene::record::float_signals;
+use sincro_scene::record::{Recorder, float_signals};
+use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptError;
 
 /// Run of a scene, step by step: its world with the diagram, scripts and attached controllers that control it.
@@ -61,8 +64,11 @@ pub struct LockStep {
     /// All that act besides the diagram, in their order.
     controllers: Vec<Box<dyn Controller>>,
     is_started: bool,
-    /// The model as the scene has it.
-    scene_model: Arc<Model<f64>>,
+    /// Scene at the start.
+    scene: Arc<Scene>,
+    /// Structure now; none if it is that of the start.
+    structure: Option<Structure>,
+    timing: Timing,
 }
 
 /// Copy of a lock-step to look ahead with; result of [`LockStep::fork`].
@@ -72,6 +78,14 @@ pub struct Fork {
     pub lockstep: LockStep,
     /// Names of controllers, or parts of them, that the copy goes on without.
     pub not_copied: Vec<String>,
+}
+
+/// Changes of the structure that a recorder has followed, for [`LockStep::bring_up`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Followed {
+    count: u64,
+    /// Energy that they have added `[J]`.
+    pub energy: f64,
 }
 
 /// Reason why a [`LockStep`] cannot go on; [`Halt::explain`] makes a status for the user of it.
@@ -149,7 +163,8 @@ impl LockStep {
         let world = world_with_room(scene, experiment, method, refined, n_states);
         let engine = loaded.extensions.scripts.filter(|_| !scene.scripts.is_empty());
         let controllers = engine.map(|engine| engine.controller(loaded)).into_iter().collect();
-        let sensors = Sensors::new(scene, experiment);
+        let timing = Timing::new(experiment);
+        let sensors = Sensors::new(scene, timing);
         let floats: Vec<String> = float_signals(&experiment.record).map(str::to_owned).collect();
         let room = control.as_ref().map_or(0, |c| c.signals().len()) + floats.len() + sensors.values.len();
         let signals = Vec::with_capacity(room);
@@ -169,7 +184,9 @@ impl LockStep {
             tick: 0,
             controllers,
             is_started,
-            scene_model: Arc::clone(&scene.model),
+            scene: Arc::clone(scene),
+            structure: None,
+            timing,
         };
         match new.control.as_mut().and_then(Controller::continuous) {
             Some(part) => new.world.initialize_with(0.0, part),
@@ -256,7 +273,8 @@ impl LockStep {
             sources: self.sources.clone(),
             upcoming: self.upcoming.clone(),
             controllers,
-            scene_model: Arc::clone(&self.scene_model),
+            scene: Arc::clone(&self.scene),
+            structure: self.structure.clone(),
             ..*self
         };
         Fork { lockstep, not_copied }
@@ -355,6 +373,7 @@ impl LockStep {
     /// [`Halt::Controller`]: a controller cannot start. [`Halt::Block`]: a block gives a number that is not finite.
     pub fn start(&mut self) -> Result<(), Halt> {
         self.is_started = true;
+        self.follow_structure()?;
         self.call(false, |controller, at| controller.start(at))?;
         self.update_proximity_sensors();
         self.measure()?;
@@ -386,12 +405,85 @@ impl LockStep {
         mut act: impl FnMut(&mut dyn Controller, Instant<'_>) -> Result<(), ScriptError>,
     ) -> Result<(), Halt> {
         let (tick, t) = (self.tick, self.t());
-        for controller in all(&mut self.control, &mut self.controllers) {
-            act(controller, Instant { world: &mut self.world, tick, t }).map_err(|fault| Halt::Controller {
-                tick,
-                t,
-                is_after_step,
-                fault: Box::new(fault),
+        for k in 0..usize::from(self.control.is_some()) + self.controllers.len() {
+            let controller = nth(&mut self.control, &mut self.controllers, k);
+            let done = act(controller, Instant { world: &mut self.world, tick, t });
+            let changes = controller.take_restructured();
+            done.map_err(|fault| Halt::Controller { tick, t, is_after_step, fault: Box::new(fault) })?;
+            for change in &changes {
+                self.adopt_structure(change, Some(k), is_after_step)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adopts changes of the structure that controllers have made in the world outside of the step, as when a client
+    /// calls a function of the API; to be called after such calls. Each step does it, too.
+    ///
+    /// # Errors
+    ///
+    /// [`Halt::Controller`]: a controller cannot go on with the structure.
+    pub fn follow_structure(&mut self) -> Result<(), Halt> {
+        for k in 0..usize::from(self.control.is_some()) + self.controllers.len() {
+            for change in nth(&mut self.control, &mut self.controllers, k).take_restructured() {
+                self.adopt_structure(&change, Some(k), false)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Scene of the world as it is now: that of the start, unless its structure was changed.
+    #[must_use]
+    pub fn scene(&self) -> &Arc<Scene> {
+        self.structure.as_ref().map_or(&self.scene, |structure| &structure.scene)
+    }
+
+    /// Structure now, if it is not that of the start.
+    #[must_use]
+    pub fn structure(&self) -> Option<&Structure> {
+        self.structure.as_ref()
+    }
+
+    /// Lets a recorder of the scene at the start go on with the present structure; `known` is what it has followed so
+    /// far. To be called before each row. Returns true if the structure has changed since.
+    pub fn bring_up(&self, recorder: &mut Recorder, known: &mut Followed) -> bool {
+        let (count, energy) = self.structure.as_ref().map_or((0, 0.0), |s| (s.count, s.energy_added));
+        if count == known.count {
+            return false;
+        }
+        let scene = self.scene();
+        let renamed = Renamed::new(&self.scene, scene);
+        recorder.follow(&scene.model, &|path| renamed.path(path), energy - known.energy);
+        *known = Followed { count, energy };
+        true
+    }
+
+    /// Takes over a change of the structure of the world; controller `from` has made it.
+    fn adopt_structure(&mut self, change: &Restructured, from: Option<usize>, is_after_step: bool) -> Result<(), Halt> {
+        let scene = &change.scene;
+        let former = std::mem::replace(&mut self.commands, scene.commands.clone());
+        let sources = std::mem::replace(&mut self.sources, vec![Source::Scene; scene.commands.len()]);
+        for (k, old) in change.transferred.commands.iter().enumerate() {
+            if let Some(old) = old {
+                self.commands[k] = former[*old].clone();
+                self.sources[k] = sources[*old];
+            }
+        }
+        self.sensors = self.sensors.continued(scene, self.timing);
+        if let Some(method) = &mut self.method {
+            method.restructured(&scene.model);
+        }
+        self.structure = Some(Structure::after(self.structure.as_ref(), change));
+        let (tick, t) = (self.tick, self.t());
+        for k in 0..usize::from(self.control.is_some()) + self.controllers.len() {
+            if Some(k) == from {
+                continue;
+            }
+            let controller = nth(&mut self.control, &mut self.controllers, k);
+            controller.restructured(change).map_err(|message| {
+                let object = controller.name().to_owned();
+                let fault = Box::new(ScriptError { object, at: None, message, help: None });
+                Halt::Controller { tick, t, is_after_step, fault }
             })?;
         }
         Ok(())
@@ -445,6 +537,7 @@ impl LockStep {
     /// [`Halt::World`]: the world cannot go on. [`Halt::Block`]: a block gives a number that is not finite.
     /// [`Halt::Controller`]: a controller fails.
     pub fn advance(&mut self) -> Result<(), Halt> {
+        self.follow_structure()?;
         let (tick, t) = (self.tick, self.t());
         // 1 actuate
         self.preview();
@@ -572,14 +665,22 @@ impl LockStep {
     #[must_use]
     pub fn trace(&self) -> Trace {
         let mut trace = Trace::start(&self.world.state);
-        trace.add_continuous(self.continuous());
+        self.add_beside_state(&mut trace);
         trace
     }
 
     /// Adds the present state to the hash `trace` of a run.
     pub fn hash_into(&self, trace: &mut Trace) {
         trace.add(&self.world.state);
+        self.add_beside_state(trace);
+    }
+
+    /// Adds to a trace what is no part of the state of the world.
+    fn add_beside_state(&self, trace: &mut Trace) {
         trace.add_continuous(self.continuous());
+        if let Some(structure) = &self.structure {
+            trace.add_structure(structure.hash);
+        }
     }
 
     /// Returns a snapshot: everything needed to go on from here bit for bit. `trace` is the hash of the run so far.
@@ -587,7 +688,7 @@ impl LockStep {
     pub fn snapshot(&self, trace: Trace) -> Snapshot {
         let diagram = self.control.as_ref().and_then(Controller::save);
         Snapshot {
-            params: (self.world.model().params() != self.scene_model.params())
+            params: (self.world.model().params() != self.scene().model.params())
                 .then(|| Box::new(self.world.model().params().clone())),
             state: self.world.state.clone(),
             trace,
@@ -595,14 +696,16 @@ impl LockStep {
             control: self.world.control(),
             sensors: self.sensors.values.clone(),
             diagram,
+            structure: self.structure.clone(),
         }
     }
 
-    /// Restores a snapshot of the same scene and diagram.
+    /// Restores a snapshot of the same scene and diagram, with the structure that it had then.
     ///
     /// # Panics
     ///
-    /// If the snapshot has another number of sensor values, as one of another scene may have.
+    /// If the snapshot has another number of sensor values, as one of another scene may have, or if the diagram
+    /// measures an object that it has not.
     ///
     /// ```
     /// use sincro_sim::prelude::*;
@@ -622,7 +725,9 @@ impl LockStep {
     /// # }
     /// ```
     pub fn restore(&mut self, snapshot: &Snapshot) {
-        self.world.set_params(snapshot.params.as_deref().unwrap_or(self.scene_model.params()));
+        self.restore_structure(snapshot.structure.as_ref());
+        let scene = self.scene().clone();
+        self.world.set_params(snapshot.params.as_deref().unwrap_or(scene.model.params()));
         self.world.state = snapshot.state.clone();
         if let Some(control) = snapshot.control {
             if self.method.is_some() {
@@ -636,6 +741,38 @@ impl LockStep {
         if let (Some(control), Some(state)) = (&mut self.control, &snapshot.diagram) {
             control.restore(state, &snapshot.state);
         }
+    }
+
+    /// Begins with another structure than that of the scene, in its initial state; to be called before
+    /// [`LockStep::start`].
+    ///
+    /// # Panics
+    ///
+    /// If the diagram measures or commands an object that the structure has not.
+    pub fn set_structure(&mut self, structure: &Structure) {
+        self.restore_structure(Some(structure));
+        self.world.state = State { tick: 0, ..structure.scene.initial.clone() };
+        match self.control.as_mut().and_then(Controller::continuous) {
+            Some(part) => self.world.initialize_with(0.0, part),
+            None => self.world.initialize(0.0),
+        }
+    }
+
+    /// Replaces the world by one of the structure of a snapshot, if that is another one.
+    fn restore_structure(&mut self, structure: Option<&Structure>) {
+        if self.structure.as_ref() == structure {
+            return;
+        }
+        let scene = structure.map_or(&self.scene, |structure| &structure.scene).clone();
+        let from = self.scene().clone();
+        let edit = Edit { from: &from, copies: &BTreeMap::new(), conserves_momentum: false };
+        let mut change = restructure(&mut self.world, (*scene).clone(), &edit);
+        // loops select their rows in the state after the change: the world is made there again
+        self.world = self.world.continued((*scene.model).clone(), scene.initial.clone(), &|_| None);
+        change.scene = scene;
+        let adopted = self.adopt_structure(&change, None, false);
+        adopted.expect("the diagram has run with the structure of the snapshot");
+        self.structure = structure.cloned();
     }
 
     /// Changes of the integration method so far, by `auto`.
@@ -673,4 +810,17 @@ fn all<'a>(
 ) -> impl Iterator<Item = &'a mut dyn Controller> {
     let diagram = diagram.iter_mut().map(|diagram| diagram as &mut dyn Controller);
     diagram.chain(others.iter_mut().map(|controller| &mut **controller))
+}
+
+/// Controller `k`: the diagram is the first one, if there is one.
+fn nth<'a>(
+    diagram: &'a mut Option<DiagramController<f64>>,
+    others: &'a mut [Box<dyn Controller>],
+    k: usize,
+) -> &'a mut dyn Controller {
+    match diagram {
+        Some(diagram) if k == 0 => diagram,
+        Some(_) => &mut *others[k - 1],
+        None => &mut *others[k],
+    }
 }

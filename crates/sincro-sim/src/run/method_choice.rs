@@ -5,6 +5,7 @@
 //! scripts and clients turn into springs. The fastest rate is estimated every [`PERIOD`] ticks, at their start, so that
 //! the choice depends on the state alone and a run that is restored continues with the same bits.
 
+use sincro_dynamics::model::Model;
 use sincro_dynamics::stiffness::StiffnessProbe;
 use sincro_dynamics::world::{MethodKind, World};
 use sincro_scene::experiment::Integrator;
@@ -50,6 +51,11 @@ impl MethodChoice {
             step: loaded.experiment.step,
             changes: MethodChanges::default(),
         })
+    }
+
+    /// Goes on with another model.
+    pub fn restructured(&mut self, model: &Model<f64>) {
+        self.probe = StiffnessProbe::new(model);
     }
 
     /// Chooses the method at the start of tick `tick`, at time `t` `[s]`.

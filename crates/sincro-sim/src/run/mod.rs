@@ -24,7 +24,7 @@ use sincro_dynamics::world::{MethodKind, StepStatistics, World};
 use crate::audit::Finding;
 use crate::trace::Trace;
 use crate::validity::ValidityViolation;
-pub use lockstep::{Halt, LockStep};
+pub use lockstep::{Followed, Halt, LockStep};
 pub use recording::Recording;
 
 use crate::controller::{Change, Message};

@@ -1,18 +1,20 @@
 //! Recording of a run, tick by tick: recorded rows, hash, balance of energy. A run from a file and a live session
 //! keep it in the same way.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use sincro_dynamics::world::{MethodKind, Observation, World};
 
 use super::bounds::Bounds;
-use super::lockstep::LockStep;
+use super::lockstep::{Followed, LockStep};
 use super::method_choice::MethodChanges;
 use super::{RunError, RunOptions, Simulated, method_word};
 use crate::audit::LawAudit;
 use crate::file::FileError;
 use crate::load::Loaded;
-use crate::replay::Trajectory;
+use crate::replay::{FrameMap, Trajectory};
+use crate::restructure::Renamed;
 use crate::results::{EnergyReport, Status};
 use crate::table::{CsvWriter, Table};
 use crate::trace::Trace;
@@ -20,6 +22,7 @@ use crate::validity;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::Experiment;
 use sincro_scene::record::Recorder;
+use sincro_scene::scene::Scene;
 
 use super::streams::Streams;
 
@@ -39,6 +42,12 @@ pub struct Recording {
     experiment: Experiment,
     trace: Trace,
     record_every: u64,
+    /// Scene at the start, and the one that recorder, audit and frames know.
+    scenes: [Arc<Scene>; 2],
+    /// Changes of the structure that have been followed.
+    followed: Followed,
+    /// Places of what the frames hold, if the structure has changed.
+    frame_map: Option<FrameMap>,
     /// The last tick that is recorded: a session may last longer than its experiment, its memory may not grow.
     last_tick: u64,
     clock: Instant,
@@ -65,6 +74,7 @@ impl Recording {
         let (ledger, trace) = (Ledger::start(lockstep.world(), rows as usize), lockstep.trace());
         let (record_every, last_tick) = (experiment.record_every, experiment.n_steps);
         let streams = Streams::new(options.csv, rows as usize);
+        let scenes = [Arc::clone(scene), Arc::clone(scene)];
         Ok(Self {
             recorder,
             table,
@@ -78,6 +88,9 @@ impl Recording {
             experiment: experiment.clone(),
             trace,
             record_every,
+            scenes,
+            followed: Followed::default(),
+            frame_map: None,
             last_tick,
             clock,
         })
@@ -97,6 +110,7 @@ impl Recording {
     /// [`FileError`]: the CSV file cannot be written.
     pub fn start(&mut self, lockstep: &mut LockStep) -> Result<Option<String>, FileError> {
         // scripts may have changed what the run starts with
+        self.follow(lockstep);
         self.ledger = Ledger::start(lockstep.world(), self.ledger.balances.capacity());
         let end = self.publish(lockstep, true)?;
         self.record_keyframe(lockstep, false);
@@ -111,6 +125,7 @@ impl Recording {
     /// [`FileError`]: the CSV file cannot be written.
     pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<Option<String>, FileError> {
         let mut end = None;
+        self.follow(lockstep);
         lockstep.hash_into(&mut self.trace);
         let (tick, t) = (lockstep.tick(), lockstep.t());
         self.validity.update(lockstep.world(), t);
@@ -134,12 +149,30 @@ impl Recording {
         self.ledger.start.0 += added;
     }
 
+    /// Goes on with the structure of the lock-step, if it has changed: columns stay, signals of what has gone are NaN.
+    fn follow(&mut self, lockstep: &mut LockStep) {
+        let before = self.followed.energy;
+        if !lockstep.bring_up(&mut self.recorder, &mut self.followed) {
+            return;
+        }
+        let scene = lockstep.scene().clone();
+        let [start, known] = &self.scenes;
+        let of_known = Renamed::new(known, &scene);
+        self.audit.restructured(&known.model);
+        self.validity.restructured(&known.model, &scene.model, &|path| of_known.path(path));
+        self.ledger.start.0 += self.followed.energy - before;
+        self.frame_map = self.trajectory.as_ref().map(|t| FrameMap::new(&t.layout, start, &scene));
+        self.scenes[1] = scene;
+    }
+
     fn record_keyframe(&mut self, lockstep: &mut LockStep, is_last: bool) {
         let (tick, t) = (lockstep.tick(), lockstep.t());
         let is_due = |trajectory: &&mut Trajectory| trajectory.is_due(tick) && tick <= self.last_tick;
         if let Some(trajectory) = self.trajectory.as_mut().filter(|trajectory| is_due(trajectory) || is_last) {
-            trajectory.record(&lockstep.observe(t).0, tick, t);
-            trajectory.runtime.update(t, |visit| lockstep.visit_runtime_objects(visit));
+            let seen = lockstep.observe(t).0;
+            trajectory.record(&seen, tick, t, self.frame_map.as_ref());
+            let poses = self.frame_map.as_ref().map(|_| seen.scratch().link_poses().to_vec());
+            trajectory.runtime.update(t, poses.as_deref(), |visit| lockstep.visit_runtime_objects(visit));
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::controller::{Commands, Controller, Forked};
 use crate::load::Loaded;
+use crate::restructure::Restructured;
 use crate::run::LockStep;
 use sincro_blocks::runner::State as DiagramState;
 use sincro_dynamics::state::State;
@@ -25,6 +26,10 @@ impl Controller for Commanded {
                 commands.set(command, *value);
             }
         }
+    }
+
+    fn restructured(&mut self, _: &Restructured) -> Result<(), String> {
+        Err("the structure changes, which a task with commands by number cannot follow".to_owned())
     }
 
     fn fork(&self) -> Forked {
@@ -75,8 +80,10 @@ impl SingleWorld {
         let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         let recorder = Recorder::new(&plan.task.signals, &loaded.scene.model, &entries);
         self.run = recorder.ok().map(|mut recorder| {
-            let (seen, signals) = lockstep.observe(0.0);
-            recorder.row(&seen, signals, 0.0, true);
+            if lockstep.structure().is_none() {
+                let (seen, signals) = lockstep.observe(0.0);
+                recorder.row(&seen, signals, 0.0, true);
+            }
             (lockstep, recorder)
         });
     }
@@ -118,6 +125,9 @@ impl SingleWorld {
     /// Signals of the world; false if it cannot go on.
     pub fn observe(&mut self, out: &mut [f64]) -> bool {
         let Some((lockstep, recorder)) = &mut self.run else { return false };
+        if lockstep.structure().is_some() {
+            return false;
+        }
         let t = lockstep.t();
         let (seen, signals) = lockstep.observe(t);
         out.copy_from_slice(&recorder.row(&seen, signals, t, false)[1..]);

@@ -8,8 +8,8 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::overrides::Override;
 use sincro_scene::record::{Recorder, catalogue};
 use sincro_sim::Loaded;
-use sincro_sim::replay::{Contacts, Layout, RuntimeEvent, RuntimeLog, SceneView, Trajectory};
-use sincro_sim::run::{LockStep, method_for};
+use sincro_sim::replay::{Contacts, FrameMap, Layout, RuntimeEvent, RuntimeLog, SceneView, Trajectory};
+use sincro_sim::run::{Followed, LockStep, method_for};
 use sincro_sim::snapshot::Snapshot;
 use sincro_sim::trace::Trace;
 
@@ -42,6 +42,10 @@ pub(super) struct Track {
     push: Option<ExternalForce<f64>>,
     /// Objects that scripts have made.
     runtime: RuntimeLog,
+    /// Changes of the structure that have been followed.
+    followed: Followed,
+    /// Places of what the frames hold, if the structure has changed.
+    frame_map: Option<FrameMap>,
     /// Parts of the runs that it was branched from, in the order of time.
     before: Vec<Segment>,
     /// Its own part.
@@ -82,6 +86,8 @@ impl Track {
             snapshots: Thinned::new(usize::MAX),
             push: None,
             runtime,
+            followed: Followed::default(),
+            frame_map: None,
             before: Vec::new(),
             segment: Segment::new(settings),
             loaded,
@@ -156,14 +162,26 @@ impl Track {
         let snapshot = self.lockstep.snapshot(self.trace);
         self.snapshots.push(snapshot);
         let mut frame = Vec::with_capacity(self.layout.width());
+        self.follow();
         let (seen, signals) = self.lockstep.observe(t);
         let row = self.recorder.row(&seen, signals, t, is_start)[1..].to_vec();
-        self.layout.write(&seen, t, &mut frame);
+        match &self.frame_map {
+            Some(map) => self.layout.write_mapped(map, &seen, t, &mut frame),
+            None => self.layout.write(&seen, t, &mut frame),
+        }
         let mut contacts = Contacts::default();
-        contacts.record(&seen);
+        contacts.record(&seen, self.frame_map.as_ref());
+        let poses = self.frame_map.as_ref().map(|_| seen.scratch().link_poses().to_vec());
         let lockstep = &self.lockstep;
-        self.runtime.update(t, |visit| lockstep.visit_runtime_objects(visit));
+        self.runtime.update(t, poses.as_deref(), |visit| lockstep.visit_runtime_objects(visit));
         Taken { t, row, frame, contacts, runtime: std::mem::take(&mut self.runtime.events) }
+    }
+
+    /// Goes on with the structure of the lock-step, if that has changed: frames and columns are those of the start.
+    fn follow(&mut self) {
+        if self.lockstep.bring_up(&mut self.recorder, &mut self.followed) {
+            self.frame_map = Some(FrameMap::new(&self.layout, &self.loaded.scene, self.lockstep.scene()));
+        }
     }
 
     /// Bounds the memory of the snapshots.

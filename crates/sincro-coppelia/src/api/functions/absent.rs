@@ -3,13 +3,10 @@
 /// Functions that are not offered: their names, and the reason that callers are given.
 const ABSENT: &[(&[&str], &str)] = &[
     (
-        &["createForceSensor", "createJoint", "createPath", "createScript", "addScript", "createTexture"],
-        "joints, bodies that move and sensors of forces are made in the scene file; at run time there are points, shapes, proximity and vision sensors",
+        &["createForceSensor", "createPath", "createScript", "addScript", "createTexture"],
+        "sensors of forces, paths, scripts and textures are made in the scene file, or in a model that is loaded",
     ),
-    (
-        &["saveModel", "removeModel", "loadUI", "saveUI"],
-        "a scene is compiled as a whole: put the model into the scene file and load the scene",
-    ),
+    (&["loadUI", "saveUI"], "there are no windows: values of widgets are kept by simUI"),
     (
         &["saveScene"],
         "clients write no scenes: what they change is in run.json (`changes`); edit scene.toml, or `save as scene` in `sincro view`",

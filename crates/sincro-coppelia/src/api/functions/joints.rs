@@ -6,6 +6,11 @@ use super::{Function, Outcome, done, handle, one};
 use crate::api::{ApiError, Arguments, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "createJoint",
+        tip: "int jointHandle=sim.createJoint(int jointType,int jointMode,int options,float[2] sizes={0.15,0.02})",
+        run: create,
+    },
     Function { name: "getJointPosition", tip: "float position=sim.getJointPosition(int objectHandle)", run: position },
     Function {
         name: "setJointPosition",
@@ -81,6 +86,19 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: dependency,
     },
 ];
+
+/// Mode 0 kinematic, 5 dynamic; sizes are those of its drawing.
+fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (kind, mode) = (a.int(0)?, a.int_or(1, 5)?);
+    let is_kinematic = match mode {
+        0 => true,
+        5 => false,
+        other => {
+            return Err(ApiError(format!("{other} is no mode of a joint: kinematic 0, dynamic 5")));
+        }
+    };
+    one(sim.create_joint(kind, is_kinematic)?)
+}
 
 fn position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;

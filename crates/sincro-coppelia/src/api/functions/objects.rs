@@ -60,6 +60,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "setObjectSel", tip: "sim.setObjectSel(int[] objectHandles)", run: |_, _| done() },
     Function { name: "createDummy", tip: "int objectHandle=sim.createDummy(float size)", run: create_dummy },
     Function { name: "removeObject", tip: "int result=sim.removeObject(int objectHandle)", run: remove },
+    Function { name: "removeModel", tip: "int objectCount=sim.removeModel(int objectHandle)", run: remove_model },
     Function {
         name: "copyPasteObjects",
         tip: "int[] copiedObjectHandles=sim.copyPasteObjects(int[] objectHandles,int options=0)",
@@ -323,14 +324,22 @@ fn create_dummy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
-    sim.remove(own)?;
+    sim.remove_objects(&[own], false)?;
     one(1_i64)
 }
 
-/// Copies of runtime objects; objects of the scene are not copied.
+/// An object with all below it; returns their number.
+fn remove_model(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let n = sim.registry.tree(own).len();
+    sim.remove_objects(&[own], true)?;
+    one(n as i64)
+}
+
+/// Bit 0 of the options: whole models.
 fn copy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let copies = handles(a, 0)?.into_iter().map(|handle| sim.copy(handle));
-    Ok(vec![Value::handles(copies.collect::<Result<Vec<_>, _>>()?)])
+    let (handles, options) = (handles(a, 0)?, a.int_or(1, 0)?);
+    Ok(vec![Value::handles(sim.copy_objects(&handles, options & 1 != 0)?)])
 }
 
 /// A list of handles.
@@ -342,9 +351,7 @@ pub(super) fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, ApiErro
 }
 
 fn remove_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    for handle in handles(a, 0)? {
-        sim.remove(handle)?;
-    }
+    sim.remove_objects(&handles(a, 0)?, false)?;
     done()
 }
 
@@ -384,7 +391,7 @@ fn set_property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn rename(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
-    sim.registry.rename(own, a.text(1)?)?;
+    sim.rename(own, a.text(1)?)?;
     done()
 }
 

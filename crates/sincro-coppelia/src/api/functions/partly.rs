@@ -4,7 +4,7 @@ use super::{Function, properties, ui};
 
 /// Names, and what of them is not offered.
 const PARTLY: &[(&[&str], &str)] = &[
-    (&["setObjectParent"], "frames, cameras and runtime objects; bodies and joints hang as the scene file says"),
+    (&["setObjectParent"], "a body that is hung on another one is joined to it; hung on the world it is free"),
     (
         &[
             "setObjectPosition",
@@ -14,13 +14,14 @@ const PARTLY: &[(&[&str], &str)] = &[
             "setObjectMatrix",
             "setObjectChildPose",
         ],
-        "frames, cameras, runtime objects and what a free joint carries; recorded signals of a frame stay those of the scene",
+        "not of bodies that other joints than free ones carry; recorded signals of a frame stay those of the scene",
     ),
-    (&["removeObject", "removeObjects", "copyPasteObjects"], "runtime objects only"),
+    (&["removeObject", "removeObjects", "removeModel"], "not of objects that carry a script"),
+    (&["copyPasteObjects"], "scripts are not copied"),
     (&["setObjectAlias", "setObjectName"], "runtime objects only"),
     (
         &["createPrimitiveShape", "createPureShape", "createMeshShape", "createShape", "createHeightfieldShape"],
-        "static, without contact",
+        "dynamic ones have the friction of V-REP's default material; meshes touch with their convex hulls; planes and height fields are seen only",
     ),
     (
         &["addDrawingObject", "addDrawingObjectItem"],
@@ -30,7 +31,13 @@ const PARTLY: &[(&[&str], &str)] = &[
         &["addParticleObject", "addParticleObjectItem"],
         "shown in the viewer on their way by velocity and gravity; they touch and push nothing",
     ),
-    (&["importShape", "importMesh", "loadModel"], "STL and OBJ files of the scene's folder"),
+    (&["importShape", "importMesh"], "STL and OBJ files of the scene's folder"),
+    (
+        &["loadModel"],
+        "scene files of this program, the robots in `models/`, STL and OBJ files of the scene's folder; scripts of models are left out",
+    ),
+    (&["saveModel"], "scene files of this program: their text, or a file in the folder for files of clients"),
+    (&["createJoint"], "moves something as soon as a body is hung on it; has no limits"),
     (&["scaleObject", "scaleObjects", "groupShapes", "ungroupShape"], "runtime shapes only"),
     (&["loadScene"], "scene folders of this program, beside the one that is served"),
     (&["getObjectSizeFactor"], "always 1: objects are not scaled"),

@@ -5,8 +5,8 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 use super::objects::handles;
 use super::{Function, Outcome, done, handle, one};
 use crate::api::convention::numbers_of_pose;
-use crate::api::parameters::STATIC;
 use crate::api::shapes::primitive_of;
+use crate::api::structure::Role;
 use crate::api::{ApiError, Arguments, SimApi, Value};
 use sincro_scene::scene::Triangles;
 
@@ -47,6 +47,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: read,
     },
     Function { name: "loadModel", tip: "int objectHandle=sim.loadModel(string filename)", run: model },
+    Function { name: "saveModel", tip: "int result=sim.saveModel(int modelBaseHandle,string filename='')", run: save },
     Function {
         name: "getShapeGeomInfo",
         tip: "int result,int pureType,float[4] dimensions=sim.getShapeGeomInfo(int shapeHandle)",
@@ -107,16 +108,26 @@ fn primitive(sim: &mut SimApi<'_>, kind: i64, size: [f64; 3]) -> Outcome {
 
 /// Types 0 cuboid, 1 ball, 2 cylinder, 3 cone; option 16 static, 8 respondable.
 fn pure(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let (kind, options) = (a.int(0)?, a.int(1)?);
-    a.real(3)?;
-    if options & 16 == 0 || options & 8 != 0 {
-        return Err(ApiError(format!("{STATIC}; with option 16, and without 8, it is made")));
+    let (kind, options, mass) = (a.int(0)?, a.int(1)?, a.real(3)?);
+    let (is_static, is_respondable) = (options & 16 != 0, options & 8 != 0);
+    let has_mass = mass.is_finite() && mass > 0.0;
+    if !(is_static || has_mass) {
+        return Err(ApiError(format!("mass {mass} kg is not positive: a static shape, option 16, needs none")));
     }
     let kind = match kind {
         0..=3 => kind + 3,
         other => return Err(ApiError(format!("{other} is no pure shape: cuboid 0, sphere 1, cylinder 2, cone 3"))),
     };
-    primitive(sim, kind, a.reals(2)?)
+    let (name, surface, place) = primitive_of(kind, a.reals(2)?)?;
+    let own = sim.create_shape(name, vec![(surface, place)])?;
+    if !is_static || is_respondable {
+        let mass = has_mass.then_some(mass);
+        if let Err(refused) = sim.give_role(own, Role { is_static, is_respondable, mass }) {
+            sim.remove(own)?;
+            return Err(refused);
+        }
+    }
+    one(own)
 }
 
 /// Numbers of argument `k` by threes.
@@ -162,17 +173,33 @@ fn read(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     Ok(vec![Value::List(vec![corners]), Value::List(vec![Value::List(indices)])])
 }
 
-/// Meshes only: a scene is compiled as a whole.
+/// A mesh of the scene's folder, the text of a model, or a scene file or folder.
 fn model(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if let Value::Bytes(bytes) = a.get(0) {
+        let text = std::str::from_utf8(bytes).map_err(|_| ApiError::new("the model is no text"))?;
+        return one(sim.load_model_text(text)?);
+    }
     let name = a.text(0)?;
     let lower = name.to_lowercase();
     if lower.ends_with(".stl") || lower.ends_with(".obj") {
         return import(sim, name, a, usize::MAX);
     }
-    let short: String = name.chars().take(100).collect();
-    let help =
-        "put a model of joints and bodies into the scene file; meshes of the scene's folder, STL and OBJ, are loaded";
-    Err(ApiError(format!("`{short}` is no mesh: {help}")))
+    if name.contains('\n') {
+        return one(sim.load_model_text(name)?);
+    }
+    one(sim.load_model(name)?)
+}
+
+/// The text of a scene file, to be loaded with `loadModel`; or, with a file name, a file of the folder for clients.
+fn save(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let text = sim.model_text(own)?;
+    let name = if a.has(1) { a.text(1)? } else { "" };
+    if name.is_empty() {
+        return Ok(vec![Value::Bytes(text.into_bytes())]);
+    }
+    sim.registry.ask(crate::api::Request::Save(name.to_owned(), text));
+    one(1_i64)
 }
 
 /// Bit 0: of several parts; bit 1: pure.

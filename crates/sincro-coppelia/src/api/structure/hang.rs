@@ -1,0 +1,201 @@
+//! Objects of the model that are hung elsewhere or put elsewhere: grippers, bases.
+
+use sincro_dynamics::spatial::Pose;
+
+use super::remove::idle_joints;
+use super::{Rebuild, free_joint, table};
+use crate::api::registry::{Handle, Kind};
+use crate::api::{ApiError, Reference, SimApi};
+use sincro_scene::draft::pose_keys;
+
+impl SimApi<'_> {
+    /// Hangs an object of the model on another object, or on the world for none. Hung on something else than the world
+    /// a free body is joined to it: momentum is conserved, kinetic energy of the relative motion is lost. Hung on the
+    /// world a body that moves is free, with the velocity that it has.
+    ///
+    /// # Errors
+    ///
+    /// The object would hang on itself, or the model cannot be so.
+    pub(crate) fn hang(&mut self, handle: Handle, parent: Option<Handle>, keeps_place: bool) -> Result<(), ApiError> {
+        if let Some(parent) = parent
+            && self.registry.tree(handle).contains(&parent)
+        {
+            return Err(ApiError::new("an object cannot hang on itself"));
+        }
+        let mut edit = self.draft()?;
+        self.join_parked(parent, &mut edit)?;
+        let is_body = matches!(self.registry.entry(handle)?.kind, Kind::Body(_));
+        let carrier = if is_body { self.free_carrier(handle) } else { None };
+        let unit = carrier.unwrap_or(handle);
+        let place = self.hung_place(handle, parent, keeps_place)?;
+        let is_free = self.is_free_joint(unit);
+        let is_parked = self.was_joint(unit);
+        let moves = self.registry.entry(handle)?.frame.link.is_some();
+        match parent {
+            None if is_free || is_parked => {
+                self.free(unit, handle, &place, &mut edit)?;
+            }
+            None if is_body && moves => {
+                let name = self.fresh_name(&format!("{}_free", self.registry.entry(handle)?.name));
+                let joint = edit.draft.add("joint", free_joint(&name, "/", &place));
+                let path = self.model_path(handle)?;
+                edit.draft.hang(&path, &joint, &Pose::identity());
+            }
+            _ if is_free => {
+                self.park(unit, handle, (parent, &place), &mut edit)?;
+            }
+            _ => {
+                let own = self.own_pose(handle)?;
+                let shown = self.pose(handle, Reference::World)?;
+                // of a joint the model's axes are others than those that the API shows
+                let place = place.compose(&shown.inverse().compose(&own));
+                let (parent, x_wp) = self.parent_in_edit(parent, &edit)?;
+                let path = self.model_path(handle)?;
+                edit.draft.hang(&path, &parent, &x_wp.inverse().compose(&place));
+            }
+        }
+        self.part_idle(&mut edit)?;
+        self.rebuild(edit)
+    }
+
+    /// Place in the world of an object that is hung elsewhere.
+    fn hung_place(&mut self, handle: Handle, parent: Option<Handle>, keeps_place: bool) -> Result<Pose<f64>, ApiError> {
+        if keeps_place {
+            return self.pose(handle, Reference::World);
+        }
+        let in_parent = self.pose(handle, Reference::Parent)?;
+        let x_wp = match parent {
+            None => Pose::identity(),
+            Some(parent) => {
+                let frame = self.registry.entry(parent)?.moving;
+                self.place(&frame)
+            }
+        };
+        Ok(x_wp.compose(&in_parent))
+    }
+
+    /// The free joint of a body is on the world, the body at a place in the world.
+    fn free(&mut self, joint: Handle, body: Handle, place: &Pose<f64>, edit: &mut Rebuild) -> Result<(), ApiError> {
+        let path = self.model_path(joint)?;
+        let name = self.registry.entry(joint)?.name.clone();
+        if self.is_free_joint(joint) {
+            // its coordinates stay: the joint's own frame goes to where the body then is at the place
+            let (own, shown) = (self.own_pose(joint)?, self.pose(body, Reference::World)?);
+            let base = place.compose(&shown.inverse()).compose(&own);
+            edit.draft.hang(&path, "/", &base);
+            return Ok(());
+        }
+        let (at, shown) = (self.own_pose(joint)?, self.pose(body, Reference::World)?);
+        let base = place.compose(&shown.inverse()).compose(&at);
+        let path = edit.draft.hang(&path, "/", &base);
+        edit.draft.unpark(&path, free_joint(&name, "/", &base));
+        Ok(())
+    }
+
+    /// The free joint of a body becomes a frame on what the body is joined to.
+    fn park(
+        &mut self,
+        joint: Handle,
+        body: Handle,
+        (parent, place): (Option<Handle>, &Pose<f64>),
+        edit: &mut Rebuild,
+    ) -> Result<(), ApiError> {
+        let path = self.model_path(joint)?;
+        let frame = self.carrier_frame(joint)?;
+        let (moving, shown) = (self.place(&frame), self.pose(body, Reference::World)?);
+        let now = place.compose(&shown.inverse()).compose(&moving);
+        let (parent, x_wp) = self.parent_in_edit(parent, edit)?;
+        let pose = x_wp.inverse().compose(&now);
+        let name = self.registry.entry(joint)?.name.clone();
+        let path = edit.draft.hang(&path, &parent, &pose);
+        let mut frame = table([("name", name.into()), ("parent", parent.into())]);
+        frame.extend(pose_keys(&pose));
+        edit.draft.park(&path, frame);
+        Ok(())
+    }
+
+    /// Joints that carry nothing that moves any more are no part of the model until something is hung on them.
+    fn part_idle(&mut self, edit: &mut Rebuild) -> Result<(), ApiError> {
+        let idle = idle_joints(&edit.draft, &std::collections::BTreeSet::new());
+        let Some(first) = idle.first() else { return Ok(()) };
+        Err(ApiError(format!("the joint `{first}` would move nothing: remove it, or hang something else on it first")))
+    }
+
+    /// Gives an object that clients or scripts have made another name: of one that is part of the model letters,
+    /// digits,
+    /// `_` and `-`.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no object or belongs to the scene, or the name is none, or a sibling has it.
+    pub fn rename(&mut self, handle: Handle, name: &str) -> Result<(), ApiError> {
+        if !self.registry.added.contains(&handle) {
+            return self.registry.rename(handle, name);
+        }
+        let mut edit = self.draft()?;
+        edit.conserves_momentum = false;
+        let path = self.model_path(handle)?;
+        if self.registry.entry(handle)?.name != name {
+            edit.draft.set_name(&path, name);
+            self.rebuild(edit)?;
+        }
+        Ok(())
+    }
+
+    /// Makes a body fixed in the world where it is, or free.
+    ///
+    /// # Errors
+    ///
+    /// The body is carried by other joints than a free one of its own, or has no mass.
+    pub(crate) fn set_static(&mut self, handle: Handle, is_static: bool) -> Result<(), ApiError> {
+        let entry = self.registry.entry(handle)?.clone();
+        let Kind::Body(mass) = entry.kind else {
+            return Err(ApiError(format!("`{}` is no body", entry.path)));
+        };
+        if entry.frame.link.is_none() == is_static {
+            return Ok(());
+        }
+        let place = self.pose(handle, Reference::World)?;
+        let mut edit = self.draft()?;
+        let carrier = self.free_carrier(handle);
+        let belongs = || {
+            let help = "whether a body moves belongs to the scene: hang it on the world first";
+            ApiError(format!("`{}`: {help}", entry.path))
+        };
+        if is_static {
+            let joint = carrier.filter(|joint| self.is_free_joint(*joint)).ok_or_else(belongs)?;
+            self.park(joint, handle, (None, &place), &mut edit)?;
+            return self.rebuild(edit);
+        }
+        if mass.mass <= 0.0 {
+            return Err(ApiError(format!("`{}` has no mass: give it one in the scene", entry.path)));
+        }
+        if let Some(joint) = carrier.filter(|joint| self.was_joint(*joint)) {
+            self.free(joint, handle, &place, &mut edit)?;
+            return self.rebuild(edit);
+        }
+        let name = self.fresh_name(&format!("{}_free", entry.name));
+        let joint = edit.draft.add("joint", free_joint(&name, "/", &place));
+        let path = self.model_path(handle)?;
+        edit.draft.hang(&path, &joint, &Pose::identity());
+        self.rebuild(edit)
+    }
+
+    /// Puts an object of the model that is fixed in the world, or a frame or joint with all that it carries, at a place
+    /// in the world. All joints keep their coordinates and velocities.
+    ///
+    /// # Errors
+    ///
+    /// The object is a body that joints carry.
+    pub(crate) fn place_in_model(&mut self, handle: Handle, x_wo: &Pose<f64>) -> Result<(), ApiError> {
+        let (own, shown) = (self.own_pose(handle)?, self.pose(handle, Reference::World)?);
+        let parent = self.registry.entry(handle)?.parent;
+        let (_, x_wp) = self.model_parent(parent)?;
+        let place = x_wo.compose(&shown.inverse()).compose(&own);
+        let mut edit = self.draft()?;
+        edit.conserves_momentum = false;
+        let path = self.model_path(handle)?;
+        edit.draft.set_pose(&path, &x_wp.inverse().compose(&place));
+        self.rebuild(edit)
+    }
+}

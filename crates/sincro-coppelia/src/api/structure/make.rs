@@ -1,0 +1,227 @@
+//! Joints and moving bodies that are made at run time.
+
+use serde_json::{Map, Value};
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::model::Shape;
+use sincro_dynamics::spatial::Pose;
+
+use super::{Rebuild, free_joint, table};
+use crate::api::registry::{Handle, Kind, WORLD};
+use crate::api::runtime_objects::MAX_CREATED;
+use crate::api::{ApiError, Reference, SimApi};
+use sincro_scene::draft::pose_keys;
+
+/// Density of what is made without a mass, as in V-REP [kg/m³].
+const DENSITY: f64 = 1000.0;
+/// Coefficient of friction of what is made, that of V-REP's default material.
+const FRICTION: f64 = 0.71;
+
+/// Role of a shape in the dynamics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Role {
+    /// True if it is fixed in the world.
+    pub is_static: bool,
+    /// True if it touches others.
+    pub is_respondable: bool,
+    /// Mass `[kg]`; none: that of water.
+    pub mass: Option<f64>,
+}
+
+impl SimApi<'_> {
+    /// Checks that so many further objects may be made.
+    pub(super) fn check_room(&self, n: usize) -> Result<(), ApiError> {
+        if self.registry.n_created + self.registry.added.len() + n <= MAX_CREATED {
+            return Ok(());
+        }
+        Err(ApiError(format!("{MAX_CREATED} objects were made already: remove some")))
+    }
+
+    /// Makes a joint in the world's origin that turns about (revolute, 10) or slides along (prismatic, 11) its z axis,
+    /// or turns in any way (spherical, 12). It is part of the model as soon as a body that moves is hung on it; until
+    /// then it can be put and hung anywhere. A joint in kinematic mode holds its position, one in dynamic mode is free
+    /// until its motor is given a mode.
+    ///
+    /// # Errors
+    ///
+    /// There is no joint of that type, or there are too many objects.
+    pub(crate) fn create_joint(&mut self, kind: i64, is_kinematic: bool) -> Result<Handle, ApiError> {
+        let word = match kind {
+            10 => "revolute",
+            11 => "prismatic",
+            12 => "ball",
+            _ => return Err(ApiError(format!("{kind} is no type of joint: revolute 10, prismatic 11, spherical 12"))),
+        };
+        self.check_room(1)?;
+        let name = self.fresh_name("Joint");
+        let handle = self.registry.create(&name, Kind::Joint(None), WORLD)?;
+        let mut keys = table([("kind", word.into())]);
+        if word != "ball" {
+            keys.insert("axis".into(), Value::from(vec![0.0, 0.0, 1.0]));
+            let mode = if is_kinematic { "velocity" } else { "free" };
+            keys.insert("motor".into(), Value::Object(table([("mode", mode.into())])));
+        }
+        self.registry.parked.insert(handle, keys);
+        Ok(handle)
+    }
+
+    /// A joint that was made and moves nothing yet becomes part of the model by an edit, with those above it.
+    pub(super) fn join_parked(&mut self, joint: Option<Handle>, edit: &mut Rebuild) -> Result<(), ApiError> {
+        let Some(handle) = joint else { return Ok(()) };
+        if self.is_of_model(handle) || edit.joined.values().any(|known| *known == handle) {
+            return Ok(());
+        }
+        let entry = self.registry.entry(handle)?.clone();
+        let Some(keys) = self.registry.parked.get(&handle).cloned() else {
+            // a dummy or shape: what carries it may be such a joint
+            return self.join_parked(entry.parent, edit);
+        };
+        self.join_parked(entry.parent, edit)?;
+        let (parent, x_wp) = self.parent_in_edit(entry.parent, edit)?;
+        let pose = x_wp.inverse().compose(&self.pose(handle, Reference::World)?);
+        let name = self.model_name(handle)?;
+        let mut all = table([("name", name.into()), ("parent", parent.into())]);
+        all.extend(keys);
+        all.extend(pose_keys(&pose));
+        let path = edit.draft.add("joint", all);
+        edit.joined.insert(path, handle);
+        Ok(())
+    }
+
+    /// Nearest object above that is part of the model after an edit, with the pose of its frame in the world.
+    pub(super) fn parent_in_edit(
+        &mut self,
+        parent: Option<Handle>,
+        edit: &Rebuild,
+    ) -> Result<(String, Pose<f64>), ApiError> {
+        let mut at = parent;
+        while let Some(handle) = at {
+            if let Some((path, _)) = edit.joined.iter().find(|(_, joined)| **joined == handle) {
+                let frame = self.registry.entry(handle)?.moving;
+                return Ok((path.clone(), self.place(&frame)));
+            }
+            if self.is_of_model(handle) {
+                return self.model_parent(Some(handle));
+            }
+            at = self.registry.entry(handle)?.parent;
+        }
+        Ok(("/".to_owned(), Pose::identity()))
+    }
+
+    /// Name of an object as the scene takes it: names of runtime objects may have other letters.
+    fn model_name(&mut self, handle: Handle) -> Result<String, ApiError> {
+        let name = self.registry.entry(handle)?.name.clone();
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if name.chars().all(is_plain) {
+            return Ok(name);
+        }
+        Ok(self.fresh_name(&name))
+    }
+
+    /// Gives a shape that was made a role in the dynamics: it becomes a body of the model. One that moves is free,
+    /// unless it hangs on a joint or on something that moves.
+    ///
+    /// # Errors
+    ///
+    /// The shape encloses no volume, or the model cannot be so.
+    pub(crate) fn give_role(&mut self, shape: Handle, role: Role) -> Result<(), ApiError> {
+        let entry = self.registry.entry(shape)?.clone();
+        if entry.kind != Kind::Shape {
+            return Err(ApiError(format!("`{}` is no shape that was made at run time", entry.path)));
+        }
+        self.check_room(2)?;
+        let mut shapes = Vec::new();
+        for (piece, place) in self.registry.senses.parts_of(shape) {
+            let mut keys = shape_keys(piece.geometry.surface(), &entry.path)?;
+            keys.extend(pose_keys(&place));
+            let [r, g, b] = piece.color;
+            keys.insert("color".into(), format!("#{r:02x}{g:02x}{b:02x}").into());
+            shapes.push(Value::Object(keys));
+        }
+        let mut edit = self.draft()?;
+        self.join_parked(entry.parent, &mut edit)?;
+        let (parent, x_wp) = self.parent_in_edit(entry.parent, &edit)?;
+        let place = self.pose(shape, Reference::World)?;
+        let name = self.model_name(shape)?;
+        let mut keys = table([("name", name.clone().into()), ("shape", Value::Array(shapes))]);
+        match role.mass {
+            Some(mass) => keys.insert("mass".into(), mass.into()),
+            None => keys.insert("density".into(), DENSITY.into()),
+        };
+        if role.is_respondable {
+            keys.insert("contact".into(), contact_keys());
+        }
+        let is_carried = edit.joined.contains_key(&parent) || self.moves(&parent);
+        let (parent, pose) = if role.is_static || is_carried {
+            (parent, x_wp.inverse().compose(&place))
+        } else {
+            let joint = self.fresh_name(&format!("{name}_free"));
+            (edit.draft.add("joint", free_joint(&joint, "/", &place)), Pose::identity())
+        };
+        keys.insert("parent".into(), parent.into());
+        keys.extend(pose_keys(&pose));
+        let path = edit.draft.add("body", keys);
+        edit.joined.insert(path, shape);
+        self.rebuild(edit)
+    }
+
+    /// Returns true if an object of the model moves.
+    fn moves(&self, path: &str) -> bool {
+        let handle = self.handle_at(path);
+        handle.and_then(|handle| self.carrier_frame(handle)).is_ok_and(|frame| frame.link.is_some())
+    }
+
+    /// Returns true if a body of the model has a contact in the scene.
+    pub(crate) fn has_contact(&self, body: Handle) -> bool {
+        let object = self.model_path(body).ok().and_then(|path| self.registry.scene().object(&path).cloned());
+        object.is_some_and(|object| object.contact.is_some())
+    }
+
+    /// Lets a body of the model touch others that touch.
+    ///
+    /// # Errors
+    ///
+    /// It has no shapes.
+    pub(crate) fn add_contact(&mut self, body: Handle) -> Result<(), ApiError> {
+        let path = self.model_path(body)?;
+        let mut edit = self.draft()?;
+        let Some(("body", keys)) = edit.draft.table(&path) else {
+            return Err(ApiError(format!("`{path}` is no body")));
+        };
+        let mut keys = keys.clone();
+        if keys.get("shape").and_then(Value::as_array).is_none_or(Vec::is_empty) {
+            return Err(ApiError(format!("`{path}` has no shape to touch others with")));
+        }
+        keys.insert("contact".into(), contact_keys());
+        edit.draft.replace(&path, "body", keys);
+        self.rebuild(edit)
+    }
+}
+
+fn contact_keys() -> Value {
+    Value::Object(table([("friction", FRICTION.into())]))
+}
+
+/// A surface as a shape of a scene file; meshes are their convex hulls.
+fn shape_keys(surface: &Surface, path: &str) -> Result<Map<String, Value>, ApiError> {
+    let round = |radius: f64, length: f64| Value::Object(table([("radius", radius.into()), ("length", length.into())]));
+    let flat = || ApiError(format!("`{path}` is flat: a body that moves or touches needs a volume, such as a cuboid"));
+    let points = |list: &[[f64; 3]]| {
+        let list: Vec<Value> = list.iter().map(|p| Value::from(p.to_vec())).collect();
+        table([("hull", Value::Object(table([("points", Value::Array(list))])))])
+    };
+    Ok(match surface {
+        Surface::Solid(Shape::Cuboid { size }) if size.iter().all(|x| *x > 0.0) => {
+            table([("cuboid", Value::Object(table([("size", Value::from(size.to_vec()))])))])
+        }
+        Surface::Solid(Shape::Sphere { radius }) => {
+            table([("sphere", Value::Object(table([("radius", (*radius).into())])))])
+        }
+        Surface::Solid(Shape::Cylinder { radius, length }) if *length > 0.0 => {
+            table([("cylinder", round(*radius, *length))])
+        }
+        Surface::Solid(Shape::Cone { radius, length }) => table([("cone", round(*radius, *length))]),
+        Surface::Solid(Shape::Capsule { radius, length }) => table([("capsule", round(*radius, *length))]),
+        Surface::Hull(list) | Surface::Mesh(list, _) => points(list),
+        _ => return Err(flat()),
+    })
+}

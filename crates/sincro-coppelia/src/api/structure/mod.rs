@@ -1,0 +1,249 @@
+//! Structure that clients and scripts change: objects of the model are copied, removed, hung elsewhere, made and
+//! loaded.
+//!
+//! Each change takes effect at once, between two steps: the scene is edited ([`SceneDraft`]), compiled, and the world
+//! goes on with it ([`restructure`]). Handles stay. A body that is hung on another one is joined to it, as in a
+//! perfectly inelastic impact; hung on the world it is free. What V-REP does not have, the free joint that carries a
+//! free body, becomes a frame while the body is joined, and a joint again when it is parted.
+
+mod copy;
+mod hang;
+mod make;
+mod model;
+mod needed;
+mod remove;
+
+pub(crate) use make::Role;
+pub(super) use needed::Needed;
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value};
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::kinematics::Attached;
+use sincro_dynamics::spatial::Pose;
+
+use super::registry::{Handle, Kind};
+use super::scene_objects::handle_of_object;
+use super::{ApiError, SimApi};
+use sincro_scene::diagnostic::{Diagnostics, Severity};
+use sincro_scene::draft::SceneDraft;
+use sincro_scene::scene::{ObjectKind, frame_of};
+use sincro_sim::controller::Change;
+use sincro_sim::restructure::{Edit, restructure};
+
+/// Change of energy or momentum that is put down to rounding, relative to what there is.
+const ROUNDING: f64 = 1e-12;
+
+/// Edit of the scene that has not been made yet.
+struct Rebuild {
+    draft: SceneDraft,
+    /// Original of each copied object, by the path of the copy.
+    copies: BTreeMap<String, Handle>,
+    /// Handles of objects that are part of the model from now on, by their paths.
+    joined: BTreeMap<String, Handle>,
+    /// True if velocities of bodies that are joined or parted follow from their momenta.
+    conserves_momentum: bool,
+}
+
+impl SimApi<'_> {
+    /// A draft of the scene as it is now.
+    fn draft(&self) -> Result<Rebuild, ApiError> {
+        let draft = SceneDraft::new(self.registry.scene());
+        let draft = draft.ok_or_else(|| ApiError::new("the scene's file is not known: its structure stays"))?;
+        let (copies, joined) = (BTreeMap::new(), BTreeMap::new());
+        Ok(Rebuild { draft, copies, joined, conserves_momentum: true })
+    }
+
+    /// Compiles an edited scene and lets the world go on with it.
+    ///
+    /// # Errors
+    ///
+    /// The scene cannot be: nothing has changed then.
+    fn rebuild(&mut self, edit: Rebuild) -> Result<(), ApiError> {
+        let Rebuild { mut draft, copies, joined, conserves_momentum } = edit;
+        for (path, handle) in &joined {
+            draft.set_id(path, handle.0 as usize - 1);
+        }
+        let next = self.registry.next_handle().0 as usize - 1;
+        let to = draft.compile(next).map_err(|found| refused(&found))?;
+        self.registry.needed.check(&to)?;
+        let ids: BTreeMap<usize, usize> =
+            copies.iter().filter_map(|(path, original)| Some((to.object(path)?.id, original.0 as usize - 1))).collect();
+        self.finish_pictures();
+        let from = self.registry.scene().clone();
+        let edit = Edit { from: &from, copies: &ids, conserves_momentum };
+        let change = restructure(self.world, to, &edit);
+        for handle in joined.values() {
+            // it is a runtime object no longer: its pieces are those of the scene
+            self.registry.senses.forget_parts(*handle);
+            self.registry.parked.remove(handle);
+            self.registry.entry_mut(*handle).is_runtime = false;
+        }
+        let model = self.world.model().clone();
+        self.registry.follow(&change, &model);
+        let known: Vec<usize> = from.objects.iter().map(|object| object.id).collect();
+        for object in change.scene.objects.iter().filter(|object| !known.contains(&object.id)) {
+            self.registry.added.insert(handle_of_object(object));
+        }
+        self.note_change(&from, &change)?;
+        self.registry.restructured.push(change);
+        self.restore_pairs();
+        self.moved();
+        Ok(())
+    }
+
+    /// Keeps what has changed with the run: objects, momentum, energy.
+    fn note_change(
+        &mut self,
+        from: &sincro_scene::scene::Scene,
+        change: &sincro_sim::restructure::Restructured,
+    ) -> Result<(), ApiError> {
+        let t = self.acts_at();
+        let mut note = |object: &str, quantity: &'static str, value: Vec<f64>| {
+            self.registry.keep_change(Change { t, object: object.to_owned(), quantity, value })
+        };
+        for object in &from.objects {
+            let now = change.scene.objects.iter().find(|other| other.id == object.id);
+            match now {
+                None => note(&object.path, "removed", Vec::new())?,
+                Some(now) if now.path != object.path => note(&now.path, "hung", Vec::new())?,
+                Some(_) => {}
+            }
+        }
+        for object in &change.scene.objects {
+            if !from.objects.iter().any(|other| other.id == object.id) {
+                note(&object.path, "added", Vec::new())?;
+            }
+        }
+        let moved = &change.transferred;
+        let jump = [moved.momentum_change.0, moved.angular_momentum_change.0].concat();
+        if jump.iter().any(|x| x.abs() > ROUNDING) {
+            note("/", "momentum", jump)?;
+        }
+        note("/", "energy", vec![moved.energy_change, moved.joining_loss])
+    }
+
+    /// Returns true if an object is one of the scene that the world is of.
+    pub(super) fn is_of_model(&self, handle: Handle) -> bool {
+        self.registry.scene().objects.iter().any(|object| handle_of_object(object) == handle)
+    }
+
+    /// Path of an object in the scene that the world is of.
+    fn model_path(&self, handle: Handle) -> Result<String, ApiError> {
+        let own = self.registry.scene().objects.iter().find(|object| handle_of_object(object) == handle);
+        match own {
+            Some(object) => Ok(object.path.clone()),
+            None => Err(ApiError(format!("`{}` is no part of the model", self.registry.entry(handle)?.path))),
+        }
+    }
+
+    /// Handle of an object of the scene by its path.
+    fn handle_at(&self, path: &str) -> Result<Handle, ApiError> {
+        let found = self.registry.scene().object(path).map(handle_of_object);
+        found.ok_or_else(|| ApiError(format!("there is no object `{path}`")))
+    }
+
+    /// Frame that children of an object of the model stand in, in the model's axes.
+    fn carrier_frame(&self, handle: Handle) -> Result<Attached<f64>, ApiError> {
+        let scene = self.registry.scene();
+        let place = scene.objects.iter().position(|object| handle_of_object(object) == handle);
+        let place = place.ok_or_else(|| ApiError::new("the object is no part of the model"))?;
+        Ok(frame_of(scene, place))
+    }
+
+    /// Pose in the world of an object's own frame, as its keys in the scene give it: of a joint, its side of the
+    /// parent.
+    fn own_pose(&mut self, handle: Handle) -> Result<Pose<f64>, ApiError> {
+        let entry = self.registry.entry(handle)?;
+        let frame = match entry.kind {
+            Kind::Joint(_) | Kind::ForceSensor(_) if self.is_of_model(handle) => {
+                let path = self.model_path(handle)?;
+                match self.world.model().names().joint(&path) {
+                    Some(joint) => joint.base,
+                    None => entry.frame,
+                }
+            }
+            _ => entry.frame,
+        };
+        Ok(self.place(&frame))
+    }
+
+    /// Object of the model that carries what hangs on an object, with its path and the pose of its frame in the world;
+    /// the world for none. Runtime objects carry nothing of the model: what carries them does.
+    fn model_parent(&mut self, parent: Option<Handle>) -> Result<(String, Pose<f64>), ApiError> {
+        let mut at = parent;
+        while let Some(handle) = at {
+            if self.is_of_model(handle) {
+                let frame = self.carrier_frame(handle)?;
+                return Ok((self.model_path(handle)?, self.place(&frame)));
+            }
+            at = self.registry.entry(handle)?.parent;
+        }
+        Ok(("/".to_owned(), Pose::identity()))
+    }
+
+    /// The free joint that carries an object and nothing else of the model, if there is one, or the frame that such a
+    /// joint has become.
+    fn free_carrier(&self, handle: Handle) -> Option<Handle> {
+        let scene = self.registry.scene();
+        let own = scene.objects.iter().position(|object| handle_of_object(object) == handle)?;
+        let parent = scene.objects[own].parent?;
+        let carrier = &scene.objects[parent];
+        let is_free = matches!(carrier.kind, ObjectKind::Joint { kind: JointKind::Free, .. });
+        let was_free = self.was_joint(handle_of_object(carrier));
+        let is_alone = scene.objects.iter().filter(|object| object.parent == Some(parent)).count() == 1;
+        ((is_free || was_free) && is_alone).then(|| handle_of_object(carrier))
+    }
+
+    /// Returns true if an object of the model is a frame that was a joint.
+    fn was_joint(&self, handle: Handle) -> bool {
+        let source = self.registry.scene().source.as_ref();
+        source.is_some_and(|source| source.parked.contains_key(&(handle.0 as usize - 1)))
+    }
+
+    /// Returns true if an object of the model is a free joint.
+    pub(super) fn is_free_joint(&self, handle: Handle) -> bool {
+        let is_it = |object: &&sincro_scene::scene::Object| handle_of_object(object) == handle;
+        let found = self.registry.scene().objects.iter().find(is_it);
+        found.is_some_and(|object| matches!(object.kind, ObjectKind::Joint { kind: JointKind::Free, .. }))
+    }
+
+    /// A name that no object has, made of another one.
+    fn fresh_name(&self, name: &str) -> String {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        let plain: String = name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
+        let plain = if plain.is_empty() { "Object".to_owned() } else { plain };
+        let stem = plain.trim_end_matches(|c: char| c.is_ascii_digit());
+        let stem = if stem.is_empty() { &plain } else { stem };
+        let mut candidates = (0..).map(|k: usize| format!("{stem}{k}"));
+        if !self.registry.names.contains_key(&plain) {
+            return plain;
+        }
+        candidates.find(|name| !self.registry.names.contains_key(name)).expect("there are not that many objects")
+    }
+}
+
+/// The first finding about an edited scene, as the answer to a call.
+fn refused(found: &Diagnostics) -> ApiError {
+    let first = found.0.iter().find(|d| d.severity == Severity::Error).or_else(|| found.0.first());
+    ApiError(first.map_or_else(
+        || "the scene cannot be so".to_owned(),
+        |d| match &d.help {
+            Some(help) => format!("{}: {help}", d.message),
+            None => d.message.clone(),
+        },
+    ))
+}
+
+/// Keys of a table, as a scene file has them.
+fn table<const N: usize>(keys: [(&str, Value); N]) -> Map<String, Value> {
+    keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+/// Keys of a free joint.
+fn free_joint(name: &str, parent: &str, pose: &Pose<f64>) -> Map<String, Value> {
+    let mut keys = table([("name", name.into()), ("parent", parent.into()), ("kind", "free".into())]);
+    keys.extend(sincro_scene::draft::pose_keys(pose));
+    keys
+}

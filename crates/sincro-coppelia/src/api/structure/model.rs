@@ -1,0 +1,130 @@
+//! Models: scene files that are loaded below an object of their own, and written.
+
+use std::path::{Path, PathBuf};
+
+use crate::api::registry::{Handle, Kind};
+use crate::api::{ApiError, SimApi};
+
+/// Largest model that is written [bytes].
+const MAX_TEXT: usize = 16 << 20;
+
+impl SimApi<'_> {
+    /// Loads the objects of a scene file, or of the scene of a folder, below a new object at the world's origin, and
+    /// returns its handle. Its scripts, gravity and experiment are left out.
+    ///
+    /// A name is looked for in the folder of the scene, in the one that holds it, and in folders `models` beside these,
+    /// further up and in the working directory; a name of V-REP (`robots/Pioneer P3DX.ttm`) means the folder
+    /// `pioneer-p3dx`.
+    ///
+    /// # Errors
+    ///
+    /// There is no such model, it lies elsewhere, or something in it is wrong.
+    pub(crate) fn load_model(&mut self, name: &str) -> Result<Handle, ApiError> {
+        let file = self.find_model(name)?;
+        let is_sent = self.registry.sent_folder.as_ref().and_then(|folder| folder.canonicalize().ok());
+        if is_sent.is_some_and(|folder| file.starts_with(folder)) {
+            // what a client has sent names no file outside of the folder of the scene
+            let text = std::fs::read_to_string(&file);
+            let text = text.map_err(|e| ApiError(format!("`{}` cannot be read: {e}", file.display())))?;
+            let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            return self.load_model_text_as(&text, &stem.unwrap_or_default());
+        }
+        self.load_model_file(&file)
+    }
+
+    /// Loads a model from its file.
+    fn load_model_file(&mut self, file: &Path) -> Result<Handle, ApiError> {
+        let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let is_scene = file.file_name().is_some_and(|name| name == "scene.toml");
+        let own = if is_scene { file.parent().and_then(stem) } else { stem(file) };
+        let name = self.fresh_name(&own.unwrap_or_else(|| "model".to_owned()));
+        self.check_room(1)?;
+        let mut edit = self.draft()?;
+        let loaded = edit.draft.load(file, &name).map_err(|found| super::refused(&found))?;
+        self.check_room(loaded.len())?;
+        self.rebuild(edit)?;
+        self.handle_at(&format!("/{name}"))
+    }
+
+    /// Loads a model from its text, as [`SimApi::model_text`] gives it.
+    ///
+    /// # Errors
+    ///
+    /// Something in it is wrong.
+    pub(crate) fn load_model_text(&mut self, text: &str) -> Result<Handle, ApiError> {
+        self.load_model_text_as(text, "model")
+    }
+
+    fn load_model_text_as(&mut self, text: &str, name: &str) -> Result<Handle, ApiError> {
+        let name = self.fresh_name(name);
+        self.check_room(1)?;
+        let mut edit = self.draft()?;
+        let loaded = edit.draft.load_text(text, &name).map_err(|found| super::refused(&found))?;
+        self.check_room(loaded.len())?;
+        self.rebuild(edit)?;
+        self.handle_at(&format!("/{name}"))
+    }
+
+    /// The file of a model.
+    fn find_model(&self, name: &str) -> Result<PathBuf, ApiError> {
+        let short: String = name.chars().take(100).collect();
+        let text = name.replace('\\', "/");
+        if text.is_empty() || text.contains('\0') {
+            return Err(ApiError(format!("`{short}` is no name of a model")));
+        }
+        let scene = Path::new(&self.registry.scene_path).parent().unwrap_or(Path::new(".")).to_path_buf();
+        let whole = |path: &Path| path.canonicalize().ok();
+        let mut roots: Vec<PathBuf> = whole(&scene).into_iter().collect();
+        let above: Vec<PathBuf> =
+            roots.iter().flat_map(|scene| scene.ancestors().skip(1)).map(Path::to_path_buf).collect();
+        roots.extend(above.first().cloned());
+        roots.extend(above.iter().filter_map(|folder| whole(&folder.join("models"))));
+        roots.extend(whole(Path::new("models")));
+        roots.extend(self.registry.sent_folder.as_deref().and_then(whole));
+        let plain = text.strip_suffix(".ttm").or_else(|| text.strip_suffix(".simmodel.xml")).unwrap_or(&text);
+        let last = plain.rsplit('/').next().unwrap_or(plain);
+        let spelled: String = last.to_lowercase().split_whitespace().collect::<Vec<_>>().join("-");
+        let under_models = plain.split_once("models/").map_or(plain, |(_, rest)| rest);
+        for root in &roots {
+            for candidate in [&*text, plain, under_models, last, &spelled] {
+                let path = root.join(candidate);
+                let file = if path.is_dir() { path.join("scene.toml") } else { path };
+                let Some(file) = whole(&file).filter(|file| file.is_file()) else { continue };
+                if roots.iter().any(|root| file.starts_with(root)) {
+                    return Ok(file);
+                }
+                return Err(ApiError(format!(
+                    "the model `{short}` lies outside the folders of the scene and of models"
+                )));
+            }
+        }
+        let help = "give a folder or scene file inside the folder of the scene, or one of `models/`";
+        Err(ApiError(format!("there is no model `{short}`: {help}")))
+    }
+
+    /// Text of a scene file with an object of the model and all below it, joints at their present positions; it can be
+    /// loaded as a model.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no object, or none of the model.
+    pub(crate) fn model_text(&mut self, handle: Handle) -> Result<String, ApiError> {
+        let edit = self.draft()?;
+        let is_body = matches!(self.registry.entry(handle)?.kind, Kind::Body(_));
+        // a free body goes with the joint that lets it move
+        let carrier = if is_body { self.free_carrier(handle) } else { None };
+        let root = carrier.filter(|joint| self.is_free_joint(*joint)).unwrap_or(handle);
+        let path = self.model_path(root)?;
+        let (names, q) = (self.world.model().names(), &self.world.state.q);
+        let free_root = self.is_free_joint(root);
+        let text = edit.draft.part(&path, &|joint| {
+            // a model that moves freely stands at its origin
+            let info = names.joint(joint).filter(|_| !(free_root && joint == path))?;
+            Some(q[info.q_idx..][..info.n_q].to_vec())
+        });
+        if text.len() > MAX_TEXT {
+            return Err(ApiError(format!("the model takes more than {} MiB", MAX_TEXT >> 20)));
+        }
+        Ok(text)
+    }
+}

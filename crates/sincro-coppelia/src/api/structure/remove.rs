@@ -1,0 +1,118 @@
+//! Removal of objects and models.
+
+use std::collections::BTreeSet;
+
+use sincro_scene::draft::SceneDraft;
+
+use super::Rebuild;
+use crate::api::registry::Handle;
+use crate::api::{ApiError, SimApi};
+
+impl SimApi<'_> {
+    /// Removes objects, with `whole` each with all below it; else their children pass to what carries them. Joints that
+    /// carried only what is removed go, too: those that let it move freely for good, the others until something that
+    /// moves is hung on them.
+    ///
+    /// # Errors
+    ///
+    /// A handle is no object, or an object carries a script.
+    pub fn remove_objects(&mut self, handles: &[Handle], whole: bool) -> Result<(), ApiError> {
+        let mut chosen: BTreeSet<Handle> = BTreeSet::new();
+        for handle in handles {
+            self.registry.entry(*handle)?;
+            chosen.extend(if whole { self.registry.tree(*handle) } else { vec![*handle] });
+        }
+        self.check_scripts(&chosen)?;
+        let (of_model, runtime): (Vec<Handle>, Vec<Handle>) =
+            chosen.iter().copied().partition(|handle| self.is_of_model(*handle));
+        if of_model.is_empty() {
+            return runtime.into_iter().try_for_each(|handle| self.remove(handle));
+        }
+        let mut edit = self.draft()?;
+        let mut gone: BTreeSet<String> = BTreeSet::new();
+        for handle in &of_model {
+            gone.insert(self.model_path(*handle)?);
+        }
+        self.pass_children(&mut edit, &mut gone)?;
+        // joints that let nothing move any more
+        let idle = idle_joints(&edit.draft, &gone);
+        gone.extend(idle);
+        let stays: Vec<(Handle, Option<Handle>)> = self.orphans(&gone, &chosen)?;
+        edit.draft.remove(&gone);
+        for (child, parent) in stays {
+            self.set_parent(child, parent, true)?;
+        }
+        self.rebuild(edit)?;
+        runtime.into_iter().try_for_each(|handle| self.remove(handle))
+    }
+
+    /// Refuses what a script belongs to: it would be left without its object.
+    fn check_scripts(&self, chosen: &BTreeSet<Handle>) -> Result<(), ApiError> {
+        let carries = |script: &&sincro_scene::script::Script| chosen.contains(&Handle(script.object as i32 + 1));
+        match self.registry.scene().scripts.iter().find(carries) {
+            None => Ok(()),
+            Some(script) => {
+                Err(ApiError(format!("`{}` carries a script, which runs until the simulation ends", script.path)))
+            }
+        }
+    }
+
+    /// Hangs the children of what is removed on what carries that, where they are.
+    fn pass_children(&mut self, edit: &mut Rebuild, gone: &mut BTreeSet<String>) -> Result<(), ApiError> {
+        let of_gone: Vec<String> = gone.iter().cloned().collect();
+        for path in of_gone {
+            for child in edit.draft.children(&path) {
+                if gone.contains(&child) {
+                    continue;
+                }
+                let handle = self.handle_at(&child)?;
+                let mut above = self.registry.entry(handle)?.parent;
+                while let Some(parent) = above {
+                    let is_gone = self.is_of_model(parent) && gone.contains(&self.model_path(parent)?);
+                    if !is_gone {
+                        break;
+                    }
+                    above = self.registry.entry(parent)?.parent;
+                }
+                let (parent, x_wp) = self.model_parent(above)?;
+                let pose = x_wp.inverse().compose(&self.own_pose(handle)?);
+                edit.draft.hang(&child, &parent, &pose);
+            }
+        }
+        Ok(())
+    }
+
+    /// Runtime objects that hang on what is removed, each with what it hangs on then.
+    fn orphans(
+        &self,
+        gone: &BTreeSet<String>,
+        chosen: &BTreeSet<Handle>,
+    ) -> Result<Vec<(Handle, Option<Handle>)>, ApiError> {
+        let is_gone = |handle: Handle| self.model_path(handle).is_ok_and(|path| gone.contains(&path));
+        let mut found = Vec::new();
+        let is_loose = |e: &&crate::api::Entry| e.is_runtime || self.registry.moved_frames.contains(&e.handle);
+        for entry in self.registry.entries().filter(is_loose).filter(|e| !chosen.contains(&e.handle)) {
+            let Some(parent) = entry.parent.filter(|p| is_gone(*p)) else { continue };
+            let mut above = self.registry.entry(parent)?.parent;
+            while let Some(next) = above.filter(|p| is_gone(*p)) {
+                above = self.registry.entry(next)?.parent;
+            }
+            found.push((entry.handle, above));
+        }
+        Ok(found)
+    }
+}
+
+/// Joints below which no body is left, with all below them.
+pub(super) fn idle_joints(draft: &SceneDraft, gone: &BTreeSet<String>) -> Vec<String> {
+    let mut idle = Vec::new();
+    let stays = |path: &String| !gone.contains(path);
+    let is = |path: &String, list: &str| draft.table(path).is_some_and(|(kind, _)| kind == list);
+    for joint in draft.subtree("").into_iter().filter(|path| is(path, "joint") && stays(path)) {
+        let below = draft.subtree(&joint);
+        if !below.iter().any(|path| is(path, "body") && stays(path)) {
+            idle.extend(below);
+        }
+    }
+    idle
+}

@@ -1,0 +1,365 @@
+//! Structure that clients change while a run is on: spawners, grippers, joints and bodies made at run time, models.
+
+use sincro_coppelia::api::{Handle, Search, Value};
+use sincro_coppelia::session::Session;
+use sincro_sim::Extensions;
+use sincro_sim::run::Simulated;
+use sincro_testing::{OpenSession, SceneFolder};
+
+/// Acceleration of gravity [m/s²].
+const G: f64 = 9.81;
+
+const BOX_ON_FLOOR: &str = r#"
+gravity = [0.0, 0.0, -9.81]
+[[body]]
+name = "floor"
+shape = [{ plane = {} }]
+contact = { friction = 0.5 }
+[[joint]]
+name = "box_joint"
+kind = "free"
+initial = { position = [0.0, 0.0, 0.05, 1.0, 0.0, 0.0, 0.0] }
+[[body]]
+name = "box"
+parent = "/box_joint"
+density = 1000.0
+shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
+contact = { friction = 0.5 }
+"#;
+
+const EXPERIMENT: &str = r#"
+title = "Structure"
+duration = 10.0
+step = 0.005
+record = ["/box_joint/box.position.z", "energy.balance"]
+error_bar = "none"
+"#;
+
+fn open(scene: &str) -> OpenSession {
+    OpenSession::open(SceneFolder::of(scene, EXPERIMENT), &[], Extensions::default(), None)
+}
+
+fn call(session: &mut Session, name: &str, arguments: &[Value]) -> Vec<Value> {
+    session.call(name, arguments).unwrap_or_else(|error| panic!("{name}: {error:?}"))
+}
+
+fn handle(session: &mut Session, path: &str) -> i64 {
+    i64::from(session.registry().find(path, Search::default()).unwrap().0)
+}
+
+fn handles(list: &Value) -> Vec<i64> {
+    let Value::List(list) = list else { panic!("a list of handles") };
+    list.iter().map(|value| value.as_int().unwrap()).collect()
+}
+
+fn reals(list: &Value) -> Vec<f64> {
+    list.as_reals().unwrap()
+}
+
+fn position(session: &mut Session, object: i64) -> [f64; 3] {
+    let found = call(session, "sim.getObjectPosition", &[object.into(), (-1_i64).into()]);
+    reals(&found[0]).try_into().unwrap()
+}
+
+fn put(session: &mut Session, object: i64, place: [f64; 3]) {
+    call(session, "sim.setObjectPosition", &[object.into(), Value::reals(place), (-1_i64).into()]);
+}
+
+fn steps(session: &mut Session, n: usize) {
+    for _ in 0..n {
+        session.step().unwrap();
+    }
+}
+
+/// Five copies of a box that fall on the floor; runs until they rest.
+fn spawn(session: &mut Session, height: f64) -> Vec<i64> {
+    let original = handle(session, "/box");
+    session.start().unwrap();
+    let mut copies = Vec::new();
+    for k in 0..5 {
+        let copied = call(session, "sim.copyPasteObjects", &[Value::List(vec![original.into()]), 0_i64.into()]);
+        let copy = handles(&copied[0])[0];
+        put(session, copy, [0.3 + 0.3 * f64::from(k), 0.0, height]);
+        copies.push(copy);
+        steps(session, 5);
+    }
+    steps(session, 150);
+    copies
+}
+
+#[test]
+fn copies_of_a_box_fall_and_rest_on_the_floor() {
+    let mut session = open(BOX_ON_FLOOR);
+    let copies = spawn(&mut session, 0.2);
+    for (k, copy) in copies.iter().enumerate() {
+        let [x, _, z] = position(&mut session, *copy);
+        assert!((z - 0.05).abs() < 1e-9, "copy {k} at z = {z} m");
+        assert!((x - (0.3 + 0.3 * k as f64)).abs() < 1e-6, "copy {k} at x = {x} m");
+    }
+    // the floor carries six boxes of 1 kg
+    let force = normal_force(&mut session);
+    assert!((force - 6.0 * G).abs() < 1e-6 * G, "the floor carries {force} N");
+}
+
+/// Sum of the vertical contact forces now [N].
+fn normal_force(session: &mut Session) -> f64 {
+    let t = session.t();
+    let sim = session.sim();
+    sim.world.rates(t);
+    sim.world.contacts().map(|point| point.force[2].abs()).sum()
+}
+
+#[test]
+fn removed_copies_are_gone_and_the_others_stay() {
+    let mut session = open(BOX_ON_FLOOR);
+    let copies = spawn(&mut session, 0.2);
+    let gone = Value::List(copies[..2].iter().map(|h| Value::from(*h)).collect());
+    call(&mut session, "sim.removeObjects", &[gone]);
+    steps(&mut session, 20);
+    for copy in &copies[..2] {
+        assert!(session.registry().entry(Handle(*copy as i32)).is_err(), "{copy} is there");
+    }
+    let [_, _, z] = position(&mut session, copies[3]);
+    assert!((z - 0.05).abs() < 1e-9);
+    let force = normal_force(&mut session);
+    assert!((force - 4.0 * G).abs() < 1e-6 * G, "the floor carries {force} N");
+    // 24 = 6 × (1 + 5 − 2): the joints of the removed ones have gone
+    assert_eq!(session.sim().world.state.v.len(), 24);
+}
+
+fn finished(session: &mut Session) -> Simulated {
+    session.stop().unwrap();
+    session.take_finished().remove(0).simulated
+}
+
+#[test]
+fn a_changed_run_has_the_same_trace_each_time_and_another_one_without_the_change() {
+    let run = |with_copies: bool| {
+        let mut session = open(BOX_ON_FLOOR);
+        if with_copies {
+            spawn(&mut session, 0.2);
+        } else {
+            session.start().unwrap();
+            steps(&mut session, 175);
+        }
+        finished(&mut session).trace
+    };
+    assert_eq!(run(true), run(true));
+    assert_ne!(run(true), run(false));
+}
+
+#[test]
+fn energy_and_columns_go_on_when_the_structure_changes() {
+    let mut session = open(BOX_ON_FLOOR);
+    let original = handle(&mut session, "/box");
+    // where the original is: nothing is lifted from outside
+    spawn(&mut session, 0.05);
+    call(&mut session, "sim.removeObjects", &[Value::List(vec![original.into()])]);
+    steps(&mut session, 20);
+    let run = finished(&mut session);
+    let height = &run.table.column("/box_joint/box.position.z").unwrap().values;
+    let n = height.len();
+    assert!(height[..n - 20].iter().all(|z| (z - 0.05).abs() < 1e-9));
+    assert!(height[n - 20..].iter().all(|z| z.is_nan()), "the box has gone: {:?}", &height[n - 21..]);
+    let balance = &run.table.column("energy.balance").unwrap().values;
+    let worst = balance.iter().fold(0.0_f64, |worst, x| worst.max(x.abs()));
+    assert!(worst < 1e-6, "balance off by {worst} J");
+    let n_added = run.changes.iter().filter(|change| change.quantity == "added").count();
+    assert_eq!(n_added, 10, "five bodies with their joints");
+    assert!(run.changes.iter().any(|change| change.quantity == "removed" && change.object == "/box_joint/box"));
+}
+
+const IN_SPACE: &str = r#"
+gravity = [0.0, 0.0, 0.0]
+[[joint]]
+name = "hand_joint"
+kind = "free"
+[[body]]
+name = "hand"
+parent = "/hand_joint"
+density = 1000.0
+shape = [{ cuboid = { size = [0.1, 0.2, 0.1] } }]
+[[joint]]
+name = "box_joint"
+kind = "free"
+initial = { position = [0.3, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.0, 0.6, 0.0, 0.0] }
+[[body]]
+name = "box"
+parent = "/box_joint"
+density = 1000.0
+shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
+"#;
+
+fn velocity(session: &mut Session, object: i64) -> [f64; 3] {
+    reals(&call(session, "sim.getObjectVelocity", &[object.into()])[0]).try_into().unwrap()
+}
+
+#[test]
+fn hanging_a_moving_body_on_another_one_is_a_perfectly_inelastic_impact() {
+    let mut session = open(IN_SPACE);
+    let (hand, body) = (handle(&mut session, "/hand"), handle(&mut session, "/box"));
+    session.start().unwrap();
+    steps(&mut session, 10);
+    call(&mut session, "sim.setObjectParent", &[body.into(), hand.into(), true.into()]);
+    // 1 kg at 0.6 m/s joins 2 kg at rest
+    for object in [hand, body] {
+        let v = velocity(&mut session, object);
+        assert!((v[0] - 0.2).abs() < 1e-12 && v[1].abs() < 1e-12, "{v:?}");
+    }
+    assert_eq!(session.sim().world.state.v.len(), 6, "one body");
+    steps(&mut session, 20);
+    let (a, b) = (position(&mut session, hand), position(&mut session, body));
+    assert!((b[0] - a[0] - 0.3 - 0.6 * 0.05).abs() < 1e-9, "they stay together: {a:?} {b:?}");
+    // and are parted with the velocity that they have
+    call(&mut session, "sim.setObjectParent", &[body.into(), (-1_i64).into(), true.into()]);
+    assert_eq!(session.sim().world.state.v.len(), 12);
+    for object in [hand, body] {
+        let v = velocity(&mut session, object);
+        assert!((v[0] - 0.2).abs() < 1e-12, "{v:?}");
+    }
+    let parted = position(&mut session, body);
+    assert!(parted.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-12));
+    steps(&mut session, 20);
+    let run = finished(&mut session);
+    let energy: Vec<_> = run.changes.iter().filter(|c| c.quantity == "energy").map(|c| c.value.clone()).collect();
+    // m₁ m₂ / (m₁ + m₂) v² / 2
+    assert!((energy[0][1] - 0.5 * 2.0 / 3.0 * 0.36).abs() < 1e-12, "{energy:?}");
+    assert!((energy[0][0] + energy[0][1]).abs() < 1e-12 && energy[1][0].abs() < 1e-12, "{energy:?}");
+    let momentum = run.changes.iter().filter(|c| c.quantity == "momentum").count();
+    assert_eq!(momentum, 0, "momentum is conserved: {:?}", run.changes);
+}
+
+#[test]
+fn hanging_a_moving_body_on_the_floor_tells_the_momentum_that_the_floor_took() {
+    let mut session = open(&BOX_ON_FLOOR.replace("0.05, 1.0, 0.0, 0.0, 0.0]", "1.0, 1.0, 0.0, 0.0, 0.0]"));
+    let (floor, body) = (handle(&mut session, "/floor"), handle(&mut session, "/box"));
+    session.start().unwrap();
+    steps(&mut session, 20);
+    call(&mut session, "sim.setObjectParent", &[body.into(), floor.into(), true.into()]);
+    let z = position(&mut session, body)[2];
+    steps(&mut session, 20);
+    assert_eq!(position(&mut session, body)[2].to_bits(), z.to_bits(), "it hangs there");
+    let run = finished(&mut session);
+    let jump = run.changes.iter().find(|c| c.quantity == "momentum").expect("a jump");
+    assert!((jump.value[2] - 0.1 * G).abs() < 1e-9, "{:?}", jump.value);
+}
+
+#[test]
+fn a_joint_and_a_body_that_are_made_swing_as_a_pendulum() {
+    let mut session = open(BOX_ON_FLOOR);
+    session.start().unwrap();
+    steps(&mut session, 2);
+    let joint = call(&mut session, "sim.createJoint", &[10_i64.into(), 5_i64.into(), 0_i64.into()])[0].clone();
+    let joint = joint.as_int().unwrap();
+    put(&mut session, joint, [0.0, 2.0, 1.0]);
+    // its z axis along the world's y
+    let angles = Value::reals([-std::f64::consts::FRAC_PI_2, 0.0, 0.0]);
+    call(&mut session, "sim.setObjectOrientation", &[joint.into(), angles, (-1_i64).into()]);
+    let size = Value::reals([0.1, 0.1, 0.1]);
+    let made = call(&mut session, "sim.createPureShape", &[1_i64.into(), 0_i64.into(), size, 2.0.into()])[0].clone();
+    let ball = made.as_int().unwrap();
+    put(&mut session, ball, [0.5, 2.0, 1.0]);
+    call(&mut session, "sim.setObjectParent", &[ball.into(), joint.into(), true.into()]);
+    assert_eq!(call(&mut session, "sim.getJointPosition", &[joint.into()]), [Value::Real(0.0)]);
+    assert_eq!(call(&mut session, "sim.getShapeMass", &[ball.into()]), [Value::Real(2.0)]);
+    // from the horizontal it falls with q̈ = m g l / (m l² + 2/5 m r²)
+    let step = 0.005;
+    steps(&mut session, 1);
+    let q = call(&mut session, "sim.getJointPosition", &[joint.into()])[0].as_real().unwrap();
+    let acceleration = G * 0.5 / (0.25 + 0.4 * 0.0025);
+    assert!((q.abs() - 0.5 * acceleration * step * step).abs() < 1e-6 * q.abs() + 1e-9, "{q} rad");
+    let height = |session: &mut Session| position(session, ball)[2];
+    let mut lowest = f64::INFINITY;
+    for _ in 0..200 {
+        steps(&mut session, 1);
+        lowest = lowest.min(height(&mut session));
+    }
+    assert!((lowest - 0.5).abs() < 1e-3, "it swings down to {lowest} m");
+    let [x, y, z] = position(&mut session, ball);
+    let distance = (x * x + (z - 1.0) * (z - 1.0)).sqrt();
+    assert!((distance - 0.5).abs() < 1e-9 && (y - 2.0).abs() < 1e-9, "it stays on its circle: {distance} m");
+}
+
+#[test]
+fn shapes_that_are_made_fall_when_they_are_made_dynamic() {
+    let mut session = open(BOX_ON_FLOOR);
+    session.start().unwrap();
+    let size = Value::reals([0.2, 0.2, 0.2]);
+    let made = call(&mut session, "sim.createPrimitiveShape", &[3_i64.into(), size, 0_i64.into()])[0].clone();
+    let cube = made.as_int().unwrap();
+    put(&mut session, cube, [1.0, 0.0, 0.5]);
+    steps(&mut session, 20);
+    assert_eq!(position(&mut session, cube)[2], 0.5, "static it stays");
+    for (parameter, value) in [(3003_i64, 0_i64), (3004, 1)] {
+        call(&mut session, "sim.setObjectInt32Param", &[cube.into(), parameter.into(), value.into()]);
+        let got = call(&mut session, "sim.getObjectInt32Param", &[cube.into(), parameter.into()]);
+        assert_eq!(got, [Value::Int(value)]);
+    }
+    steps(&mut session, 150);
+    let z = position(&mut session, cube)[2];
+    assert!((z - 0.1).abs() < 1e-9, "it rests at {z} m");
+    let force = normal_force(&mut session);
+    assert!((force - 9.0 * G).abs() < 1e-6 * G, "8 kg and the box of 1 kg weigh {force} N");
+    // static again it stays where it is put
+    call(&mut session, "sim.setObjectInt32Param", &[cube.into(), 3003_i64.into(), 1_i64.into()]);
+    put(&mut session, cube, [1.0, 0.0, 0.7]);
+    steps(&mut session, 20);
+    assert_eq!(position(&mut session, cube)[2], 0.7);
+}
+
+/// A session of a scene of this program, beside the folder of its models.
+fn beside_models() -> Session {
+    let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/box-push");
+    Session::open(&scene, &[], Extensions::default(), None).unwrap()
+}
+
+#[test]
+fn robots_are_loaded_while_stopped_and_while_running_several_times() {
+    let mut session = beside_models();
+    let n = session.sim().world.state.v.len();
+    let first = call(&mut session, "sim.loadModel", &["pioneer-p3dx".into()])[0].as_int().unwrap();
+    put(&mut session, first, [2.0, 3.0, 0.0]);
+    session.start().unwrap();
+    steps(&mut session, 5);
+    let second = call(&mut session, "sim.loadModel", &["models/robots/Pioneer P3DX.ttm".into()])[0].as_int().unwrap();
+    put(&mut session, second, [4.0, 3.0, 0.0]);
+    let arm = call(&mut session, "sim.loadModel", &["ur5e".into()])[0].as_int().unwrap();
+    put(&mut session, arm, [-3.0, 0.0, 0.0]);
+    assert_eq!(session.sim().world.state.v.len(), n + 2 * 8 + 6);
+    steps(&mut session, 40);
+    for (robot, x) in [(first, 2.0), (second, 4.0)] {
+        let below = call(&mut session, "sim.getObjectsInTree", &[robot.into()])[0].clone();
+        let of_robot = handles(&below);
+        let path = |session: &mut Session, h: &i64| session.registry().entry(Handle(*h as i32)).unwrap().path.clone();
+        let chassis = *of_robot.iter().find(|h| path(&mut session, h).ends_with("chassis")).unwrap();
+        let [px, py, pz] = position(&mut session, chassis);
+        assert!((px - x).abs() < 1e-3 && (py - 3.0).abs() < 1e-6, "{px} {py}");
+        assert!((pz - 0.0975).abs() < 1e-4, "it stands on its wheels at {pz} m");
+    }
+    session.stop().unwrap();
+    // what was loaded while stopped stays, what was loaded in the run is gone
+    assert_eq!(session.sim().world.state.v.len(), n + 8);
+    assert!(session.registry().entry(Handle(first as i32)).is_ok());
+    assert!(session.registry().entry(Handle(arm as i32)).is_err());
+    session.start().unwrap();
+    steps(&mut session, 5);
+    session.stop().unwrap();
+    let runs = session.take_finished();
+    assert!(runs.iter().all(|run| run.simulated.changes.iter().any(|c| c.object == "/pioneer-p3dx" && c.t == 0.0)));
+}
+
+#[test]
+fn a_model_that_is_saved_can_be_loaded_again() {
+    let mut session = open(IN_SPACE);
+    let hand = handle(&mut session, "/hand");
+    let text = call(&mut session, "sim.saveModel", &[hand.into()])[0].clone();
+    let copy = call(&mut session, "sim.loadModel", &[text])[0].as_int().unwrap();
+    let below = handles(&call(&mut session, "sim.getObjectsInTree", &[copy.into()])[0]);
+    assert_eq!(below.len(), 3, "frame, joint, body");
+    let mass = call(&mut session, "sim.getShapeMass", &[below[2].into()])[0].as_real().unwrap();
+    assert!((mass - 2.0).abs() < 1e-12);
+    for wrong in ["nothing-there", "../../../etc/passwd", ""] {
+        let refused = session.call("sim.loadModel", &[wrong.into()]).unwrap_err();
+        assert!(refused.to_string().contains("model"), "{refused}");
+    }
+}

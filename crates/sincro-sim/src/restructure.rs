@@ -1,0 +1,146 @@
+//! Change of the structure of a run between two steps: the world goes on with another scene.
+//!
+//! ```text
+//! scene ── SceneDraft: add, remove, hang, load ──► scene'      compiled as any scene
+//! world, state ── transfer by object ──► world'                state', parameters, statistics
+//! ```
+//!
+//! Objects are known by their numbers ([`Object::id`](sincro_scene::scene::Object)), whatever their paths become. A
+//! controller that changes the structure replaces the world by [`restructure`] while it is called and gives the result
+//! to the lock-step ([`Controller::take_restructured`](crate::controller::Controller::take_restructured)), which tells
+//! the others. Recorded columns are those of the start: signals of objects that have gone are NaN.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use sincro_dynamics::kinematics::Attached;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::transfer::{Origin, Transferred, transfer};
+use sincro_dynamics::world::World;
+use sincro_scene::scene::{Scene, frame_of};
+
+/// Change of the structure that has been made in a world.
+#[derive(Clone, Debug)]
+pub struct Restructured {
+    /// Scene from now on; its initial state is that of the world after the change.
+    pub scene: Arc<Scene>,
+    /// Model before the change.
+    pub former: Model<f64>,
+    /// Former path of each object that is still there, by its path now.
+    pub paths: BTreeMap<String, String>,
+    /// State and what it was made of.
+    pub transferred: Transferred,
+}
+
+impl Restructured {
+    /// Returns the path now of an object, closure or signal prefix that had the path `former`; `None` if it has gone.
+    #[must_use]
+    pub fn path_of(&self, former: &str) -> Option<String> {
+        self.paths.iter().find(|(_, old)| *old == former).map(|(new, _)| new.clone())
+    }
+}
+
+/// Edit of a structure: from which scene to which.
+#[derive(Clone, Copy, Debug)]
+pub struct Edit<'a> {
+    /// Scene as it was.
+    pub from: &'a Scene,
+    /// Number of the object that each new object is a copy of, by its own number.
+    pub copies: &'a BTreeMap<usize, usize>,
+    /// True if velocities of bodies that were joined or parted follow from their momenta; false if objects were put
+    /// elsewhere, so that all joints keep their velocities.
+    pub conserves_momentum: bool,
+}
+
+/// Replaces a world by that of the scene `to`, with the state of all that both have; see [`transfer`].
+///
+/// ```
+/// use std::collections::BTreeMap;
+///
+/// use sincro_scene::draft::SceneDraft;
+/// use sincro_sim::prelude::*;
+/// use sincro_sim::restructure::{Edit, restructure};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/free-body");
+/// let loaded = load(folder.as_ref(), &[], Extensions::default())?;
+/// let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+/// let scene = &loaded.scene;
+/// let mut draft = SceneDraft::new(scene).unwrap();
+/// let root = scene.objects[0].path.clone();
+/// let copied = draft.copy(&root, "second", "/", &scene.objects[0].pose);
+/// let to = draft.compile(scene.objects.len())?;
+/// let id = |path: &str, scene: &sincro_scene::scene::Scene| scene.object(path).unwrap().id;
+/// let copies = copied.iter().map(|(old, new)| (id(new, &to), id(old, scene))).collect();
+/// let n = run.world().state.v.len();
+/// restructure(run.world(), to, &Edit { from: scene, copies: &copies, conserves_momentum: true });
+/// assert_eq!(run.world().state.v.len(), 2 * n);
+/// # Ok(())
+/// # }
+/// ```
+pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restructured {
+    let Edit { from, copies, conserves_momentum } = *edit;
+    let old_path: BTreeMap<usize, &str> = from.objects.iter().map(|o| (o.id, o.path.as_str())).collect();
+    let (mut origins, mut paths) = (BTreeMap::new(), BTreeMap::new());
+    for object in &to.objects {
+        let same = old_path.get(&object.id).map(|path| (*path, true));
+        let copied = || copies.get(&object.id).and_then(|id| old_path.get(id)).map(|path| (*path, false));
+        if let Some((path, is_same)) = same.or_else(copied) {
+            origins.insert(object.path.clone(), Origin { name: path.to_owned(), is_same });
+            if is_same {
+                paths.insert(object.path.clone(), path.to_owned());
+            }
+        }
+    }
+    // what joins objects is no object: it is known by its name
+    let is_object = |name: &str| to.objects.iter().any(|object| object.path == name);
+    let origin = |name: &str| match origins.get(name) {
+        None if !is_object(name) => Some(Origin { name: name.to_owned(), is_same: true }),
+        found => found.cloned(),
+    };
+    let mut model = (*to.model).clone();
+    let initial = to.initial.clone();
+    let former = world.model().clone();
+    let transferred = transfer((&former, &world.state), (&mut model, initial), &origin, conserves_momentum);
+    let links = links_of(from, &to);
+    *world = world.continued(model, transferred.state.clone(), &|link| links.get(&link).copied());
+    to.initial = transferred.state.clone();
+    Restructured { scene: Arc::new(to), former, paths, transferred }
+}
+
+/// New place of each former link: where an object on it is now.
+fn links_of(from: &Scene, to: &Scene) -> BTreeMap<usize, Attached<f64>> {
+    let place: BTreeMap<usize, usize> = to.objects.iter().enumerate().map(|(k, object)| (object.id, k)).collect();
+    let mut links = BTreeMap::new();
+    for (k, object) in from.objects.iter().enumerate() {
+        let old = frame_of(from, k);
+        let (Some(link), Some(now)) = (old.link, place.get(&object.id)) else { continue };
+        let new = frame_of(to, *now);
+        links.entry(link).or_insert(Attached { pose: new.pose.compose(&old.pose.inverse()), ..new });
+    }
+    links
+}
+
+/// Paths now of the objects of the scene at the start, as recorded signals name them.
+#[derive(Clone, Debug)]
+pub struct Renamed {
+    /// Path now of each path at the start; `None` for what has gone.
+    paths: BTreeMap<String, Option<String>>,
+}
+
+impl Renamed {
+    /// Compares the objects of the scene at the start with those now.
+    #[must_use]
+    pub fn new(start: &Scene, now: &Scene) -> Self {
+        let present: BTreeMap<usize, &str> = now.objects.iter().map(|o| (o.id, o.path.as_str())).collect();
+        let path = |id: &usize| present.get(id).map(|path| (*path).to_owned());
+        Self { paths: start.objects.iter().map(|o| (o.path.clone(), path(&o.id))).collect() }
+    }
+
+    /// Returns the path now of an object that had the path `start` at the start; a path that was none of an object is
+    /// as it was.
+    #[must_use]
+    pub fn path(&self, start: &str) -> Option<String> {
+        self.paths.get(start).cloned().unwrap_or_else(|| Some(start.to_owned()))
+    }
+}
