@@ -152,8 +152,7 @@ fn a_changed_run_has_the_same_trace_each_time_and_another_one_without_the_change
 fn energy_and_columns_go_on_when_the_structure_changes() {
     let mut session = open(BOX_ON_FLOOR);
     let original = handle(&mut session, "/box");
-    // where the original is: nothing is lifted from outside
-    spawn(&mut session, 0.05);
+    spawn(&mut session, 0.2);
     call(&mut session, "sim.removeObjects", &[Value::List(vec![original.into()])]);
     steps(&mut session, 20);
     let run = finished(&mut session);
@@ -162,6 +161,7 @@ fn energy_and_columns_go_on_when_the_structure_changes() {
     assert!(height[..n - 20].iter().all(|z| (z - 0.05).abs() < 1e-9));
     assert!(height[n - 20..].iter().all(|z| z.is_nan()), "the box has gone: {:?}", &height[n - 21..]);
     let balance = &run.table.column("energy.balance").unwrap().values;
+    // lifting each copy by 0.15 m is work
     let worst = balance.iter().fold(0.0_f64, |worst, x| worst.max(x.abs()));
     assert!(worst < 1e-6, "balance off by {worst} J");
     let n_added = run.changes.iter().filter(|change| change.quantity == "added").count();
@@ -362,4 +362,62 @@ fn a_model_that_is_saved_can_be_loaded_again() {
         let refused = session.call("sim.loadModel", &[wrong.into()]).unwrap_err();
         assert!(refused.to_string().contains("model"), "{refused}");
     }
+}
+
+fn momentum_of(session: &mut Session) -> sincro_dynamics::spatial::Vec3<f64> {
+    let t = session.t();
+    session.sim().world.observe(t).momentum().lin
+}
+
+#[test]
+fn a_body_is_handed_from_one_hand_to_another_and_keeps_its_joint() {
+    let second = IN_SPACE
+        [IN_SPACE.find("[[joint]]").unwrap()..IN_SPACE.find("[[joint]]\nname = \"box_joint\"").unwrap()]
+        .replace("hand", "other");
+    let start = "kind = \"free\"\ninitial = { position = [0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0] }";
+    let scene = format!("{IN_SPACE}{}", second.replace("kind = \"free\"", start));
+    let mut session = open(&scene);
+    let [hand, other, body] = ["/hand", "/other", "/box"].map(|path| handle(&mut session, path));
+    let joint = handle(&mut session, "/box_joint");
+    session.start().unwrap();
+    for parent in [hand, other, hand, -1] {
+        let before = position(&mut session, body);
+        let momentum = momentum_of(&mut session);
+        call(&mut session, "sim.setObjectParent", &[body.into(), parent.into(), true.into()]);
+        let after = position(&mut session, body);
+        assert!(before.iter().zip(after).all(|(x, y)| (x - y).abs() < 1e-12), "hung on {parent}: {after:?}");
+        let now = momentum_of(&mut session);
+        assert!((now - momentum).norm() < 1e-12, "hung on {parent}: {now:?}");
+        steps(&mut session, 3);
+        assert!(session.registry().entry(Handle(joint as i32)).is_ok(), "the joint or frame stays");
+    }
+    assert_eq!(session.sim().world.state.v.len(), 18);
+}
+
+#[test]
+fn what_the_diagram_needs_cannot_be_taken_away() {
+    let diagram = r#"
+wires = ["/hinge.position -> pd.x", "pd -> /hinge"]
+[[block]]
+name = "pd"
+type = "expression"
+inputs = ["x"]
+expressions = ["-20*x"]
+"#;
+    let scene = format!(
+        "{BOX_ON_FLOOR}\n[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\naxis = [0.0, 1.0, 0.0]\nposition = [0.0, 3.0, 1.0]\n\
+         motor = {{ mode = \"torque\" }}\n[[body]]\nname = \"arm\"\nparent = \"/hinge\"\nmass = 1.0\n\
+         inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+    );
+    let experiment = format!("{EXPERIMENT}diagram = \"diagram.toml\"\n");
+    let folder = SceneFolder::of(&scene, &experiment).with("diagram.toml", diagram);
+    let mut session = OpenSession::open(folder, &[], Extensions::default(), None);
+    let (arm, body) = (handle(&mut session, "/arm"), handle(&mut session, "/box"));
+    let gone = Value::List(vec![arm.into()]);
+    let why = session.call("sim.removeObjects", &[gone]).unwrap_err().to_string();
+    assert!(why.contains("the diagram"), "{why}");
+    call(&mut session, "sim.removeObjects", &[Value::List(vec![body.into()])]);
+    session.start().unwrap();
+    steps(&mut session, 10);
+    assert!(position(&mut session, arm)[1] > 2.9);
 }

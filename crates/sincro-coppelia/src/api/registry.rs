@@ -170,6 +170,8 @@ pub struct ObjectRegistry {
     sample_ticks: u64,
     pub(super) impulse: Vec<f64>,
     has_stepped: bool,
+    /// True once the state that the run starts with is recorded: what changes it from then on counts as work.
+    pub(crate) has_begun: bool,
     /// Whole-number signals of scripts and clients, by name.
     pub integers: Signals<i64>,
     /// Real signals, by name.
@@ -269,6 +271,7 @@ impl ObjectRegistry {
             sample_ticks: sample_ticks.max(1),
             impulse: vec![0.0; scene.model.motors().len()],
             has_stepped: false,
+            has_begun: false,
             integers: Signals::default(),
             floats: Signals::default(),
             strings: Signals::default(),
@@ -479,6 +482,7 @@ impl ObjectRegistry {
 
     /// Before a base step: impulses of motors are kept where a step of clients begins, to tell mean torques afterwards.
     pub(crate) fn begin_tick(&mut self, tick: u64, totals: &[f64]) {
+        self.has_begun = true;
         if self.is_due(tick) {
             self.impulse.copy_from_slice(&totals[2..]);
             self.has_stepped = true;
@@ -638,7 +642,7 @@ impl ObjectRegistry {
         self.graphs.forget_run();
         self.tubes = Tubes::default();
         self.notes = Notes::default();
-        self.has_stepped = false;
+        (self.has_stepped, self.has_begun) = (false, false);
         self.vision.forget();
         self.reset_looks();
     }
@@ -661,7 +665,7 @@ impl ObjectRegistry {
         self.vision.end_run(before.vision);
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
-        self.has_stepped = false;
+        (self.has_stepped, self.has_begun) = (false, false);
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
         self.recorded_frames = before.recorded_frames;
         self.moved_frames = before.moved_frames;

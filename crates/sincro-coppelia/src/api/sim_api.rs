@@ -214,10 +214,15 @@ impl<'a> SimApi<'a> {
         };
         let x_mo = moving.pose.inverse().compose(&entry.frame.pose);
         let x_bm = self.place(&base).inverse().compose(&x_wo.compose(&x_mo.inverse()));
+        // what it takes to put a body elsewhere while a run is on counts as work
+        let before = self.registry.has_begun.then(|| self.world.energy().total());
         let q = &mut self.world.state.q[q_idx..q_idx + 7];
         q[..3].copy_from_slice(&x_bm.pos.0);
         Quat::from_matrix(&x_bm.rot).write(&mut q[3..]);
         self.moved();
+        if let Some(before) = before {
+            self.world.state.totals[0] += self.world.energy().total() - before;
+        }
         Ok(())
     }
 

@@ -392,6 +392,7 @@ impl Session {
         if let Some(run) = &mut self.run {
             run.recording.start(&mut self.lockstep).map_err(|e| told(e.into()))?;
         }
+        self.registry().has_begun = true;
         if let Err(halt) = first {
             let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
             return Err(self.fail(status));

@@ -1,6 +1,6 @@
 //! A world that goes on with another model: the structure of the mechanism has changed between two steps.
 
-use super::World;
+use super::{Method, World};
 use crate::actuation::ExternalForce;
 use crate::integrate::{Control, System};
 use crate::model::{Attached, Model};
@@ -20,7 +20,11 @@ impl World {
     ) -> Self {
         let n_coupled = self.y.len() - self.mechanism.dim();
         let kind = self.method();
-        let control = self.control().unwrap_or_else(|| Control::new(1e-6, self.step_size));
+        let control = match &self.method {
+            Method::Implicit(method) | Method::Stiff(method) => method.control,
+            Method::DormandPrince(method) => method.control,
+            Method::SemiImplicitEuler | Method::Rk4(_) => Control::new(1e-6, self.step_size),
+        };
         let tracks_totals = self.mechanism.layout().tracks_totals();
         let mut new = Self::with_coupled_states(model, state, kind, control, tracks_totals, n_coupled);
         new.substeps = self.substeps;

@@ -220,11 +220,15 @@ fn settings(campaign: &Campaign) -> Vec<(String, String)> {
     }
     for change in &report.changes {
         let value = change.value.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
-        let since = if change.t > 0.0 { format!(" from {} s", number(change.t)) } else { String::new() };
-        rows.push((
-            format!("{} of {}", change.quantity.replace('_', " "), change.object),
-            format!("{value}{since}, by a client or script"),
-        ));
+        let since = if change.t > 0.0 { format!("from {} s", number(change.t)) } else { String::new() };
+        let what = match change.quantity.as_str() {
+            quantity @ ("added" | "removed" | "hung") => format!("{} {quantity}", change.object),
+            quantity @ ("momentum" | "energy") => format!("jump of {quantity}"),
+            quantity => format!("{} of {}", quantity.replace('_', " "), change.object),
+        };
+        let told: Vec<String> = [value, since].into_iter().filter(|text| !text.is_empty()).collect();
+        let by = "by a client or script";
+        rows.push((what, if told.is_empty() { by.to_owned() } else { format!("{}, {by}", told.join(" ")) }));
     }
     rows.extend([
         ("model hash".to_owned(), report.model_hash.clone()),

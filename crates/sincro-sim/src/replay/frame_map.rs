@@ -31,6 +31,16 @@ pub struct FrameMap {
 }
 
 impl FrameMap {
+    /// Returns the link that carries a mover now; `None` if it has gone or is fixed in the world.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such mover.
+    #[must_use]
+    pub fn link(&self, mover: usize) -> Option<usize> {
+        self.movers[mover].as_ref()?.link
+    }
+
     /// Compares the scene at the start, which has the frames' `layout`, with the scene now.
     #[must_use]
     pub fn new(layout: &Layout, start: &Scene, now: &Scene) -> Self {

@@ -132,7 +132,11 @@ pub struct ChangeReport {
     /// Name of the quantity, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz),
     /// `limits` (lower, upper), `coupling` (ratio, offset); `gravity`; `respondable` (0: no contact with others).
     pub quantity: String,
-    /// New numbers, as many as the quantity has, in the units of the scene file.
+    /// New numbers, as many as the quantity has, in the units of the scene file. Of the structure: `added`, `removed`
+    /// and
+    /// `hung` have none; `momentum` has the jump of the linear `[kg·m/s]` and angular `[kg·m²/s]` momentum of all
+    /// bodies,
+    /// `energy` that of the energy and the energy lost by joining `[J]`.
     pub value: Vec<f64>,
 }
 

@@ -181,6 +181,8 @@ impl Track {
     fn follow(&mut self) {
         if self.lockstep.bring_up(&mut self.recorder, &mut self.followed) {
             self.frame_map = Some(FrameMap::new(&self.layout, &self.loaded.scene, self.lockstep.scene()));
+            // what was seized may be another link now
+            self.push = None;
         }
     }
 
@@ -209,7 +211,11 @@ impl Track {
         let Some(mover) = found.mover else {
             return Err(format!("`{}` is fixed in the world: no force moves it", found.path));
         };
-        let (link, t) = (self.layout.links()[mover], self.lockstep.t());
+        let t = self.lockstep.t();
+        let link = match &self.frame_map {
+            Some(map) => map.link(mover).ok_or_else(|| format!("`{}` has gone, or is fixed", found.path))?,
+            None => self.layout.links()[mover],
+        };
         let x_wl = self.lockstep.observe(t).0.scratch().link_poses()[link];
         let point = x_wl.inverse().point(Vec3(point));
         self.push = Some(ExternalForce { link, point, force: Vec3(force), torque: Vec3([0.0; 3]) });

@@ -45,12 +45,14 @@ impl SimApi<'_> {
                 self.park(unit, handle, (parent, &place), &mut edit)?;
             }
             _ => {
-                let own = self.own_pose(handle)?;
+                // a body that is joined goes with the frame that lets it be parted
+                let moved = if is_parked { unit } else { handle };
+                let own = self.own_pose(moved)?;
                 let shown = self.pose(handle, Reference::World)?;
                 // of a joint the model's axes are others than those that the API shows
                 let place = place.compose(&shown.inverse().compose(&own));
                 let (parent, x_wp) = self.parent_in_edit(parent, &edit)?;
-                let path = self.model_path(handle)?;
+                let path = self.model_path(moved)?;
                 edit.draft.hang(&path, &parent, &x_wp.inverse().compose(&place));
             }
         }

@@ -25,12 +25,12 @@ use sincro_dynamics::spatial::Pose;
 
 use super::registry::{Handle, Kind};
 use super::scene_objects::handle_of_object;
-use super::{ApiError, SimApi};
+use super::{ApiError, Phase, SimApi};
 use sincro_scene::diagnostic::{Diagnostics, Severity};
 use sincro_scene::draft::SceneDraft;
-use sincro_scene::scene::{ObjectKind, frame_of};
+use sincro_scene::scene::{Object, ObjectKind, Scene, frame_of};
 use sincro_sim::controller::Change;
-use sincro_sim::restructure::{Edit, restructure};
+use sincro_sim::restructure::{Edit, Restructured, restructure};
 
 /// Change of energy or momentum that is put down to rounding, relative to what there is.
 const ROUNDING: f64 = 1e-12;
@@ -86,7 +86,7 @@ impl SimApi<'_> {
         for object in change.scene.objects.iter().filter(|object| !known.contains(&object.id)) {
             self.registry.added.insert(handle_of_object(object));
         }
-        self.note_change(&from, &change)?;
+        self.note_change(&from, &change);
         self.registry.restructured.push(change);
         self.restore_pairs();
         self.moved();
@@ -94,34 +94,38 @@ impl SimApi<'_> {
     }
 
     /// Keeps what has changed with the run: objects, momentum, energy.
-    fn note_change(
-        &mut self,
-        from: &sincro_scene::scene::Scene,
-        change: &sincro_sim::restructure::Restructured,
-    ) -> Result<(), ApiError> {
-        let t = self.acts_at();
-        let mut note = |object: &str, quantity: &'static str, value: Vec<f64>| {
-            self.registry.keep_change(Change { t, object: object.to_owned(), quantity, value })
-        };
+    fn note_change(&mut self, from: &Scene, change: &Restructured) {
+        let mut notes: Vec<(&str, &'static str, Vec<f64>)> = Vec::new();
         for object in &from.objects {
-            let now = change.scene.objects.iter().find(|other| other.id == object.id);
-            match now {
-                None => note(&object.path, "removed", Vec::new())?,
-                Some(now) if now.path != object.path => note(&now.path, "hung", Vec::new())?,
+            match change.scene.objects.iter().find(|other| other.id == object.id) {
+                None => notes.push((&object.path, "removed", Vec::new())),
+                Some(now) if now.path != object.path => notes.push((&now.path, "hung", Vec::new())),
                 Some(_) => {}
             }
         }
-        for object in &change.scene.objects {
-            if !from.objects.iter().any(|other| other.id == object.id) {
-                note(&object.path, "added", Vec::new())?;
-            }
-        }
+        let is_new = |object: &&Object| !from.objects.iter().any(|other| other.id == object.id);
+        notes.extend(change.scene.objects.iter().filter(is_new).map(|object| (&*object.path, "added", Vec::new())));
         let moved = &change.transferred;
         let jump = [moved.momentum_change.0, moved.angular_momentum_change.0].concat();
         if jump.iter().any(|x| x.abs() > ROUNDING) {
-            note("/", "momentum", jump)?;
+            notes.push(("/", "momentum", jump));
         }
-        note("/", "energy", vec![moved.energy_change, moved.joining_loss])
+        notes.push(("/", "energy", vec![moved.energy_change, moved.joining_loss]));
+        let t = self.acts_at();
+        let mut all_kept = true;
+        for (object, quantity, mut value) in notes {
+            // jumps of several changes at one time add up
+            let same = |c: &&Change| (c.t, &*c.object, c.quantity) == (t, object, quantity);
+            if let Some(before) = self.registry.changes().iter().find(same) {
+                value.iter_mut().zip(&before.value).for_each(|(sum, x)| *sum += x);
+            }
+            let kept = self.registry.keep_change(Change { t, object: object.to_owned(), quantity, value });
+            all_kept &= kept.is_ok();
+        }
+        self.registry.is_model_changed |= self.registry.phase == Phase::Stopped;
+        if !all_kept {
+            self.log(300, "more changes of the structure than are kept with the run");
+        }
     }
 
     /// Returns true if an object is one of the scene that the world is of.
@@ -204,7 +208,7 @@ impl SimApi<'_> {
 
     /// Returns true if an object of the model is a free joint.
     pub(super) fn is_free_joint(&self, handle: Handle) -> bool {
-        let is_it = |object: &&sincro_scene::scene::Object| handle_of_object(object) == handle;
+        let is_it = |object: &&Object| handle_of_object(object) == handle;
         let found = self.registry.scene().objects.iter().find(is_it);
         found.is_some_and(|object| matches!(object.kind, ObjectKind::Joint { kind: JointKind::Free, .. }))
     }

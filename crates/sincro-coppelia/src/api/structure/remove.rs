@@ -108,7 +108,13 @@ pub(super) fn idle_joints(draft: &SceneDraft, gone: &BTreeSet<String>) -> Vec<St
     let mut idle = Vec::new();
     let stays = |path: &String| !gone.contains(path);
     let is = |path: &String, list: &str| draft.table(path).is_some_and(|(kind, _)| kind == list);
-    for joint in draft.subtree("").into_iter().filter(|path| is(path, "joint") && stays(path)) {
+    // a fixed joint needs nothing to move
+    let is_fixed = |path: &String| {
+        let kind = draft.table(path).and_then(|(_, keys)| keys.get("kind"));
+        kind.and_then(|kind| kind.as_str()) == Some("fixed")
+    };
+    let can_idle = |path: &String| is(path, "joint") && stays(path) && !is_fixed(path);
+    for joint in draft.subtree("").into_iter().filter(can_idle) {
         let below = draft.subtree(&joint);
         if !below.iter().any(|path| is(path, "body") && stays(path)) {
             idle.extend(below);
