@@ -421,3 +421,34 @@ expressions = ["-20*x"]
     steps(&mut session, 10);
     assert!(position(&mut session, arm)[1] > 2.9);
 }
+
+#[test]
+fn a_body_that_joins_a_hinged_arm_brings_its_angular_momentum_about_the_hinge() {
+    let arm = r#"
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+[[body]]
+name = "arm"
+parent = "/hinge"
+mass = 3.0
+center_of_mass = [0.25, 0.0, 0.0]
+inertia = { xx = 0.01, yy = 0.2, zz = 0.2 }
+"#;
+    // the box is at x = 0.3 m and moves along z with 0.6 m/s
+    let along_z = IN_SPACE.replace("[0.0, 0.0, 0.0, 0.6, 0.0, 0.0]", "[0.0, 0.0, 0.0, 0.0, 0.0, 0.6]");
+    let mut session = open(&format!("{along_z}{arm}"));
+    let [arm, body, joint] = ["/arm", "/box", "/hinge"].map(|path| handle(&mut session, path));
+    session.start().unwrap();
+    call(&mut session, "sim.setObjectParent", &[body.into(), arm.into(), true.into()]);
+    let rate = call(&mut session, "sim.getJointVelocity", &[joint.into()])[0].as_real().unwrap();
+    // about y a velocity along z at +x turns backwards; the box of 1 kg turns about its own centre, too
+    let of_box = 1.0 * (0.3 * 0.3 + 0.1 * 0.1 / 6.0);
+    let of_arm = 0.2 + 3.0 * 0.25 * 0.25;
+    let expected = -0.3 * 0.6 / (of_arm + of_box);
+    assert!((rate - expected).abs() < 1e-12, "{rate} rad/s, expected {expected}");
+    steps(&mut session, 10);
+    let after = call(&mut session, "sim.getJointVelocity", &[joint.into()])[0].as_real().unwrap();
+    assert!((after - expected).abs() < 1e-9, "{after}");
+}
