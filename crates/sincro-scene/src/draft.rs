@@ -367,7 +367,8 @@ impl SceneDraft {
         let source = Arc::new(SourceText { path: PathBuf::from("model"), text });
         let mut document = Document::parse(&source)?;
         let parameters = Parameters::new();
-        let mut found = expand(&mut document, &self.folder, &parameters);
+        let mut found = Diagnostics::default();
+        expand(&mut document, &self.folder, &parameters, &[], &mut found);
         found.merge(normalize(&mut document, scene_schema(), &parameters));
         found.merge(resolve_objects(&mut document));
         if found.any_error() {
@@ -395,7 +396,8 @@ impl SceneDraft {
             return Err(Diagnostic::without_location(message).into());
         }
         let parameters = Parameters::new();
-        let mut found = expand(&mut document, &self.folder, &parameters);
+        let mut found = Diagnostics::default();
+        expand(&mut document, &self.folder, &parameters, &[], &mut found);
         found.merge(resolve_objects(&mut document));
         found.merge(validate(&document, scene_schema()));
         if found.any_error() {

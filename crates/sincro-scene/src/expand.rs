@@ -15,8 +15,10 @@ use serde_json::{Map, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, escape};
 use crate::folder::Folder;
+use crate::instance_settings::InstanceSettings;
 use crate::names::{fits, resolve_objects};
-use crate::normalize::{Parameters, compute, normalize, parameters_of};
+use crate::normalize::{Parameters, compute, normalize, normalize_object, parameters_of};
+use crate::overrides::Override;
 use crate::scene::scene_schema;
 use crate::schema::validate;
 use crate::tree::{KINDS, RawObject, join, raw_objects};
@@ -44,28 +46,41 @@ const LISTS: [&str; 13] = [
 /// Tables of objects that a default fills up key by key.
 const MERGED: [&str; 6] = ["initial", "spring", "motor", "contact", "limits", "inertia"];
 
-/// Writes out what a scene file reuses, with names of parameters for its formulas.
-pub(crate) fn expand(document: &mut Document, folder: &Folder, parameters: &Parameters) -> Diagnostics {
-    let mut expander = Expander { folder, files: Vec::new(), n_objects: 0, diagnostics: Diagnostics::new() };
+/// Writes out what a scene file reuses, with names of parameters for its formulas. Parameters of instances are set by
+/// those of `settings` that name one; returns all others.
+pub(crate) fn expand(
+    document: &mut Document,
+    folder: &Folder,
+    parameters: &Parameters,
+    settings: &[Override],
+    diagnostics: &mut Diagnostics,
+) -> Vec<Override> {
+    let settings = InstanceSettings::of(settings);
+    let (files, below) = (Vec::new(), String::new());
+    let mut expander = Expander { folder, files, below, settings, n_objects: 0, diagnostics: Diagnostics::new() };
     expander.file(document, parameters);
-    expander.diagnostics
+    diagnostics.merge(expander.diagnostics);
+    expander.settings.others(diagnostics)
 }
 
 struct Expander<'a> {
     folder: &'a Folder,
     /// Files that are being read, the outermost first.
     files: Vec<String>,
+    /// Path of the instance whose file is written out; empty for the scene itself.
+    below: String,
+    settings: InstanceSettings<'a>,
     n_objects: usize,
     diagnostics: Diagnostics,
 }
 
 impl Expander<'_> {
     fn file(&mut self, document: &mut Document, parameters: &Parameters) {
-        self.includes(document, parameters);
+        let scopes = self.includes(document, parameters);
         self.diagnostics.merge(normalize(document, scene_schema(), parameters));
         self.diagnostics.merge(resolve_objects(document));
         self.instances(document, parameters);
-        defaults(document, &mut self.diagnostics);
+        defaults(document, &scopes, &mut self.diagnostics);
         // formulas and units of defaults are those of the objects they went to
         self.diagnostics.merge(normalize(document, scene_schema(), parameters));
         self.diagnostics.merge(resolve_objects(document));
@@ -97,12 +112,15 @@ impl Expander<'_> {
         }
     }
 
-    fn includes(&mut self, document: &mut Document, parameters: &Parameters) {
+    /// Adds what the included files hold. Returns the names for the formulas of each default: those of its own file.
+    fn includes(&mut self, document: &mut Document, parameters: &Parameters) -> Vec<Parameters> {
+        let n_defaults = document.get("/default").and_then(Value::as_array).map_or(0, Vec::len);
+        let mut scopes = vec![parameters.clone(); n_defaults];
         let n = document.get("/include").and_then(Value::as_array).map_or(0, Vec::len);
         for k in 0..n {
             let Some(mut other) = self.read(document, &format!("/include/{k}")) else { continue };
             let own = with_defaults(&other, parameters, true);
-            self.includes(&mut other, &own);
+            scopes.extend(self.includes(&mut other, &own));
             self.diagnostics.merge(normalize(&mut other, scene_schema(), &own));
             let keys: Vec<String> = other.root.as_object().into_iter().flatten().map(|(key, _)| key.clone()).collect();
             for key in keys.iter().filter(|key| !matches!(key.as_str(), "include" | "parameters" | "format")) {
@@ -120,6 +138,7 @@ impl Expander<'_> {
             }
             self.files.pop();
         }
+        scopes
     }
 
     fn instances(&mut self, document: &mut Document, parameters: &Parameters) {
@@ -185,11 +204,19 @@ impl Expander<'_> {
         copy: &Copied,
         outer: &Parameters,
     ) -> bool {
-        let Some(parameters) = self.parameters(document, source, pointer, copy, outer) else { return false };
-        let mut inner = source.clone();
-        self.file(&mut inner, &parameters);
         let parent = document.text(&format!("{pointer}/parent")).unwrap_or("/").to_owned();
         let path = join(&parent, name);
+        let around = self.below.clone();
+        self.below.push_str(&path);
+        let parameters = self.parameters(document, source, pointer, copy, outer);
+        let mut inner = source.clone();
+        if let Some(parameters) = &parameters {
+            self.file(&mut inner, parameters);
+        }
+        self.below = around;
+        if parameters.is_none() {
+            return false;
+        }
         self.frame(document, pointer, name, &parent, copy);
         prefix(&mut inner, &path);
         for list in LISTS {
@@ -207,8 +234,8 @@ impl Expander<'_> {
         true
     }
 
-    /// Numbers for the formulas of a copy: those around it, the defaults of the file, what the instance gives, and the
-    /// indices of the copy. None if one cannot be computed.
+    /// Numbers for the formulas of a copy: those around it, the defaults of the file, what the instance or a setting
+    /// gives, and the indices of the copy. None if one cannot be computed.
     fn parameters(
         &mut self,
         document: &Document,
@@ -248,10 +275,12 @@ impl Expander<'_> {
                 }
             }
         }
+        let set = self.settings.of_instance(&self.below, source, &scope, &mut self.diagnostics);
+        own.extend(set.clone());
         // defaults that are formulas of parameters which the instance gives
         let mut table = source.get("/parameters").cloned().unwrap_or(Value::Object(Map::new()));
         for (name, value) in table.as_object_mut().into_iter().flatten() {
-            if given.is_some_and(|given| given.contains_key(name)) {
+            if given.is_some_and(|given| given.contains_key(name)) || set.contains_key(name) {
                 *value = own[name].into();
             }
         }
@@ -385,8 +414,9 @@ fn prefix(document: &mut Document, path: &str) {
     }
 }
 
-/// Fills up the objects with the defaults of the file; the last default that fits wins over those before.
-fn defaults(document: &mut Document, diagnostics: &mut Diagnostics) {
+/// Fills up the objects with the defaults of the file; the last default that fits wins over those before. The formulas
+/// of default k know the names `scopes[k]`.
+fn defaults(document: &mut Document, scopes: &[Parameters], diagnostics: &mut Diagnostics) {
     let n = document.get("/default").and_then(Value::as_array).map_or(0, Vec::len);
     if n == 0 {
         return;
@@ -416,6 +446,8 @@ fn defaults(document: &mut Document, diagnostics: &mut Diagnostics) {
                     (format!("{pointer}/keys/{}", escape(key)), format!("{}/{}", object.pointer, escape(key)));
                 fill(document, &source, &from, &to, MERGED.contains(&key.as_str()));
             }
+            // before another default comes, whose formulas may know other names
+            diagnostics.merge(normalize_object(document, scene_schema(), &object.pointer, &scopes[k]));
         }
     }
 }

@@ -55,6 +55,7 @@ mod expand;
 pub mod experiment;
 pub mod fmu;
 pub mod folder;
+mod instance_settings;
 mod names;
 pub mod normalize;
 pub mod numbers;

@@ -37,6 +37,19 @@ pub(crate) fn normalize(document: &mut Document, schema: &Value, parameters: &Pa
     walker.diagnostics
 }
 
+/// As [`normalize`], of the object at `pointer` in one of the document's lists alone.
+pub(crate) fn normalize_object(
+    document: &mut Document,
+    schema: &Value,
+    pointer: &str,
+    parameters: &Parameters,
+) -> Diagnostics {
+    let list = pointer.split('/').nth(1).unwrap_or("");
+    let mut walker = Walker { document, root: schema, parameters, diagnostics: Diagnostics::new(), edits: Vec::new() };
+    walker.value(pointer, &schema["properties"][list]["items"]);
+    walker.diagnostics
+}
+
 /// Converts the text of a file to the present format: outdated names of keys and words are replaced by those of
 /// `schema`, and `format` stands at its head. Comments, spaces and all else stay. `schema` is the one of that kind of
 /// file, such as [`scene_schema`](crate::scene::scene_schema).

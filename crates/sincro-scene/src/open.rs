@@ -14,6 +14,7 @@ use crate::expand::expand;
 use crate::experiment::{self, Experiment, Plot, experiment_schema};
 use crate::fmu::Loaders;
 use crate::folder::Folder;
+use crate::instance_settings::adopt_included;
 use crate::names::resolve_signals;
 use crate::normalize::{Parameters, newer_format, normalize, parameters_of};
 use crate::overrides::Override;
@@ -237,21 +238,33 @@ pub(crate) fn read_documents(
     }
     // parameters first: formulas may stand anywhere
     let sets_parameters = |s: &&Override| s.target() == Target::Experiment && s.path.value.starts_with("parameters");
-    let of_parameters: Vec<Override> = overrides.iter().filter(sets_parameters).cloned().collect();
+    let mut of_parameters: Vec<Override> = overrides.iter().filter(sets_parameters).cloned().collect();
+    if let Some(scene) = &scene {
+        of_parameters = adopt_included(&mut experiment, scene, folder, of_parameters, diagnostics);
+    }
     diagnostics.merge(apply_all(&mut experiment, Target::Experiment, &of_parameters));
     let parameters = parameters_of(&experiment);
     diagnostics.merge(normalize(&mut experiment, experiment_schema(), &parameters));
     let others: Vec<Override> = overrides.iter().filter(|s| !sets_parameters(s)).cloned().collect();
     let experiment = prepared(experiment, Target::Experiment, &others, &parameters, diagnostics);
-    let scene = scene.map(|mut scene| {
-        diagnostics.merge(apply_all(&mut scene, Target::Scene, &early(overrides)));
-        diagnostics.merge(expand(&mut scene, folder, &parameters));
-        scene
-    });
     let diagram = read_diagram(&experiment, folder, diagnostics);
-    let paths: Vec<String> = scene.iter().flat_map(tree::raw_objects).map(|object| object.path).collect();
     let blocks = diagram.as_ref().map(names_of_blocks).unwrap_or_default();
-    let overrides = whole_paths(overrides, scene.as_ref(), &paths, &blocks, diagnostics);
+    // a block may have a parameter `parameters`, too
+    let is_of_block = |s: &Override| blocks.iter().any(|block| s.path.value.split('.').next() == Some(block));
+    let (mut settings, others): (Vec<_>, Vec<_>) = overrides.iter().cloned().partition(is_of_block);
+    let scene = match scene {
+        Some(mut scene) => {
+            diagnostics.merge(apply_all(&mut scene, Target::Scene, &early(&others)));
+            settings.extend(expand(&mut scene, folder, &parameters, &others, diagnostics));
+            Some(scene)
+        }
+        None => {
+            settings.extend(others);
+            None
+        }
+    };
+    let paths: Vec<String> = scene.iter().flat_map(tree::raw_objects).map(|object| object.path).collect();
+    let overrides = whole_paths(&settings, scene.as_ref(), &paths, &blocks, diagnostics);
     let scene = scene.map(|scene| prepared(scene, Target::Scene, &overrides, &parameters, diagnostics));
     let diagram = match diagram {
         Some(mut diagram) => {

@@ -3,8 +3,9 @@
 //! | path | reaches |
 //! |---|---|
 //! | `/arm/link.inertia.xx` | a key of the scene's object of that path |
+//! | `/arm.parameters.m` | a parameter of the file of the instance of that path, or of that form: `/ball*.parameters.r` |
 //! | `gravity.2` | a key of the scene file |
-//! | `step`, `parameters.m`, `sweep.range.to` | a key of the experiment file |
+//! | `step`, `parameters.m`, `sweep.range.to` | a key of the experiment file; parameters of included files are its own |
 //! | `pid.kp`, `diagram.step.to` | a parameter of the diagram's block of that name (`diagram.` where the name is also a key above) |
 //!
 //! List entries are counted from 0: `axis.2` or `axis[2]`. A path must be known to the schema; what the file leaves out

@@ -196,3 +196,82 @@ fn files_of_a_scene_file_are_looked_for_in_its_own_folder() {
         assert!(found.contains(&path.to_owned()), "{path}: {found:?}");
     }
 }
+
+/// A ball whose file has a default with a formula of its own parameter.
+const BALL_WITH_DEFAULT: &str = r#"
+[parameters]
+half = 0.05
+density = 1000.0
+
+[[default]]
+of = "body"
+keys = { density = "2*density", shape = [ { sphere = { radius = "2*half" } } ] }
+
+[[joint]]
+name = "air"
+kind = "free"
+
+[[body]]
+name = "ball"
+parent = "air"
+"#;
+
+fn ball_mass(radius: f64, density: f64) -> f64 {
+    4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * density
+}
+
+#[test]
+fn defaults_know_the_parameters_of_their_own_file() {
+    // the same name in the file that reuses it, and in another one, has another value
+    let other = "[parameters]\nhalf = 0.3\n[[default]]\nof = \"frame\"\nkeys = { position = [\"half\", 0, 0] }\n\
+                 [[frame]]\nname = \"mark\"\n";
+    let include = "include = [\"ball.toml\", \"other.toml\"]\n";
+    let instance = "include = [\"other.toml\"]\n[[instance]]\nfile = \"ball.toml\"\n";
+    for scene in [include, instance] {
+        let folder = SceneFolder::of(scene, EXPERIMENT).with("ball.toml", BALL_WITH_DEFAULT).with("other.toml", other);
+        let mass = total_mass(&folder, &[]);
+        assert!((mass - ball_mass(0.1, 2000.0)).abs() < 1e-9, "{scene}: {mass}");
+        assert_eq!(folder.load(&[]).unwrap().scene.object("/mark").unwrap().pose.pos.0[0], 0.3);
+    }
+}
+
+#[test]
+fn settings_reach_parameters_of_included_files() {
+    let folder = SceneFolder::of("include = [\"ball.toml\"]\n", EXPERIMENT).with("ball.toml", BALL_WITH_DEFAULT);
+    let mass = total_mass(&folder, &["parameters.half=0.1"]);
+    assert!((mass - ball_mass(0.2, 2000.0)).abs() < 1e-9, "{mass}");
+    let refused = folder.load(&["parameters.haf=0.1"]).unwrap_err();
+    assert!(refused.contains("`haf`"), "{refused}");
+}
+
+#[test]
+fn settings_reach_parameters_of_instances_by_their_paths() {
+    let arm = "[[instance]]\nfile = \"ball.toml\"\nname = \"first\"\nposition = [1, 0, 0]\n\
+               [[instance]]\nfile = \"ball.toml\"\nname = \"row\"\nrepeat = { count = 2, step = [0.0, 1.0, 0.0] }\n\
+               parameters = { radius = 0.2 }\n";
+    // an instance in an instance
+    let folder = folder("[[instance]]\nfile = \"arm.toml\"\nname = \"arm\"\n").with("arm.toml", arm);
+    let mass = |settings: &[&str]| total_mass(&folder, settings);
+    let (small, large) = (ball_mass(0.1, 1000.0), ball_mass(0.2, 1000.0));
+    assert!((mass(&[]) - small - 2.0 * large).abs() < 1e-9);
+    // by its whole path, by a short name, a pattern, and a formula
+    assert!((mass(&["/arm/first.parameters.radius=0.2"]) - 3.0 * large).abs() < 1e-9);
+    assert!((mass(&["first.parameters.radius=0.2"]) - 3.0 * large).abs() < 1e-9);
+    assert!((mass(&["/arm/row*.parameters.radius=0.1"]) - 3.0 * small).abs() < 1e-9);
+    assert!((mass(&["/arm/row2.parameters.radius=m/20"]) - 2.0 * small - large).abs() < 1e-9);
+    let refused = |setting: &str| folder.load(&[setting]).unwrap_err();
+    let found = refused("/arm/first.parameters.radus=1");
+    assert!(found.contains("has no parameter `radus`") && found.contains("did you mean `radius`?"), "{found}");
+    let found = refused("/arm/fist.parameters.radius=1");
+    assert!(found.contains("no instance `/arm/fist`") && found.contains("did you mean `/arm/first`?"), "{found}");
+    let found = refused("/arm/first.parameters.radius=two");
+    assert!(found.contains("`radius` is not a number"), "{found}");
+}
+
+#[test]
+fn a_parameter_of_an_instance_is_none_of_the_experiment() {
+    let scene = folder("[[instance]]\nfile = \"ball.toml\"\nname = \"ball\"\n");
+    let found = scene.load(&["parameters.radius=0.2"]).unwrap_err();
+    assert!(found.contains("is a parameter of the instance `/ball`"), "{found}");
+    assert!(found.contains("write /ball.parameters.radius=0.2"), "{found}");
+}

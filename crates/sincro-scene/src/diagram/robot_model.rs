@@ -69,14 +69,14 @@ impl<'a> Models<'a> {
 
     fn compile(&self, request: &Request) -> Result<Arc<Model<f64>>, Diagnostics> {
         let mut diagnostics = Diagnostics::new();
-        let (mut document, parameters) = match (&request.file, self.scene) {
-            (Some(file), _) => self.read(file, &mut diagnostics)?,
-            (None, Some(scene)) => (scene.clone(), self.parameters.clone()),
+        let (mut document, parameters, set) = match (&request.file, self.scene) {
+            (Some(file), _) => self.read(file, &request.set, &mut diagnostics)?,
+            (None, Some(scene)) => (scene.clone(), self.parameters.clone(), request.set.clone()),
             // the scene itself could not be read: that was said
             (None, None) => return Err(diagnostics),
         };
         let paths: Vec<String> = tree::raw_objects(&document).into_iter().map(|object| object.path).collect();
-        let set = whole_paths(&request.set, Some(&document), &paths, &[], &mut diagnostics);
+        let set = whole_paths(&set, Some(&document), &paths, &[], &mut diagnostics);
         diagnostics.merge(apply_all(&mut document, Target::Scene, &set));
         diagnostics.merge(normalize(&mut document, scene_schema(), &parameters));
         diagnostics.merge(resolve_objects(&mut document));
@@ -95,18 +95,20 @@ impl<'a> Models<'a> {
         Ok(model)
     }
 
-    /// Reads a scene file with everything reused in it written out, and the parameters that its formulas know.
+    /// Reads a scene file with everything reused in it written out, the parameters that its formulas know, and those of
+    /// the settings that are not of an instance in it.
     fn read(
         &self,
         file: &Located<String>,
+        set: &[Override],
         diagnostics: &mut Diagnostics,
-    ) -> Result<(Document, Parameters), Diagnostics> {
+    ) -> Result<(Document, Parameters, Vec<Override>), Diagnostics> {
         let mut document = Document::parse(&self.folder.read_named(file)?)?;
         diagnostics.merge(newer_format(&document).map(Diagnostics::from).unwrap_or_default());
         let mut parameters = parameters_of(&document);
         parameters.extend(self.parameters.iter().map(|(name, x)| (name.clone(), *x)));
-        diagnostics.merge(expand(&mut document, self.folder, &parameters));
-        Ok((document, parameters))
+        let set = expand(&mut document, self.folder, &parameters, set, diagnostics);
+        Ok((document, parameters, set))
     }
 }
 
