@@ -284,3 +284,54 @@ fn only_sampled_signals_open_a_loop() {
     let message = open_loops(&continuous, &at, &[name("pid")]).unwrap_err().to_string();
     assert!(message.contains("`pid` is not sampled"), "{message}");
 }
+
+/// Sensors on the cart: position every 20 ms, as a diagram at 20 ms samples it, and velocity every 10 ms.
+const SENSORS: &str = r#"
+[[sensor]]
+name = "gps"
+parent = "cart"
+sample_time = 0.02
+pose = { position_noise = 0.0 }
+[[sensor]]
+name = "speed"
+parent = "cart"
+sample_time = 0.01
+velocity = { noise = 0.0 }
+"#;
+
+/// Poles that are not zero, by modulus, then by angle.
+fn moving_poles(folder: &SceneFolder) -> Vec<Complex<f64>> {
+    let loaded = folder.load(&[]).unwrap();
+    let at = operating_point(&loaded, 0.0).unwrap();
+    let found = linearize_sampled(&loaded, &at).unwrap();
+    let mut poles: Vec<_> = found.system.poles().iter().map(|mode| mode.pole).collect();
+    poles.retain(|p| modulus(*p) > 1e-6);
+    poles.sort_by(|a, b| (modulus(*a), a.im).partial_cmp(&(modulus(*b), b.im)).unwrap());
+    poles
+}
+
+#[test]
+fn a_loop_through_sensors_has_the_poles_of_one_that_measures_the_motion() {
+    let with_sensors = |diagram: &str| {
+        let folder = mass_on_rail(diagram);
+        let scene = folder.join("scene.toml");
+        let text = std::fs::read_to_string(&scene).unwrap();
+        std::fs::write(&scene, text + SENSORS).unwrap();
+        folder
+    };
+    // the same samples, so the same discrete system
+    let through = PID.replace("/rail.position", "/rail/cart/gps.measured_position.x");
+    let cascade = CASCADE.replace("/rail.velocity", "/rail/cart/speed.measured_velocity.x");
+    for (direct, sensed) in [(PID, through.as_str()), (CASCADE, cascade.as_str())] {
+        let (direct, sensed) = (moving_poles(&with_sensors(direct)), moving_poles(&with_sensors(sensed)));
+        assert!(direct.len() >= 2 && direct.len() == sensed.len(), "{direct:?} {sensed:?}");
+        for (a, b) in direct.iter().zip(&sensed) {
+            assert!(modulus(a - b) < 1e-7, "{a} {b}");
+        }
+    }
+    // a gain that is too high for the sensor's sample time, in a diagram without one
+    let continuous = "wires = [\"/rail/cart/gps.measured_position.x -> pid -> /rail\"]\n[[block]]\nname = \"pid\"\n\
+                      type = \"gain\"\ngain = -20000.0\nunit = \"N\"\n";
+    let fastest = moving_poles(&with_sensors(continuous)).pop().unwrap();
+    assert!(modulus(fastest) > 1.5, "{fastest}");
+}

@@ -231,6 +231,15 @@ impl DiagramController<f64> {
         self.not_finite().map_or(Ok(()), Err)
     }
 
+    /// Replaces the last samples of all sensors, in their order and units, as the next evaluation reads them.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many as the model's sensors have values.
+    pub fn set_samples(&mut self, samples: &[f64]) {
+        self.sensed.copy_from_slice(samples);
+    }
+
     /// Returns the first block, in the order of evaluation, whose output was not finite when it was last evaluated;
     /// `None` if all are.
     #[must_use]
@@ -360,7 +369,7 @@ impl Controller for DiagramController<f64> {
     }
 
     fn measure(&mut self, at: Instant<'_>, sensors: &[f64]) -> Result<(), NotFinite> {
-        self.sensed.copy_from_slice(sensors);
+        self.set_samples(sensors);
         self.evaluate(at.world, at.tick, at.t)
     }
 

@@ -232,6 +232,8 @@ impl<'a> PeriodMap<'a> {
         visit(Moment::Before(0), &mut self.run);
         if let (Some(control), Some(diagram)) = (self.run.control(), &mut snapshot.diagram) {
             let (mut control, tick, t) = (control.clone(), self.run.tick(), self.run.t());
+            // its own samples are those of the run before
+            control.set_samples(&snapshot.sensors);
             let measured = control.evaluate(self.run.world(), tick, t);
             measured.map_err(|_| {
                 Diagnostic::without_location("a block of the diagram gives what is not a finite number")

@@ -5,6 +5,8 @@ use core::fmt;
 
 use sincro_blocks::program::Rate;
 use sincro_scene::diagram::is_known_at_ticks_only;
+use sincro_scene::record::Probe;
+use sincro_scene::sensor::SensorKind;
 use sincro_sim::load::Loaded;
 use sincro_sim::run::{LockStep, method_for};
 
@@ -61,8 +63,9 @@ impl fmt::Display for UnstableLoop {
 /// Finds out whether the diagram of a scene closes a loop that is unstable at the start: a small disturbance would grow
 /// a thousandfold within the run, and the loop is to blame, since the disturbance grows faster than with the commands
 /// held, or the run starts at an equilibrium, which the loop then does not hold. `None` if it is not, or cannot be
-/// told: without a loop, with blocks that measure sensors or contacts, with contacts, scripts, FMUs, blocks in Lua or
-/// controllers of the program, and where linearising would take longer than a fraction of a second.
+/// told: without a loop, with blocks that measure contacts, proximity or sums over a step, with contacts, scripts,
+/// FMUs, blocks in Lua or controllers of the program, and where linearising would take longer than a fraction of a
+/// second. Sensors are in the loop with their sample times; their noise is the same in all runs that are compared.
 ///
 /// ```
 /// use sincro_analysis::prelude::*;
@@ -83,16 +86,18 @@ pub fn unstable_loop(loaded: &Loaded) -> Option<UnstableLoop> {
     if runs_foreign || touches || !loaded.scene.scripts.is_empty() || !loaded.controllers.is_empty() {
         return None;
     }
-    // what is known at ticks only is a constant in the equations: the loop would be open there
+    // what is known at ticks only is a constant in the equations: the loop is closed by the map over a period
     let readings = &loaded.controller.as_ref()?.wiring.early;
-    if readings.iter().flat_map(|reading| &reading.probes).any(|probe| is_known_at_ticks_only(*probe)) {
+    let probes = readings.iter().flat_map(|reading| reading.probes.iter().copied());
+    let at_ticks: Vec<Probe> = probes.filter(|probe| is_known_at_ticks_only(*probe)).collect();
+    if !at_ticks.iter().all(|probe| matches!(probe, Probe::Sensor(value) if is_smooth(loaded, *value))) {
         return None;
     }
     let mut at = LockStep::new(loaded, method_for(loaded).0, false);
     at.start().ok()?;
     at.latch();
     let held = linearize(loaded, &at, &Request::default()).ok()?;
-    let is_sampled = program.steps.iter().any(|step| matches!(step.rate, Rate::Sampled(_)));
+    let is_sampled = !at_ticks.is_empty() || program.steps.iter().any(|step| matches!(step.rate, Rate::Sampled(_)));
     let (closed, is_steady) = if is_sampled {
         let n_steps = period(loaded, &at).ok()?.saturating_mul(2 * n_states(&at) + 1);
         let found = (n_steps <= MAX_STEPS).then(|| linearize_sampled(loaded, &at).ok()).flatten()?;
@@ -105,6 +110,14 @@ pub fn unstable_loop(loaded: &Loaded) -> Option<UnstableLoop> {
     let grows = closed * loaded.experiment.duration > GROWTH;
     let is_loop = (closed - open).abs() > NO_LOOP * (1.0 + open);
     (grows && is_loop && (closed > WORSE * open || is_steady)).then_some(UnstableLoop { closed, open })
+}
+
+/// Returns true if the sensor that gives a value, counted over all sensors, measures the motion of its frame: what
+/// contact and proximity sensors give jumps.
+fn is_smooth(loaded: &Loaded, value: usize) -> bool {
+    let kinds = loaded.scene.sensors.iter().flat_map(|s| std::iter::repeat_n(s.kind, s.kind.values().len()));
+    let of_value = kinds.into_iter().nth(value);
+    of_value.is_some_and(|kind| !matches!(kind, SensorKind::Contact { .. } | SensorKind::Proximity { .. }))
 }
 
 /// Number of states of a run, at least.
