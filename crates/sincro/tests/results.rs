@@ -140,6 +140,8 @@ fn runs_are_listed_compared_and_pruned() {
     assert_eq!((status, list.lines().count()), (0, 3), "{list}");
     assert!(list.contains("results/pendulum/0002") && list.contains("/hinge.initial.position=0.2"), "{list}");
     assert!(list.contains("the check holds"), "{list}");
+    // a scene stands for its results
+    assert_eq!(SINCRO.call_in(&folder, &["runs", "pendulum"]).0, list);
     let (table, _, status) = SINCRO.call_in(&folder, &["runs", "compare", "results/pendulum/0001", "results/pendulum"]);
     assert_eq!(status, 0);
     let row = table.lines().find(|line| line.contains("/hinge.initial.position")).unwrap();

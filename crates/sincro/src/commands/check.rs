@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use sincro::{Loaded, load};
+use sincro::Loaded;
 use sincro_blocks::program::Rate;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::catalogue;
@@ -15,8 +15,7 @@ use sincro_sim::trace::model_hash;
 
 use super::console::{degrees, print_findings, short};
 use super::mutate;
-use super::robot_file::SceneSource;
-use super::run::parse_settings;
+use super::robot_file::OpenedScene;
 use crate::run::unstable_loop;
 use crate::{Exit, diagnostics};
 
@@ -38,14 +37,9 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let source = match SceneSource::open(&arguments.scene) {
-        Ok(source) => source,
-        Err(exit) => return exit,
-    };
-    let opened = parse_settings(&arguments.set).and_then(|set| Ok((load(source.folder(), &set)?, set)));
-    let (loaded, set) = match opened {
+    let OpenedScene { source: _source, set, loaded } = match OpenedScene::open(&arguments.scene, &arguments.set) {
         Ok(opened) => opened,
-        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
+        Err(exit) => return exit,
     };
     if let Some(share) = arguments.mutate {
         return mutate::run(&loaded, &set, share);

@@ -81,7 +81,8 @@ pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
         print_checks("  ", &sweep.checks);
     }
     for variant in &report.variants {
-        say!("  variant {}: {}", variant.name, variant.description);
+        let colon = if variant.description.is_empty() { "" } else { ": " };
+        say!("  variant {}{colon}{}", variant.name, variant.description);
         for warning in &variant.warnings {
             say!("    warning: {warning}");
         }
@@ -218,8 +219,13 @@ fn print_error_bars(report: &RunReport) {
             units.push(&column.unit);
         }
     }
+    let mut bars: Vec<(&str, f64)> = units.into_iter().filter_map(|unit| Some((unit, worst(unit)?))).collect();
+    if bars.iter().any(|(_, bar)| *bar > 0.0) {
+        // what is known exactly says nothing beside the rest
+        bars.retain(|(_, bar)| *bar != 0.0);
+    }
     let bars: Vec<String> =
-        units.iter().filter_map(|u| worst(u).map(|bar| format!("{}{}", significant(bar, 1), spaced(u)))).collect();
+        bars.into_iter().map(|(unit, bar)| format!("{}{}", significant(bar, 1), spaced(unit))).collect();
     if !bars.is_empty() {
         say!("  error bars up to {}", bars.join(", "));
     }

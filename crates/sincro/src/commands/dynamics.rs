@@ -5,11 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
-use sincro::load;
 use sincro_analysis::dynamics::{EvaluationPoint, equation_terms};
 
-use super::robot_file::SceneSource;
-use super::run::parse_settings;
+use super::robot_file::OpenedScene;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `dynamics`.
@@ -66,13 +64,9 @@ struct TermsLine<'a> {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let source = match SceneSource::open(&arguments.scene) {
-        Ok(source) => source,
+    let OpenedScene { source: _source, loaded, .. } = match OpenedScene::open(&arguments.scene, &arguments.set) {
+        Ok(opened) => opened,
         Err(exit) => return exit,
-    };
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(source.folder(), &set)) {
-        Ok(loaded) => loaded,
-        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
     };
     let model = &loaded.scene.model;
     let joints = model.names().joints.iter().map(|j| JointLine {

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use sincro::export_c::{Obstacle, export_c};
-use sincro::{load, scene_name};
+use sincro::scene_name;
 
-use super::robot_file::SceneSource;
-use super::run::parse_settings;
+use super::robot_file::OpenedScene;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `export c`.
@@ -28,13 +27,9 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let source = match SceneSource::open(&arguments.scene) {
-        Ok(source) => source,
+    let OpenedScene { source, loaded, .. } = match OpenedScene::open(&arguments.scene, &arguments.set) {
+        Ok(opened) => opened,
         Err(exit) => return exit,
-    };
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(source.folder(), &set)) {
-        Ok(loaded) => loaded,
-        Err(found) => return diagnostics::refuse_diagnostics(&found),
     };
     diagnostics::print_diagnostics(&loaded.warnings);
     let name = arguments.name.clone().unwrap_or_else(|| scene_name(source.folder()));

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sincro::export::{FmiVersion, FmuRequest, Kinds, Outputs, export_fmu};
-use sincro::{load, scene_name};
+use sincro::scene_name;
 
-use super::run::parse_settings;
+use super::robot_file::OpenedScene;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `export fmu`.
@@ -54,19 +54,15 @@ enum Kind {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let overrides = match parse_settings(&arguments.set) {
-        Ok(overrides) => overrides,
-        Err(found) => return diagnostics::refuse_diagnostics(&found),
-    };
-    let loaded = match load(&arguments.scene, &overrides) {
-        Ok(loaded) => loaded,
-        Err(found) => return diagnostics::refuse_diagnostics(&found),
+    let OpenedScene { source, set, loaded } = match OpenedScene::open(&arguments.scene, &arguments.set) {
+        Ok(opened) => opened,
+        Err(exit) => return exit,
     };
     diagnostics::print_diagnostics(&loaded.warnings);
-    let name = scene_name(&arguments.scene);
+    let name = scene_name(source.folder());
     let request = FmuRequest {
         loaded: &loaded,
-        overrides: &overrides,
+        overrides: &set,
         name: &name,
         version: match arguments.fmi {
             Version::V2 => FmiVersion::V2,

@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use sincro::{load, scene_name};
+use sincro::scene_name;
 use sincro_import::export::{Format, export};
 
-use super::robot_file::SceneSource;
-use super::run::parse_settings;
+use super::robot_file::OpenedScene;
 use crate::{Exit, diagnostics};
 
 /// Arguments of the formats of robots.
@@ -25,13 +24,9 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments, format: Format) -> Exit {
-    let source = match SceneSource::open(&arguments.scene) {
-        Ok(source) => source,
+    let OpenedScene { source, loaded, .. } = match OpenedScene::open(&arguments.scene, &arguments.set) {
+        Ok(opened) => opened,
         Err(exit) => return exit,
-    };
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(source.folder(), &set)) {
-        Ok(loaded) => loaded,
-        Err(found) => return diagnostics::refuse_diagnostics(&found),
     };
     let exported = match export(&loaded.scene, &scene_name(source.folder()), format) {
         Ok(exported) => exported,

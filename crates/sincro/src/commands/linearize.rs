@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use sincro::{Loaded, linearization, load};
+use sincro::{Loaded, linearization};
 use sincro_analysis::linear::{DMatrix, lqr};
 use sincro_analysis::linearize::{
     Linearization, Request, TrimRequest, linearize, linearize_sampled, open_loops, openable_signals, operating_point,
@@ -12,7 +12,7 @@ use sincro_analysis::linearize::{
 use sincro_figures::linear::{Analysis, text};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, Location, SourceText};
 
-use super::run::parse_settings;
+use super::robot_file::OpenedScene;
 use crate::{Exit, diagnostics};
 
 /// Names listed at most.
@@ -21,7 +21,7 @@ const MAX_NAMED: usize = 8;
 /// Arguments of `linearize`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of the scene, or its experiment.toml
+    /// Folder of the scene, its experiment.toml, or a robot file (URDF, SDF, MJCF)
     scene: PathBuf,
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -66,9 +66,9 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    let loaded = match parse_settings(&arguments.set).and_then(|set| load(&arguments.scene, &set)) {
-        Ok(loaded) => loaded,
-        Err(diagnostics) => return diagnostics::refuse_diagnostics(&diagnostics),
+    let OpenedScene { source: _source, loaded, .. } = match OpenedScene::open(&arguments.scene, &arguments.set) {
+        Ok(opened) => opened,
+        Err(exit) => return exit,
     };
     if arguments.sampled {
         return sampled(arguments, &loaded);

@@ -1,11 +1,44 @@
-//! Scenes of the command line: folders, and robot files that are imported into a temporary folder first.
+//! Scenes of the command line: folders, and robot files that are imported into a temporary folder first, opened with
+//! the settings of `--set`.
 
 use std::path::{Path, PathBuf};
 
+use sincro::{Loaded, load};
 #[cfg(feature = "formats")]
 use sincro_import::{Imported, Options, import, is_robot_file};
+use sincro_scene::overrides::Override;
 
+use super::run::parse_settings;
 use crate::{Exit, diagnostics};
+
+/// The scene that a command works on, opened.
+pub(crate) struct OpenedScene {
+    /// Its folder.
+    pub source: SceneSource,
+    /// Settings that it was opened with.
+    pub set: Vec<Override>,
+    /// Its content.
+    pub loaded: Loaded,
+}
+
+impl OpenedScene {
+    /// Opens the scene folder or robot file `path` with the settings `set`, each `PATH=VALUE`.
+    ///
+    /// # Errors
+    ///
+    /// Robot, settings or scene are refused; the reasons have been printed.
+    pub fn open(path: &Path, set: &[String]) -> Result<Self, Exit> {
+        let set = parse_settings(set).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+        Self::with_settings(path, set)
+    }
+
+    /// As [`OpenedScene::open`], with settings that have been read.
+    pub fn with_settings(path: &Path, set: Vec<Override>) -> Result<Self, Exit> {
+        let source = SceneSource::open(path)?;
+        let loaded = load(source.folder(), &set).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+        Ok(Self { source, set, loaded })
+    }
+}
 
 /// A scene folder, or that of a robot file, which lives as long as this.
 #[derive(Debug)]

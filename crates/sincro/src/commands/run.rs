@@ -10,14 +10,14 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 #[cfg(feature = "adapters")]
 use sincro::results::write_mcap;
 use sincro::results::{write_camera_frames, write_frames};
-use sincro::{Campaign, Diagnostics, Loaded, Override, RunRequest, Verdict, load, scene_name};
+use sincro::{Campaign, Diagnostics, Loaded, Override, RunRequest, Verdict, scene_name};
 use sincro_scene::open::settings_with;
 use sincro_sim::file::FileError;
 use sincro_sim::formats;
 use sincro_sim::result_folder::ResultFolder;
 
 use super::console::{self, Bar};
-use super::robot_file::SceneSource;
+use super::robot_file::{OpenedScene, SceneSource};
 use super::whole_number;
 use crate::{Exit, diagnostics};
 
@@ -124,9 +124,8 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
 
 /// Loads a scene and begins its folder of results.
 fn prepare(arguments: &Arguments, scene: &Path) -> Result<Ready, Exit> {
-    let mut overrides = overrides(arguments).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
-    let source = SceneSource::open(scene)?;
-    let mut loaded = load(source.folder(), &overrides).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+    let overrides = overrides(arguments).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
+    let OpenedScene { source, set: mut overrides, mut loaded } = OpenedScene::with_settings(scene, overrides)?;
     if let Some(part) = &arguments.only {
         (loaded, overrides) = only(loaded, overrides, part)?;
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::{Args, Subcommand};
+use sincro::scene_name;
 use sincro_figures::plot::number::significant;
 use sincro_sim::file::FileError;
 use sincro_sim::result_folder::{find_result, folders_in, foreign_entry, is_result, numbers};
@@ -25,7 +26,7 @@ const DEPTH: usize = 3;
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Folders to look in, with all below
+    /// Folders to look in, with all below; a scene stands for its results
     #[arg(value_name = "FOLDER", default_value = RESULTS)]
     folders: Vec<PathBuf>,
 }
@@ -34,7 +35,7 @@ pub(crate) struct Arguments {
 enum Command {
     /// List finished runs with their verdict, trace hash and settings
     List {
-        /// Folders to look in, with all below
+        /// Folders to look in, with all below; a scene stands for its results
         #[arg(value_name = "FOLDER", default_value = RESULTS)]
         folders: Vec<PathBuf>,
     },
@@ -46,7 +47,7 @@ enum Command {
     },
     /// Remove the oldest numbered runs of every scene
     Prune {
-        /// Folders to look in, with all below
+        /// Folders to look in, with all below; a scene stands for its results
         #[arg(value_name = "FOLDER", default_value = RESULTS)]
         folders: Vec<PathBuf>,
         /// Runs of each scene that stay
@@ -81,7 +82,7 @@ fn list(folders: &[PathBuf]) -> Exit {
             let message = format!("there is no folder `{}`", folder.display());
             return diagnostics::refuse(&message, Some("`sincro run SCENE` writes into results/SCENE"));
         }
-        collect(folder, DEPTH, &mut found);
+        collect(&results_of(folder), DEPTH, &mut found);
     }
     if found.is_empty() {
         say!("no finished runs");
@@ -102,6 +103,14 @@ fn list(folders: &[PathBuf]) -> Exit {
         say!("{}", line.trim_end());
     }
     Exit::Holds
+}
+
+/// Folder in which the results of a scene are, if `folder` is one.
+fn results_of(folder: &Path) -> PathBuf {
+    match folder.join("experiment.toml").is_file() {
+        true => Path::new(RESULTS).join(scene_name(folder)),
+        false => folder.to_owned(),
+    }
 }
 
 /// Results in a folder and below, a scene's in the order of their numbers.
@@ -246,7 +255,7 @@ fn rows(runs: &[Finished]) -> Vec<(String, Vec<String>)> {
 fn prune(folders: &[PathBuf], keep: usize, dry_run: bool) -> Exit {
     let (mut n, mut exit) = (0, Exit::Holds);
     for folder in folders {
-        for parent in numbered_below(folder, DEPTH) {
+        for parent in numbered_below(&results_of(folder), DEPTH) {
             match prune_one(&parent, keep, dry_run) {
                 Ok(removed) => n += removed,
                 Err(error) => exit = diagnostics::refuse_file(&error),

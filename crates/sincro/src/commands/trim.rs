@@ -4,20 +4,20 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Map, Value, json};
-use sincro::load;
+use sincro::Loaded;
 use sincro::results::write_text;
 use sincro_analysis::linear::Axis;
 use sincro_analysis::linearize::{Trim, TrimRequest, operating_point, trim};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located};
 
 use super::linearize::located;
-use super::run::parse_settings;
+use super::robot_file::OpenedScene;
 use crate::{Exit, diagnostics};
 
 /// Arguments of `trim`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder of the scene, or its experiment.toml
+    /// Folder of the scene, its experiment.toml, or a robot file (URDF, SDF, MJCF)
     scene: PathBuf,
     /// Set a number first, as in `run`; may be repeated
     #[arg(long = "set", value_name = "PATH=VALUE")]
@@ -44,22 +44,25 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Exit {
-    match compute(arguments) {
+    let scene = match OpenedScene::open(&arguments.scene, &arguments.set) {
+        Ok(scene) => scene,
+        Err(exit) => return exit,
+    };
+    match compute(arguments, &scene.loaded) {
         Ok(found) => show(arguments, &found),
         Err(diagnostics) => diagnostics::refuse_diagnostics(&diagnostics),
     }
 }
 
-fn compute(arguments: &Arguments) -> Result<Trim, Diagnostics> {
-    let loaded = load(&arguments.scene, &parse_settings(&arguments.set)?)?;
+fn compute(arguments: &Arguments, loaded: &Loaded) -> Result<Trim, Diagnostics> {
     let wanted: Result<Vec<_>, Diagnostic> = arguments.want.iter().map(|text| wanted(text)).collect();
     let request = TrimRequest {
         free: arguments.free.iter().map(|name| located("--free", name)).collect(),
         wanted: wanted?,
         is_closed: arguments.closed_loop,
     };
-    let at = operating_point(&loaded, arguments.from)?;
-    Ok(trim(&loaded, &at, &request)?.trim)
+    let at = operating_point(loaded, arguments.from)?;
+    Ok(trim(loaded, &at, &request)?.trim)
 }
 
 fn wanted(text: &str) -> Result<(Located<String>, f64), Diagnostic> {
