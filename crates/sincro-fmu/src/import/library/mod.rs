@@ -15,7 +15,7 @@ use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::path::Path;
 
-use libloading::{Library, Symbol};
+use libloading::Library;
 use sincro_scene::fmu::FmuInterface;
 
 use crate::description::FmiVersion;
@@ -116,11 +116,21 @@ impl Functions {
         Ok(new)
     }
 
-    fn find<T>(&self, name: &str) -> Result<Symbol<'_, T>, String> {
-        let prefix = if self.version == FmiVersion::V2 { "fmi2" } else { "fmi3" };
+    /// Function of the standard by its name without prefix; `T` is its type, a function pointer. It lives as long as
+    /// the library.
+    fn find<T: Copy>(&self, name: &str) -> Result<T, String> {
+        let address = self.address(name)?;
+        debug_assert_eq!(size_of::<T>(), size_of::<unsafe extern "C" fn()>(), "a function pointer");
         // SAFETY: the types given by the callers in this module are those of the standard
-        unsafe { self.library.get(format!("{prefix}{name}").as_bytes()) }
-            .map_err(|_| format!("the library of the FMU has no function {prefix}{name}"))
+        Ok(unsafe { std::mem::transmute_copy::<unsafe extern "C" fn(), T>(&address) })
+    }
+
+    /// Looks a function up; one instance for all types, of which there are a hundred.
+    fn address(&self, name: &str) -> Result<unsafe extern "C" fn(), String> {
+        let prefix = if self.version == FmiVersion::V2 { "fmi2" } else { "fmi3" };
+        // SAFETY: the function is called with its own type only, see `find`
+        let found = unsafe { self.library.get::<unsafe extern "C" fn()>(format!("{prefix}{name}").as_bytes()) };
+        found.map(|symbol| *symbol).map_err(|_| format!("the library of the FMU has no function {prefix}{name}"))
     }
 
     fn check(name: &str, status: Status) -> Result<(), String> {
