@@ -47,6 +47,7 @@ pub(super) fn default_experiment(step: f64, duration: f64) -> Experiment {
         error_bar: ErrorBar::None,
         seed: 0,
         record: Vec::new(),
+        units: Default::default(),
         parameters: Default::default(),
         stops: Vec::new(),
         checks: Vec::new(),

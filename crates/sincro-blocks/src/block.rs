@@ -51,6 +51,7 @@ use sincro_math::Real;
 use crate::kind::Described;
 use crate::reader::Reader;
 use crate::unit::{Unit, common};
+use crate::unit_rule::UnitRule;
 
 /// Kind of block: an immutable set of parameters with its equations, implemented for every block of the library and for
 /// one's own. All that changes during a run is in the states and memory that are passed to it.
@@ -136,6 +137,12 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
         let unit = if Self::KEEPS_UNIT { common(inputs)? } else { None };
         Ok(vec![unit; self.ports().outputs.len()])
+    }
+
+    /// Relation between the units of inputs and outputs by which unknown ones are deduced for display; by default
+    /// [`UnitRule::Same`] of all inputs where [`Block::KEEPS_UNIT`], nothing otherwise.
+    fn unit_rule(&self) -> UnitRule {
+        if Self::KEEPS_UNIT { UnitRule::Same((0..self.ports().inputs.len()).collect()) } else { UnitRule::Unknown }
     }
 
     /// Sample time of the block, as far as it follows from its kind and its parameters; by default

@@ -60,8 +60,9 @@ pub struct Entry {
     /// Sample time `[s]` of the block, or of all blocks in an inner diagram that have none of their own; `None` to
     /// inherit it.
     pub sample_time: Option<f64>,
-    /// Unit of the output, such as `N·m`; `None` if it is not declared.
-    pub unit: Option<String>,
+    /// Unit of the outputs, such as `N·m`, or one unit for each component of the outputs, one after the other; empty
+    /// if none is declared.
+    pub unit: Vec<String>,
 }
 
 /// Content of an [`Entry`].
@@ -134,7 +135,7 @@ impl Diagram {
     /// Adds a block or an inner diagram under a name that no other entry has; `sample_time` is its own `[s]`, `None` to
     /// inherit it.
     pub fn add(&mut self, name: &str, content: Content, sample_time: Option<f64>) -> &mut Self {
-        self.entries.push(Entry { name: name.to_owned(), content, sample_time, unit: None });
+        self.entries.push(Entry { name: name.to_owned(), content, sample_time, unit: Vec::new() });
         self
     }
 

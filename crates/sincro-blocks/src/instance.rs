@@ -9,6 +9,7 @@ use sincro_math::{Dual, Real};
 use crate::block::{At, Block, Memory, Node, Ports, SampleTimeKind};
 use crate::kind::Kind;
 use crate::unit::Unit;
+use crate::unit_rule::UnitRule;
 
 /// Kind of numbers on which a diagram can run: `f64` for simulation, `Dual<1>` for derivatives, [`Recorded`] for
 /// compilation.
@@ -53,6 +54,8 @@ pub trait DynBlock: Debug + Send + Sync {
     ///
     /// A message about units that do not fit each other.
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String>;
+    /// Relation between the units of inputs and outputs; see [`Block::unit_rule`].
+    fn unit_rule(&self) -> UnitRule;
     /// Sample time, as far as it follows from kind and parameters; see [`Block::sample_time_kind`].
     fn sample_time_kind(&self) -> SampleTimeKind;
     /// Returns true if the outputs depend on the present value of input port `input` (counted from 0); see
@@ -108,6 +111,9 @@ impl<B: Block> DynBlock for B {
     }
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
         Block::units(self, inputs)
+    }
+    fn unit_rule(&self) -> UnitRule {
+        Block::unit_rule(self)
     }
     fn sample_time_kind(&self) -> SampleTimeKind {
         Block::sample_time_kind(self)

@@ -17,3 +17,4 @@ pub mod runner;
 pub mod simulator;
 pub mod suggest;
 pub mod unit;
+pub mod unit_rule;

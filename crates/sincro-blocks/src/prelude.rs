@@ -10,4 +10,5 @@ pub use crate::parameter::{Choice, Count, Flag, Limits, Number, PerComponent, Po
 pub use crate::reader::{ParameterError, Reader, Value};
 pub use crate::runner::Runner;
 pub use crate::simulator::Simulator;
+pub use crate::unit_rule::UnitRule;
 pub use crate::{choice, declare_block};

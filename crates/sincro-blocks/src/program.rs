@@ -42,8 +42,6 @@ pub struct Step {
     pub memory: Range<usize>,
     /// Names of its output ports, in their order.
     pub output_names: Vec<String>,
-    /// Units of its outputs, in the order of the ports; `None` where unknown.
-    pub units: Vec<Option<Unit>>,
     /// True if continuous states or continuous commands depend on it: it is then evaluated in minor steps too.
     pub is_minor: bool,
 }
@@ -84,8 +82,10 @@ pub struct Program {
     pub late: Vec<Measured>,
     /// Commands that the diagram gives.
     pub commands: Vec<Commanded>,
-    /// Output ports of inner diagrams: path and name, range in the signals, unit.
-    pub aliases: Vec<(String, Range<usize>, Option<Unit>)>,
+    /// Output ports of inner diagrams: path and name, range in the signals.
+    pub aliases: Vec<(String, Range<usize>)>,
+    /// Units of the signal components; `None` where unknown.
+    pub units: Vec<Option<Unit>>,
     /// Sample times in use, as numbers of base steps.
     pub periods: Vec<u64>,
     /// Number of signal components, the length of `State::signals`.
@@ -135,11 +135,7 @@ impl Program {
                 None => start..start + flat.nodes[input.node].out_widths[input.port].unwrap_or(0),
             }
         };
-        let aliases = flat.aliases.iter().map(|(name, input)| {
-            let unit = flat.nodes[input.node].out_units.get(input.port).cloned().flatten();
-            (name.clone(), place(input), unit)
-        });
-        let aliases = aliases.collect();
+        let aliases = flat.aliases.iter().map(|(name, input)| (name.clone(), place(input))).collect();
         let commands = flat.nodes[LATE].inputs.iter().zip(&flat.commands).map(|(input, &terminal)| Commanded {
             terminal,
             signal: place(input),
@@ -159,6 +155,7 @@ impl Program {
             late,
             commands,
             aliases,
+            units: Vec::new(),
             periods: Vec::new(),
             n_signals,
             n_states: 0,
@@ -172,6 +169,12 @@ impl Program {
             let message = format!("all signals together have {n_signals} components; {MAX_NUMBERS} are possible");
             let help = format!("the widest is that of `{}`", node.path);
             return Err(vec![Diagnostic { place: node.place.clone(), message, help }]);
+        }
+        program.units = vec![None; n_signals];
+        for &n in order.iter().filter(|&&n| !flat.nodes[n].component_units.is_empty()) {
+            let start = begins[n].first().copied().unwrap_or(0);
+            let of_node = &flat.nodes[n].component_units;
+            program.units[start..start + of_node.len()].clone_from_slice(of_node);
         }
         let mut problems = Vec::new();
         let mut nodes: Vec<Option<crate::compile::FlatNode>> = flat.nodes.into_iter().map(Some).collect();
@@ -214,7 +217,6 @@ impl Program {
                 states: program.n_states..program.n_states + continuous,
                 memory: program.n_memory..program.n_memory + discrete,
                 output_names: flat_node.output_names,
-                units: flat_node.out_units,
                 is_minor: minor[n],
                 template,
             });
@@ -231,23 +233,22 @@ impl Program {
     }
 
     /// Outputs of all blocks in the order of evaluation, then those of inner diagrams: name (`block`, or `block.port`
-    /// where there are several), range in the signals, unit.
-    pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, Option<&Unit>)> {
-        let of_diagrams = self.aliases.iter().map(|(name, range, unit)| (name.clone(), range.clone(), unit.as_ref()));
+    /// where there are several), range in the signals, units of the components.
+    pub fn outputs(&self) -> impl Iterator<Item = (String, Range<usize>, &[Option<Unit>])> {
+        let of_diagrams = self.aliases.iter().cloned();
         let of_blocks = self.steps.iter().flat_map(|step| {
             let mut start = step.out.start;
-            let ports = step.output_names.iter().zip(&step.node.outputs).zip(&step.units);
-            ports.map(move |((port, width), unit)| {
+            step.output_names.iter().zip(&step.node.outputs).map(move |(port, width)| {
                 let name = match step.output_names.len() {
                     1 => step.path.clone(),
                     _ => format!("{}.{port}", step.path),
                 };
                 let range = start..start + width;
                 start = range.end;
-                (name, range, unit.as_ref())
+                (name, range)
             })
         });
-        of_blocks.chain(of_diagrams)
+        of_blocks.chain(of_diagrams).map(|(name, range)| (name, range.clone(), &self.units[range]))
     }
 
     /// Next time event: the first instant after `t` `[s]` at which a function of time that is evaluated between ticks

@@ -79,8 +79,8 @@ fn comparisons_are_true_on_the_right_side() {
 #[test]
 fn comparing_radians_with_degrees_is_refused() {
     let mut d = fed(Compare::new(Comparison::Less), &[&[1.0], &[2.0]]);
-    d.entries[1].unit = Some("rad".into());
-    d.entries[2].unit = Some("deg".into());
+    d.entries[1].unit = vec!["rad".into()];
+    d.entries[2].unit = vec!["deg".into()];
     assert!(refusal(&d).contains("rad and deg are not the same"));
 }
 

@@ -139,7 +139,7 @@ fn a_clock_shows_the_time_in_seconds() {
     assert_eq!(samples(Clock, 0.25, 3), [0.0, 0.25, 0.5, 0.75]);
     let mut d = Diagram::new();
     d.block("clock", Clock);
-    d.entries[0].unit = Some("ms".into());
+    d.entries[0].unit = vec!["ms".into()];
     assert!(compile(&d, &Interface::new(0.1)).is_err());
 }
 

@@ -126,6 +126,7 @@ impl MeasurePlan {
             name: self.name.clone(),
             what,
             aliases,
+            unit: None,
             parameters,
             expected: Expected::Value(0.0),
             sense: Sense::Equal,

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use sincro_analysis::linearize::unstable_loop;
+use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::record::Recorder;
 use sincro_testing::{CommandLine, SceneFolder, repository_scene};
 
 const SINCRO: CommandLine = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
@@ -63,6 +65,16 @@ fn a_loop_that_is_unstable_from_the_first_is_told_of() {
     assert!(is_told(0.3, &loop_of(20.0, 30.0, "sample_time = 0.05\n")));
     // upright, the loop is too weak to hold it: the start is an equilibrium that it leaves
     assert!(is_told(std::f64::consts::PI, &loop_of(0.0, 0.2, "")));
+    // the same through a noisy sensor with a sample time of its own, in a continuous and a sampled diagram
+    let sensed = |kd: f64, sample_time: &str| {
+        let sensor = "[[sensor]]\nname = \"imu\"\nparent = \"/hinge/bob\"\nsample_time = 0.05\n\
+                      imu = { gyro_noise_density = 1e-4 }\n";
+        let diagram = loop_of(20.0, kd, sample_time).replace("/hinge.velocity", "/hinge/bob/imu.gyro[1]");
+        let said = warnings(&pendulum(0.3, sensor), "", Some(&diagram));
+        said.iter().any(|line| line.contains("unstable from the first"))
+    };
+    assert!(sensed(30.0, "") && sensed(30.0, "sample_time = 0.05\n"));
+    assert!(!sensed(1.0, "") && !sensed(1.0, "sample_time = 0.05\n"));
     // a good loop, and one that swings off from a start beside an equilibrium
     assert!(!is_told(0.3, &loop_of(20.0, 1.0, "")));
     assert!(!is_told(0.3, &loop_of(20.0, 1.0, "sample_time = 0.01\n")));
@@ -168,14 +180,34 @@ fn experiments(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-#[test]
-fn no_shipped_scene_is_warned_of_what_it_means() {
+/// Folders of all experiments of the repository.
+fn shipped() -> Vec<PathBuf> {
     let mut scenes = Vec::new();
     let root = repository_scene("acrobot").join("../..");
-    experiments(&root.join("scenes"), &mut scenes);
-    experiments(&root.join("models"), &mut scenes);
-    experiments(&root.join("examples"), &mut scenes);
+    for folder in ["scenes", "models", "examples"] {
+        experiments(&root.join(folder), &mut scenes);
+    }
     assert!(scenes.len() > 100);
+    scenes
+}
+
+#[test]
+fn every_recorded_column_of_a_shipped_scene_has_a_unit() {
+    let mut without = Vec::new();
+    for scene in shipped() {
+        let loaded = sincro::load(&scene, &[]).unwrap_or_else(|found| panic!("{}: {found}", scene.display()));
+        let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
+        let recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &entries).unwrap();
+        let recorder = recorder.with_units(&loaded.experiment.units);
+        let columns = recorder.columns().filter(|(_, unit)| unit.is_empty());
+        without.extend(columns.map(|(name, _)| format!("{}: {name}", scene.display())));
+    }
+    assert!(without.is_empty(), "declare `unit` in the diagram, or `units` in the experiment: {without:#?}");
+}
+
+#[test]
+fn no_shipped_scene_is_warned_of_what_it_means() {
+    let scenes = shipped();
     let silent = ["nothing uses", "can touch nothing", "fixed in the world: it never", "has a path of the form"];
     let mut said = Vec::new();
     for scene in scenes {

@@ -16,7 +16,7 @@ pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, 
         place: Place { diagram: Vec::new(), element: Element::Entry(WORLD.into()) },
         template: None,
         sample_time: None,
-        unit: None,
+        unit: Vec::new(),
         inputs: Vec::new(),
         input_names: Vec::new(),
         output_names: Vec::new(),
@@ -24,6 +24,7 @@ pub(super) fn flatten(diagram: &Diagram, interface: &Interface) -> Result<Flat, 
         out_widths: Vec::new(),
         in_units: Vec::new(),
         out_units: Vec::new(),
+        component_units: Vec::new(),
     };
     let flat = Flat {
         nodes: vec![world(0), world(0)],
@@ -205,6 +206,7 @@ impl<'a> Flattening<'a> {
             out_widths: vec![None; ports.outputs.len()],
             in_units: Vec::new(),
             out_units: Vec::new(),
+            component_units: Vec::new(),
             input_names: ports.inputs,
             output_names: ports.outputs,
         });
@@ -234,17 +236,27 @@ impl<'a> Flattening<'a> {
         }
     }
 
-    /// The output ports of an inner diagram as names of what they give.
+    /// The output ports of an inner diagram as names of what they give; a unit that is declared of a diagram is that of
+    /// its output.
     fn name_outputs(&mut self, scope: usize) {
         let (diagram, path) = (self.scopes[scope].diagram, self.scopes[scope].path.join("/"));
-        if self.scopes[scope].parent.is_none() {
-            return;
+        let Some((around, name)) = self.scopes[scope].parent.clone() else { return };
+        let declared = self.scopes[around].diagram.entry(&name).map_or_else(Vec::new, |entry| entry.unit.clone());
+        if !declared.is_empty() && diagram.outputs.len() != 1 {
+            let message = format!("`{name}` has {} outputs, its `unit` is that of one", diagram.outputs.len());
+            let path = self.scopes[around].path.clone();
+            self.problem(&path, Element::Unit(name), message, "declare units of blocks in the diagram");
         }
         for port in &diagram.outputs {
             let wire = diagram.wires.iter().position(|w| w.to.block == *port && w.to.port.is_empty());
             let Some(wire) = wire.filter(|&w| diagram.wires[w].from.len() == 1) else { continue };
             let name = if diagram.outputs.len() == 1 { path.clone() } else { format!("{path}.{port}") };
             if let Some(input) = self.resolve(scope, wire, &diagram.wires[wire].from[0], 0) {
+                let node = &mut self.flat.nodes[input.node];
+                let is_whole = diagram.outputs.len() == 1 && input.range.is_none();
+                if is_whole && node.template.is_some() && node.unit.is_empty() {
+                    node.unit.clone_from(&declared);
+                }
                 self.flat.aliases.push((name, input));
             }
         }
@@ -516,7 +528,7 @@ impl<'a> Flattening<'a> {
         let target = self.scopes[scope].diagram.wires[wire].to.to_string();
         let mux = Mux::new(ends.len());
         let name = format!("[{target}]");
-        let entry = Entry { name, content: Content::Block(Box::new(mux.clone())), sample_time: None, unit: None };
+        let entry = Entry { name, content: Content::Block(Box::new(mux.clone())), sample_time: None, unit: Vec::new() };
         let place = Place { diagram: path.clone(), element: Element::From(wire) };
         let node = self.node(&path, &entry, &mux, None, place.clone());
         for end in ends {

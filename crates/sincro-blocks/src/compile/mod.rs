@@ -4,6 +4,7 @@
 //! (with the algebraic loops), `units`. All problems of a pass are reported at once; a pass that needs the one before
 //! is not begun after an error.
 
+mod deduced_units;
 mod flatten;
 mod order;
 mod rates;
@@ -220,7 +221,8 @@ pub(crate) struct FlatNode {
     pub template: Option<Box<dyn crate::instance::DynBlock>>,
     /// Sample time `[s]`; true if it is inherited from a diagram around it.
     pub sample_time: Option<(f64, bool)>,
-    pub unit: Option<String>,
+    /// Declared units: one of all components of the outputs, or one of each.
+    pub unit: Vec<String>,
     pub inputs: Vec<Input>,
     pub input_names: Vec<String>,
     pub output_names: Vec<String>,
@@ -228,8 +230,10 @@ pub(crate) struct FlatNode {
     pub out_widths: Vec<Option<usize>>,
     /// Units of the world's commands; empty for blocks.
     pub in_units: Vec<Option<Unit>>,
-    /// Units of the world's measurements, then of all outputs.
+    /// Units of the world's measurements; empty for blocks.
     pub out_units: Vec<Option<Unit>>,
+    /// Units of the components of all outputs, one after the other; empty if the diagram is too wide.
+    pub component_units: Vec<Option<Unit>>,
 }
 
 /// Source of an input.
@@ -415,9 +419,9 @@ mod tests {
         let mut d = Diagram::new();
         d.block("a", Constant::new(1.0)).block("b", Constant::new(1.0)).block("sum", Sum::new("++"));
         d.wire("a", "sum.u1").wire("b", "sum.u2");
-        d.entries[0].unit = Some("rad".into());
+        d.entries[0].unit = vec!["rad".into()];
         assert!(compile(&d, &Interface::new(0.001)).is_ok());
-        d.entries[1].unit = Some("deg".into());
+        d.entries[1].unit = vec!["deg".into()];
         assert!(
             problems(&d)[0].contains("units do not fit in `sum`: rad and deg are not the same"),
             "{:?}",
@@ -438,17 +442,17 @@ mod tests {
         let pair = || Constant { value: vec![1.0, 2.0] };
         d.block("same", pair()).block("other", pair()).block("none", Constant::new(1.0));
         d.wire("same[0]", "/a").wire("same[1]", "/b").wire("none", "/d").wire("other[0]", "/c");
-        let unit = |d: &Diagram, name: &str| {
+        let units = |d: &Diagram, name: &str| -> Vec<String> {
             let program = compile(d, &world).unwrap();
-            program.outputs().find(|(path, ..)| path == name).and_then(|(.., unit)| unit.map(Unit::to_string))
+            let range = program.outputs().find(|(path, ..)| path == name).unwrap().1;
+            program.units[range].iter().map(|unit| unit.as_ref().map_or("", |u| u.text()).to_owned()).collect()
         };
-        assert_eq!(unit(&d, "same").as_deref(), Some("rad/s"));
-        assert_eq!(unit(&d, "none"), None);
-        assert_eq!(unit(&d, "other").as_deref(), Some("N·m"));
-        // at odds: neither
+        assert_eq!(units(&d, "same"), ["rad/s", "rad/s"]);
+        assert_eq!(units(&d, "none"), [""]);
+        assert_eq!(units(&d, "other"), ["N·m", ""]);
         d.wires.pop();
         d.wires.remove(1);
         d.wire("other[0]", "/c").wire("other[1]", "/b");
-        assert_eq!(unit(&d, "other"), None);
+        assert_eq!(units(&d, "other"), ["N·m", "rad/s"]);
     }
 }

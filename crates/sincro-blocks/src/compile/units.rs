@@ -1,26 +1,75 @@
 //! Inference and check of units: carried along wires as far as they are known, and compared wherever two meet. What is
-//! still unknown then and commands the world is in the unit that the world takes.
+//! still unknown then is deduced for display (`deduced_units.rs`).
 
-use super::{Diagnostic, EARLY, Element, Flat, FlatNode, Input, LATE, Place};
+use super::deduced_units::{ComponentUnits, deduce};
+use super::{Diagnostic, EARLY, Element, Flat, FlatNode, LATE, Place};
 use crate::unit::Unit;
 
-/// Units of all outputs, as far as they are known, noted in the nodes.
+/// Number of signal components above which no units are shown, to bound time and memory.
+const MAX_COMPONENTS: usize = 1 << 16;
+
+/// Units of the components of all outputs, as far as they are known, noted in the nodes.
 pub(super) fn infer(flat: &mut Flat, order: &[usize]) -> Result<(), Vec<Diagnostic>> {
+    let mut problems = Vec::new();
+    let declared = flat.nodes.iter().map(|node| declared(node, &mut problems)).collect::<Vec<_>>();
     let mut units: Vec<Vec<Option<Unit>>> = flat.nodes.iter().map(|n| vec![None; n.output_names.len()]).collect();
     units[EARLY].clone_from(&flat.nodes[EARLY].out_units);
     units[LATE].clone_from(&flat.nodes[LATE].out_units);
     // what is fed back is known in the second pass; only that one reports
-    let _ = pass(flat, order, &mut units);
-    let mut problems = pass(flat, order, &mut units);
+    let _ = pass(flat, order, &declared, &mut units);
+    problems.extend(pass(flat, order, &declared, &mut units));
     problems.extend(commands(flat, &units));
-    from_commands(flat, &mut units);
-    for (node, units) in flat.nodes.iter_mut().zip(units) {
-        node.out_units = units;
+    if !problems.is_empty() {
+        return Err(problems);
     }
-    if problems.is_empty() { Ok(()) } else { Err(problems) }
+    let n_components: usize = flat.nodes.iter().flat_map(|n| &n.out_widths).flatten().sum();
+    if n_components <= MAX_COMPONENTS {
+        let found = deduce(flat, order, by_component(flat, declared, &units));
+        flat.nodes.iter_mut().zip(found).for_each(|(node, units)| node.component_units = units);
+    }
+    Ok(())
 }
 
-fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Diagnostic> {
+/// Declared units of the components of all outputs of a node, one after the other; empty if none is declared.
+fn declared(node: &FlatNode, problems: &mut Vec<Diagnostic>) -> Vec<Unit> {
+    let mut units = Vec::new();
+    let mut problem = |message: String, help: String| {
+        problems.push(Diagnostic { place: unit_place(node), message, help });
+    };
+    for text in &node.unit {
+        match Unit::parse(text) {
+            Ok(unit) => units.push(unit),
+            Err(message) => problem(message, "units are products such as N·m/rad, m/s^2, kg·m²".into()),
+        }
+    }
+    let n_components = node.out_widths.iter().map(|width| width.unwrap_or(0)).sum();
+    match units.len() {
+        0 => {}
+        1 => units = vec![units[0].clone(); n_components],
+        n if n != n_components && n == node.unit.len() => {
+            let message = format!("`{}` has {n} units for {n_components} components", node.path);
+            problem(message, "give one unit for all components, or a list with one for each".into());
+            units.clear();
+        }
+        _ => {}
+    }
+    units
+}
+
+/// Units of the components: those declared, then those of the ports.
+fn by_component(flat: &Flat, declared: Vec<Vec<Unit>>, units: &[Vec<Option<Unit>>]) -> ComponentUnits {
+    let of_ports = |n: usize| -> Vec<Option<Unit>> {
+        let ports = flat.nodes[n].out_widths.iter().zip(&units[n]);
+        ports.flat_map(|(width, unit)| vec![unit.clone(); width.unwrap_or(0)]).collect()
+    };
+    let of_node = |(n, declared): (usize, Vec<Unit>)| match declared.is_empty() {
+        true => of_ports(n),
+        false => declared.into_iter().map(Some).collect(),
+    };
+    declared.into_iter().enumerate().map(of_node).collect()
+}
+
+fn pass(flat: &Flat, order: &[usize], declared: &[Vec<Unit>], units: &mut [Vec<Option<Unit>>]) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     for &n in order.iter().filter(|&&n| n != EARLY && n != LATE) {
         let node = &flat.nodes[n];
@@ -39,24 +88,17 @@ fn pass(flat: &Flat, order: &[usize], units: &mut [Vec<Option<Unit>>]) -> Vec<Di
                 problems.push(Diagnostic { place: node.place.clone(), message, help });
             }
         }
-        let Some(text) = &node.unit else { continue };
-        match Unit::parse(text) {
-            Err(message) => {
-                let help = "units are products such as N·m/rad, m/s^2, kg·m²".to_owned();
+        let mut of_components = declared[n].iter();
+        for (unit, width) in units[n].iter_mut().zip(&node.out_widths).filter(|_| !declared[n].is_empty()) {
+            let declared: Vec<&Unit> = of_components.by_ref().take(width.unwrap_or(0)).collect();
+            let wrong = declared.iter().find(|d| unit.as_ref().is_some_and(|found| !found.is_same(d)));
+            if let (Some(wrong), Some(found)) = (wrong, &*unit) {
+                let message = format!("`{}` is declared in {wrong}, its signal is in {found}", node.path);
+                let help = format!("declare unit = \"{found}\", or leave it out");
                 problems.push(Diagnostic { place: unit_place(node), message, help });
             }
-            Ok(declared) => {
-                for unit in &mut units[n] {
-                    if let Some(found) = unit
-                        && !found.is_same(&declared)
-                    {
-                        let message = format!("`{}` is declared in {declared}, its signal is in {found}", node.path);
-                        let help = format!("declare unit = \"{found}\", or leave it out");
-                        problems.push(Diagnostic { place: unit_place(node), message, help });
-                    }
-                    *unit = Some(declared.clone());
-                }
-            }
+            let is_one = declared.windows(2).all(|pair| pair[0].is_same(pair[1]));
+            *unit = declared.first().filter(|_| is_one).map(|&unit| unit.clone());
         }
     }
     problems
@@ -84,19 +126,4 @@ fn commands(flat: &Flat, units: &[Vec<Option<Unit>>]) -> Vec<Diagnostic> {
         }
     }
     problems
-}
-
-/// Gives outputs of blocks whose unit is not known that of the commands which they feed, if all of those agree.
-fn from_commands(flat: &Flat, units: &mut [Vec<Option<Unit>>]) {
-    let world = &flat.nodes[LATE];
-    let unknown: Vec<bool> = world.inputs.iter().map(|i| units[i.node][i.port].is_none()).collect();
-    for (k, input) in world.inputs.iter().enumerate().filter(|(k, i)| unknown[*k] && i.node != EARLY && i.node != LATE)
-    {
-        let is_shared = |other: &Input| (other.node, other.port) == (input.node, input.port);
-        let mut taken = world.inputs.iter().zip(&world.in_units).filter(|(other, _)| is_shared(other)).map(|(_, u)| u);
-        let agree = taken.all(|u| u.as_ref().zip(world.in_units[k].as_ref()).is_some_and(|(a, b)| a.is_same(b)));
-        if agree {
-            units[input.node][input.port].clone_from(&world.in_units[k]);
-        }
-    }
 }

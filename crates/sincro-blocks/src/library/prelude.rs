@@ -8,4 +8,5 @@ pub(super) use crate::kind::{Category, Described, Kind, Parameter, ValueKind};
 pub(super) use crate::parameter::*;
 pub(super) use crate::reader::{Formula, Matrix, Reader};
 pub(super) use crate::unit::{Unit, common};
+pub(super) use crate::unit_rule::UnitRule;
 pub(super) use crate::{choice, declare_block, declare_parameters};

@@ -8,6 +8,7 @@ use sincro_blocks::library::discrete::UnitDelay;
 use sincro_blocks::library::maths::{Gain, Sum};
 use sincro_blocks::library::sources::Constant;
 use sincro_blocks::unit::Unit;
+use sincro_blocks::unit_rule::UnitRule;
 use sincro_math::Dual;
 use sincro_math::record::Recorded;
 
@@ -33,6 +34,9 @@ impl DynBlock for Sham {
         unimplemented!("never compiled")
     }
     fn units(&self, _: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
+        unimplemented!("never compiled")
+    }
+    fn unit_rule(&self) -> UnitRule {
         unimplemented!("never compiled")
     }
     fn sample_time_kind(&self) -> SampleTimeKind {

@@ -41,6 +41,7 @@ mod eval;
 mod function;
 mod lexer;
 mod parse;
+mod unit;
 
 use core::fmt;
 
@@ -49,6 +50,7 @@ use eval::Op;
 use parse::Names;
 
 pub use error::ParseError;
+pub use unit::Units;
 
 /// Length limit of a formula in bytes; [`Expression::parse`] refuses longer ones. Bounds time and memory for pasted
 /// text.

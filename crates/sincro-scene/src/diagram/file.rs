@@ -74,11 +74,32 @@ pub(crate) struct BlockFile {
     /// Time between two samples, a multiple of the experiment's step [s].
     #[allow(dead_code)] // read from the document, with its positions
     pub sample_time: Option<NumberOrFormula>,
-    /// Unit of its outputs, such as `N·m`; compared where two units meet.
-    pub unit: Option<String>,
+    /// Unit of its outputs, such as `N·m`, or a list of one for each component; compared where two units meet.
+    pub unit: Option<OneOrMany>,
     /// Its parameters.
     #[serde(flatten)]
     pub parameters: BTreeMap<String, Value>,
+}
+
+/// One text, or a list of texts.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(untagged)]
+pub(crate) enum OneOrMany {
+    /// One for all.
+    One(String),
+    /// One for each.
+    Many(Vec<String>),
+}
+
+impl OneOrMany {
+    /// The texts; one alone if it is for all.
+    pub fn texts(&self) -> &[String] {
+        match self {
+            Self::One(text) => std::slice::from_ref(text),
+            Self::Many(texts) => texts,
+        }
+    }
 }
 
 /// A number, or a formula of the parameters.

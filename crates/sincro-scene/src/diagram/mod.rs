@@ -14,6 +14,7 @@ mod robot_model;
 mod schema;
 mod wiring;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -217,16 +218,13 @@ fn source_of(program: &Program, signal: usize) -> usize {
 /// See [`ControlDiagram::entries`].
 fn entries(wiring: &Wiring) -> Vec<Entry> {
     let mut list = Vec::new();
-    for (name, range, unit) in wiring.program().outputs().filter(|(name, ..)| !name.contains('[')) {
-        let unit: std::borrow::Cow<'static, str> = unit.map_or("".into(), |u| u.to_string().into());
-        match range.len() {
-            1 => list.push(Entry { name, unit, probe: Probe::Signal(range.start) }),
-            _ => list.extend(range.clone().map(|k| Entry {
-                name: format!("{name}[{}]", k - range.start),
-                unit: unit.clone(),
-                probe: Probe::Signal(k),
-            })),
-        }
+    for (name, range, units) in wiring.program().outputs().filter(|(name, ..)| !name.contains('[')) {
+        let is_vector = range.len() > 1;
+        list.extend(range.zip(units).enumerate().map(|(k, (signal, unit))| Entry {
+            name: if is_vector { format!("{name}[{k}]") } else { name.clone() },
+            unit: unit.as_ref().map_or(Cow::Borrowed(""), |u| Cow::Owned(u.to_string())),
+            probe: Probe::Signal(signal),
+        }));
     }
     list
 }

@@ -23,16 +23,20 @@ pub(crate) struct Measurement {
 pub(crate) fn measurements(model: &Model<f64>) -> Vec<Measurement> {
     let entries: Vec<Entry> = catalogue(model).into_iter().filter(|e| can_be_measured(e.probe)).collect();
     let mut list = vec![
-        whole("q", (0..model.n_q()).map(Probe::Coordinate).collect()),
-        whole("v", (0..model.n_v()).map(Probe::Rate).collect()),
+        whole("q", &entries, (0..model.n_q()).map(Probe::Coordinate).collect()),
+        whole("v", &entries, (0..model.n_v()).map(Probe::Rate).collect()),
     ];
     list.extend(entries.iter().map(|entry| measurement(model, entry.name.clone(), &entry.unit, vec![entry.probe])));
     list.extend(vectors(model, &entries));
     list
 }
 
-fn whole(name: &str, probes: Vec<Probe>) -> Measurement {
-    let terminal = Terminal { names: vec![name.into()], width: probes.len(), unit: None, is_special: false };
+/// A vector of the whole world; it has a unit if all its components have the same one.
+fn whole(name: &str, entries: &[Entry], probes: Vec<Probe>) -> Measurement {
+    let of = |probe: &Probe| entries.iter().find(|e| e.probe == *probe).and_then(|e| unit_of(&e.unit));
+    let first = probes.first().and_then(of);
+    let unit = first.filter(|first| probes.iter().all(|probe| of(probe).is_some_and(|unit| unit.is_same(first))));
+    let terminal = Terminal { names: vec![name.into()], width: probes.len(), unit, is_special: false };
     Measurement { terminal, probes }
 }
 

@@ -200,7 +200,7 @@ impl<'a> DiagramReader<'a> {
             // a definition's own sample time stands unless the block gives another
             diagram.add(&block.name, what, sample_time.or(own));
             if let Some(entry) = diagram.entries.last_mut() {
-                entry.unit.clone_from(&block.unit);
+                entry.unit = block.unit.iter().flat_map(|unit| unit.texts()).cloned().collect();
             }
             if let Some(inner) = inner {
                 origin.inner.insert(block.name.clone(), inner);

@@ -79,7 +79,11 @@ pub fn page(kind: &'static Kind) -> String {
         let _ =
             writeln!(text, "  {:<width$}  number: time between two samples, a multiple of the step [s]", "sample_time");
     }
-    let _ = writeln!(text, "  {:<width$}  text: unit of its outputs, such as N·m", "unit");
+    let _ = writeln!(
+        text,
+        "  {:<width$}  text, or a list of one for each component: unit of its outputs, such as N·m",
+        "unit"
+    );
     let _ = write!(text, "example\n{}", example(kind));
     text
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use sincro_blocks::unit::Unit;
 use sincro_math::expression::Expression;
 
 use crate::diagnostic::{Located, Location};
@@ -21,6 +22,8 @@ pub struct Check {
     pub what: Subject,
     /// Names in formulas with the recorded signals that they stand for; empty if `what` is a signal.
     pub aliases: Vec<(String, Located<String>)>,
+    /// Declared unit of the formula that is measured; `None`: it is deduced.
+    pub unit: Option<Unit>,
     /// Names and values of the experiment's parameters.
     pub parameters: Arc<[(String, f64)]>,
     /// Expected value.

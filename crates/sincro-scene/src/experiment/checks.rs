@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use sincro_blocks::unit::Unit;
 use sincro_math::expression::{Expression, is_name};
 
 use super::check::{Check, Expected, Measure, Reference, Sense, Subject};
@@ -32,6 +33,13 @@ pub(super) struct CheckReader<'a> {
     pub diagnostics: &'a mut Diagnostics,
 }
 
+/// The unit that is written at `at`; what cannot be read is noted.
+pub(super) fn parsed_unit(text: &str, at: &Location, diagnostics: &mut Diagnostics) -> Option<Unit> {
+    let parsed = Unit::parse(text);
+    let help = "units are products such as N·m/rad, m/s^2, kg·m²";
+    parsed.map_err(|message| diagnostics.push(Diagnostic::error(at, message).with_help(help))).ok()
+}
+
 impl CheckReader<'_> {
     /// The checks of the list `check` in the table at `pointer`; those with errors are left out, noted as problems.
     pub fn list(&mut self, files: &[CheckFile], pointer: &str) -> Vec<Check> {
@@ -59,6 +67,7 @@ impl CheckReader<'_> {
             .chain(self.parameters.iter().map(|(name, _)| name.clone()))
             .collect();
         let what = self.subject(file, pointer, &slots);
+        let unit = self.unit(file, pointer);
         let expected = self.expected(file, pointer, &slots);
         let (sense, tolerance) = self.sense(file, pointer);
         let target = self.step_response(file, pointer);
@@ -74,6 +83,7 @@ impl CheckReader<'_> {
             name: file.name.clone(),
             what: what?,
             aliases,
+            unit,
             parameters: self.parameters.clone(),
             expected: expected?,
             sense,
@@ -134,6 +144,17 @@ impl CheckReader<'_> {
                 None
             }
         }
+    }
+
+    fn unit(&mut self, file: &CheckFile, pointer: &str) -> Option<Unit> {
+        let text = file.unit.as_ref()?;
+        let at = self.document.at(&format!("{pointer}/unit"));
+        if file.formula.is_none() {
+            let diagnostic = Diagnostic::error(&at, "`unit` is that of a formula");
+            self.diagnostics.push(diagnostic.with_help("a signal has a unit of its own; leave `unit` out"));
+            return None;
+        }
+        parsed_unit(text, &at, self.diagnostics)
     }
 
     fn expected(&mut self, file: &CheckFile, pointer: &str, slots: &[String]) -> Option<Expected> {

@@ -61,6 +61,9 @@ pub(crate) struct ExperimentFile {
     /// Names of the signals to be recorded, such as `/shoulder.position` or `energy.total`.
     #[cfg_attr(test, schemars(length(min = 1)))]
     pub record: Vec<String>,
+    /// Units of recorded float signals of scripts and clients, by name; all other signals have their own.
+    #[serde(default)]
+    pub units: BTreeMap<String, String>,
     /// Names and numbers for formulas.
     #[serde(default)]
     pub parameters: BTreeMap<String, f64>,
@@ -139,6 +142,8 @@ pub(crate) struct CheckFile {
     pub signals: Option<BTreeMap<String, String>>,
     /// What is checked: a formula of the short names, `t` and the parameters.
     pub formula: Option<String>,
+    /// Unit of the formula, such as `N·m`, where it does not follow from those of its signals.
+    pub unit: Option<String>,
     /// What it must be: a number or a formula.
     pub value: Option<NumberOrFormula>,
     /// What it must be: a column of a CSV file.

@@ -75,6 +75,8 @@ pub struct Experiment {
     pub seed: u64,
     /// Names of the recorded signals, in the order of the columns; not empty, no name twice.
     pub record: Vec<Located<String>>,
+    /// Units of recorded float signals, by the name of the column.
+    pub units: BTreeMap<String, String>,
     /// Parameters of the formulas in the scene's files: name and value, in the unit that the formulas give them.
     pub parameters: BTreeMap<String, f64>,
     /// Stop conditions: bounds at which the run ends before its duration.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use sincro_math::expression::is_name;
 
-use super::checks::{CheckReader, Keys};
+use super::checks::{CheckReader, Keys, parsed_unit};
 use super::file::{
     DifferenceFile, ErrorBarFile, ExperimentFile, IntegratorFile, PlotFile, PlotKindFile, RangeFile, StopFile,
     SweepFile,
@@ -18,6 +18,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::{Document, escape};
 use crate::folder::Folder;
 use crate::overrides::Override;
+use crate::record::is_float_signal;
 
 /// Most values of a sweep: a slip of the pen in `step` must not fill the memory.
 const MAX_SWEEP: f64 = 1e6;
@@ -55,6 +56,7 @@ impl Resolver<'_> {
         self.accuracy();
         let simulation_ticks = self.simulation_ticks();
         let record = self.record();
+        self.check_units();
         let parameters: Arc<[(String, f64)]> = file.parameters.iter().map(|(k, x)| (k.clone(), *x)).collect();
         let checks = self.reader(&parameters, Keys::Run(grid)).list(&file.check, "");
         let stops = self.stops(&parameters, grid);
@@ -77,6 +79,7 @@ impl Resolver<'_> {
             error_bar: file.error_bar.into(),
             seed: file.seed,
             record,
+            units: file.units.clone(),
             parameters: file.parameters.clone(),
             stops,
             checks,
@@ -176,6 +179,20 @@ impl Resolver<'_> {
             }
         }
         record
+    }
+
+    /// Refuses units of signals that have one of their own, and texts that are no units.
+    fn check_units(&mut self) {
+        for (name, text) in &self.file.units {
+            let pointer = format!("/units/{}", escape(name));
+            if !is_float_signal(name) {
+                let message = format!("`{name}` is no float signal");
+                let help = "all other signals have a unit of their own; blocks take one as `unit` in the diagram";
+                let at = self.document.key_at(&pointer);
+                self.diagnostics.push(Diagnostic::error(&at, message).with_help(help));
+            }
+            parsed_unit(text, &self.document.at(&pointer), self.diagnostics);
+        }
     }
 
     fn stops(&mut self, parameters: &Arc<[(String, f64)]>, grid: Grid) -> Vec<StopWhen> {

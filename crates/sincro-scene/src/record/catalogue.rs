@@ -320,9 +320,14 @@ fn contact_signals(list: &mut List, model: &Model<f64>) {
             list.add(format!("{}.limit_torque", joint.name), torque, Probe::LimitTorque(joint.v_idx));
         }
     }
-    let closures = set.loop_joints.iter().map(|c| &c.name);
-    for (k, name) in closures.chain(set.gears.iter().map(|c| &c.name)).enumerate() {
-        list.add(format!("{name}.opening"), if k < set.loop_joints.len() { "m" } else { "" }, Probe::Opening(k));
+    let closures = set.loop_joints.iter().map(|c| (&c.name, "m"));
+    // of a gear in the unit of its second joint
+    let gears = set.gears.iter().map(|gear| {
+        let second = model.names().joint_of(gear.dofs[1]);
+        (&gear.name, if matches!(second.kind, JointKind::Prismatic { .. }) { "m" } else { "rad" })
+    });
+    for (k, (name, unit)) in closures.chain(gears).enumerate() {
+        list.add(format!("{name}.opening"), unit, Probe::Opening(k));
     }
 }
 

@@ -14,6 +14,8 @@ pub use contact::ContactQuantity;
 pub use follow::{ProbeMap, present_name};
 pub use reference::signal_reference;
 
+use std::collections::BTreeMap;
+
 use sincro_dynamics::coupled::MechanismResponse;
 use sincro_dynamics::energy::Energy;
 use sincro_dynamics::ids::JointId;
@@ -107,6 +109,11 @@ const FLOAT_SIGNAL: &str = "float_signal.";
 /// prefix.
 pub fn float_signals(names: &[Located<String>]) -> impl Iterator<Item = &str> {
     names.iter().filter_map(|name| name.value.strip_prefix(FLOAT_SIGNAL)).filter(|name| !name.is_empty())
+}
+
+/// Returns true if the name is that of a float signal.
+pub(crate) fn is_float_signal(name: &str) -> bool {
+    name.strip_prefix(FLOAT_SIGNAL).is_some_and(|name| !name.is_empty())
 }
 
 /// Quantity of a rotor, for [`Probe::Rotor`].
@@ -244,6 +251,17 @@ impl Recorder {
         let n_sensed = model.names().sensors.iter().map(|s| s.values.len()).sum();
         let bound = entries.iter().map(|entry| Some(entry.probe)).collect();
         Ok(Self { entries, bound, motor_impulse, last_t: 0.0, energy_at_start: 0.0, n_sensed, n_floats, row })
+    }
+
+    /// Gives units, by the names of columns, to float signals, which have none of their own.
+    #[must_use]
+    pub fn with_units(mut self, units: &BTreeMap<String, String>) -> Self {
+        for entry in self.entries.iter_mut().filter(|e| matches!(e.probe, Probe::FloatSignal(_))) {
+            if let Some(unit) = units.get(&entry.name) {
+                entry.unit = unit.clone().into();
+            }
+        }
+        self
     }
 
     /// Returns names and units of the columns of a row: `t` in `s`, then the signals in the order of their names.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use sincro_blocks::unit::Unit;
 use sincro_math::expression::Expression;
 
 use super::*;
@@ -22,6 +23,7 @@ fn check(signal: &str, value: f64) -> Check {
         name: "claim".into(),
         what: Subject::Signal(located(signal)),
         aliases: Vec::new(),
+        unit: None,
         parameters: Arc::new([("k".into(), 2.0)]),
         expected: Expected::Value(value),
         sense: Sense::Equal,
@@ -162,10 +164,23 @@ fn formulas_know_aliases_time_and_parameters() {
     let mut own = of_x("x + k", "100*t^2 + 2");
     own.tolerance = 1e-12;
     let outcome = judged(own);
-    assert_eq!((outcome.verdict.clone(), outcome.unit.as_str()), (Verdict::Holds, ""));
+    // a parameter in a sum has the unit of what it is added to
+    assert_eq!((outcome.verdict.clone(), outcome.unit.as_str()), (Verdict::Holds, "rad"));
     let series = outcome.series.unwrap();
     assert_eq!((series.times[2], series.values[2]), (0.2, 100.0 * (0.2 * 0.2) + 2.0));
     assert_eq!((outcome.about.as_str(), outcome.signal), ("x + k against 100*t^2 + 2", None));
+}
+
+#[test]
+fn units_of_formulas_follow_are_declared_or_are_those_of_what_is_expected() {
+    let unit = |check: Check| judged(check).unit;
+    assert_eq!(unit(of_x("sqrt(x^2)", "k")), "rad");
+    assert_eq!(unit(of_x("x*t", "k")), "rad·s");
+    assert_eq!(unit(of_x("k*x", "k")), "");
+    assert_eq!(unit(of_x("k*x", "x")), "rad");
+    let declared = Unit::parse("N·m").ok();
+    assert_eq!(unit(Check { unit: declared.clone(), ..of_x("k*x", "k") }), "N·m");
+    assert_eq!(unit(Check { unit: declared, measure: Measure::Integral, ..of_x("k*x", "k") }), "N·m·s");
 }
 
 #[test]

@@ -3,6 +3,8 @@
 use super::along::{Along, short};
 use super::rows::file_name;
 use super::series::plain_signal;
+use sincro_blocks::unit::{Unit, UnitsOfFormulas};
+use sincro_math::expression::Expression;
 use sincro_scene::experiment::check::{Check, Expected, Measure, Sense, Subject};
 
 /// `greatest value of /shoulder.position against 0.2, from t = 1 s to 3 s`.
@@ -64,28 +66,42 @@ fn place(check: &Check, along: &Along) -> String {
     }
 }
 
-/// Unit of the measured value; empty if it is that of a formula.
+/// Unit of the measured value; empty if it is that of a formula and does not follow from those of its signals.
 pub(super) fn unit(check: &Check, along: &Along) -> String {
     let key_unit = along.table.columns[0].unit.as_str();
-    let signal = plain_signal(check).and_then(|name| along.table.column(name));
-    match (check.measure, signal.map(|column| column.unit.as_str())) {
+    let text = match (plain_signal(check), &check.what) {
+        (Some(name), _) => along.table.column(name).map(|column| column.unit.clone()),
+        (None, Subject::Formula(formula)) => of_formula(check, formula, along).map(|unit| unit.to_string()),
+        (None, Subject::Signal(_)) => None,
+    };
+    match (check.measure, text) {
         (Measure::TimeOfMin | Measure::TimeOfMax | Measure::RiseTime | Measure::SettlingTime, _) => key_unit.to_owned(),
         (Measure::Overshoot, _) | (_, None) => String::new(),
-        (Measure::Integral, Some(unit)) => times(unit, key_unit),
-        (_, Some(unit)) => unit.to_owned(),
+        (Measure::Integral, Some(unit)) => times(&unit, key_unit),
+        (_, Some(unit)) => unit,
     }
+}
+
+/// Unit of a check's formula: the declared one, or what follows from the units of its signals, there or in the formula
+/// of the expected value.
+fn of_formula(check: &Check, formula: &Expression, along: &Along) -> Option<Unit> {
+    let of_column = |text: &str| Unit::parse(text).ok().filter(|_| !text.is_empty());
+    let of_signal = |name: &str| along.table.column(name).and_then(|column| of_column(&column.unit));
+    let aliases = check.aliases.iter().map(|(_, signal)| of_signal(&signal.value));
+    let names: Vec<Option<Unit>> = aliases.chain([of_column(&along.table.columns[0].unit)]).collect();
+    let of = |formula: &Expression| formula.unit(&UnitsOfFormulas, &names);
+    let of_expected = || match &check.expected {
+        Expected::Formula(expected) => of(expected),
+        _ => None,
+    };
+    check.unit.clone().or_else(|| of(formula)).or_else(of_expected)
 }
 
 /// The product of two units: `rad/s` times `s` is `rad`.
 fn times(unit: &str, by: &str) -> String {
-    match (unit, by) {
-        ("" | "1", by) => by.to_owned(),
-        (unit, "" | "1") => unit.to_owned(),
-        (unit, by) => match unit.strip_suffix(by).and_then(|rest| rest.strip_suffix('/')) {
-            Some(rest) => rest.to_owned(),
-            None => format!("{unit}·{by}"),
-        },
-    }
+    let parsed = |text: &str| Unit::parse(text).ok();
+    let product = parsed(unit).zip(parsed(by)).and_then(|(unit, by)| Unit::product(&[(&unit, 1), (&by, 1)]));
+    product.map_or_else(|| format!("{unit}·{by}"), |unit| unit.to_string())
 }
 
 #[cfg(test)]
@@ -94,10 +110,7 @@ mod tests {
 
     #[test]
     fn units_multiply() {
-        assert_eq!(
-            [times("N·m", "s"), times("rad/s", "s"), times("1", "s"), times("rad", "")],
-            ["N·m·s", "rad", "s", "rad"]
-        );
-        assert_eq!(times("rad/s²", "s"), "rad/s²·s");
+        let pairs = [("N·m", "s"), ("rad/s", "s"), ("1", "s"), ("rad", ""), ("rad/s²", "s")];
+        assert_eq!(pairs.map(|(unit, by)| times(unit, by)), ["N·m·s", "rad", "s", "rad", "rad/s"]);
     }
 }

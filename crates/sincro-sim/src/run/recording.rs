@@ -62,7 +62,7 @@ impl Recording {
     pub fn new(loaded: &Loaded, lockstep: &mut LockStep, options: RunOptions<'_>) -> Result<Self, RunError> {
         let Loaded { scene, experiment, controller, .. } = loaded;
         let entries = controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
-        let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?;
+        let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?.with_units(&experiment.units);
         let rows = experiment.n_steps / experiment.record_every + 1;
         let table = Table::new(recorder.columns(), rows as usize);
         let bounds = (!options.refined).then(|| Bounds::new(experiment, options.variant, &table));

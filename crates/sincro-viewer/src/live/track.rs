@@ -246,7 +246,7 @@ fn recorder(loaded: &Loaded) -> Result<(Recorder, Vec<(String, String)>), Diagno
     }
     let at = experiment.record[0].at.clone();
     let located: Vec<Located<String>> = names.into_iter().map(|value| Located { value, at: at.clone() }).collect();
-    let recorder = Recorder::new(&located, model, &entries)?;
+    let recorder = Recorder::new(&located, model, &entries)?.with_units(&experiment.units);
     let columns = recorder.columns().skip(1).map(|(name, unit)| (name.to_owned(), unit.to_owned())).collect();
     Ok((recorder, columns))
 }

@@ -32,6 +32,10 @@ impl Block for Derivative {
         fill(states, &self.initial_input);
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::TimesSeconds(vec![-1])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = (at.component(0, i) - at.states[i]) / R::splat(of(&self.time_constant, i));

@@ -56,6 +56,10 @@ impl Block for Integrator {
         fill(states, &self.initial);
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::TimesSeconds(vec![1])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, x) in y.iter_mut().zip(at.states) {
             *y = x.max(R::splat(self.lower)).min(R::splat(self.upper));

@@ -42,6 +42,10 @@ impl Block for LowPass {
         fill(states, &self.initial);
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        if self.dc_gain.iter().all(|g| *g == 1.0) { UnitRule::Same(vec![0]) } else { UnitRule::Unknown }
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         y.copy_from_slice(at.states);
     }

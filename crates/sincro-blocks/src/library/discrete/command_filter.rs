@@ -82,6 +82,10 @@ impl Block for CommandFilter {
         }
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::TimesSeconds(vec![0, -1, -2])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let n = at.node.outputs[0];
         for i in 0..n {

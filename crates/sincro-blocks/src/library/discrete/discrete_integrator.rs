@@ -84,6 +84,12 @@ impl Block for DiscreteIntegrator {
         fill(memory, &self.initial);
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        // any other gain may have a unit
+        let is_plain = self.gain.iter().all(|g| *g == 1.0);
+        if is_plain { UnitRule::TimesSeconds(vec![1]) } else { UnitRule::Unknown }
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = self.present(at, i);

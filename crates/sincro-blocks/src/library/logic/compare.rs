@@ -84,6 +84,10 @@ impl Block for Compare {
         Ok(vec![None])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed(["1"])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let with = match &self.constant {

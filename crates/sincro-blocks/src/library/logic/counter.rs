@@ -54,6 +54,10 @@ impl Block for Counter {
         memory[0] = R::splat(self.initial as f64);
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed(["1"])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let (u, count) = (at.scalar(0), at.memory[0]);
         // 0, or NaN if an input is

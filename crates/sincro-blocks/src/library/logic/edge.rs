@@ -45,6 +45,10 @@ impl Block for Edge {
         memory.fill(R::splat(number(self.initial)));
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed(["1"])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = test(at.component(0, i), at.memory[i], |now, before| match self.direction {

@@ -30,6 +30,10 @@ impl Block for IntervalTest {
         }
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed(["1"])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, u) in y.iter_mut().zip(at.input(0)) {
             *y = test(*u, *u, |u, _| self.lower <= u && u <= self.upper);

@@ -62,6 +62,10 @@ impl Block for Latch {
         memory.fill(R::splat(number(self.initial)));
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed(["1"])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let (set, reset) = (at.component(0, i), at.component(1, i));

@@ -86,6 +86,10 @@ impl Block for Logic {
         Ok(vec![if is_one { Some(1) } else { elementwise(inputs, &[])? }])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed(["1"])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let (operator, neutral) = (self.operator, self.operator.neutral());
         if self.inputs == 1 && operator != Not {

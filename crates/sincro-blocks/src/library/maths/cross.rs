@@ -21,6 +21,10 @@ impl Block for Cross {
         Ok(vec![Some(3)])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::SumOfProducts
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let (a, b) = (at.input(0), at.input(1));
         y[0] = a[1] * b[2] - a[2] * b[1];

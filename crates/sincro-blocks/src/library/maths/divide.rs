@@ -17,6 +17,10 @@ impl Block for Divide {
         Ports::numbered(2)
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::Powers(vec![1, -1])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = at.component(0, i) / at.component(1, i);

@@ -19,6 +19,10 @@ impl Block for Dot {
         Ok(vec![Some(1)])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::SumOfProducts
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let n = at.input(0).len().max(at.input(1).len());
         y[0] = (0..n).fold(R::zero(), |sum, i| sum + at.component(0, i) * at.component(1, i));

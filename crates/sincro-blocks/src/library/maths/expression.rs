@@ -165,6 +165,10 @@ impl Block for Expression {
         if self.uses_time() { SampleTimeKind::TimeVarying } else { SampleTimeKind::Inherited }
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::Formulas(self.formulas.iter().map(|formula| formula.expression.clone()).collect())
+    }
+
     fn work<R: Real>(&self) -> Work<R> {
         let mut values = vec![R::zero(); self.inputs.len() + 1];
         // all formulas know the same parameters

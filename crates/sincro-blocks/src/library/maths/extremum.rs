@@ -74,6 +74,10 @@ impl<const IS_MAX: bool> Block for Extremum<IS_MAX> {
         Ok(vec![if self.inputs == 1 { Some(1) } else { elementwise(inputs, &[])? }])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        if self.inputs == 1 { UnitRule::Uniform } else { UnitRule::Same((0..self.inputs).collect()) }
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         if self.inputs == 1 {
             let (first, rest) = at.input(0).split_first().expect("a signal has a component");

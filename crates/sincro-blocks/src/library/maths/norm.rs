@@ -17,6 +17,10 @@ impl Block for Norm {
         Ok(vec![Some(1)])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::Uniform
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         y[0] = at.input(0).iter().fold(R::zero(), |sum, u| sum + *u * *u).sqrt();
     }

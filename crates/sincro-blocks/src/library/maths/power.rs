@@ -27,6 +27,14 @@ impl Block for Power {
         Ports::numbered(if self.exponent.is_some() { 1 } else { 2 })
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        let exponent = self.exponent.as_deref().and_then(|all| match all {
+            [e] if e.abs() <= 4.0 && *e == e.trunc() => Some(*e as i8),
+            _ => None,
+        });
+        exponent.map_or(UnitRule::Unknown, |e| UnitRule::Powers(vec![e]))
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let base = at.component(0, i);

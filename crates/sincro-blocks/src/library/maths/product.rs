@@ -29,6 +29,10 @@ impl Block for Product {
         Ok(vec![if self.inputs == 1 { Some(1) } else { elementwise(inputs, &[])? }])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        if self.inputs == 1 { UnitRule::Unknown } else { UnitRule::Powers(vec![1; self.inputs]) }
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         if self.inputs == 1 {
             y[0] = at.input(0).iter().fold(R::one(), |product, u| product * *u);

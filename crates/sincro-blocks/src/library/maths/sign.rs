@@ -10,6 +10,10 @@ declare_block! {
 impl Block for Sign {
     type Work<R: Real> = ();
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed(["1"])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, u) in y.iter_mut().zip(at.input(0)) {
             // zero and NaN are their own signs

@@ -45,6 +45,10 @@ impl Block for Trigonometry {
         Ports::numbered(if self.function == Atan2 { 2 } else { 1 })
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::fixed([if matches!(self.function, Sin | Cos | Tan) { "1" } else { "rad" }])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let u = at.component(0, i);

@@ -54,6 +54,10 @@ impl Block for MatrixProduct {
         }
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::SumOfProducts
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let (a, b) = (at.input(0), at.input(1));
         let (rows, inner) = self.shape(a.len());

@@ -298,6 +298,21 @@ impl<const MAP: usize> Block for Rotation<MAP> {
         Ok(vec![Some(Self::ROW.output)])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        match Self::ROW.map {
+            Map::QuaternionToEuler | Map::MatrixToEuler => UnitRule::fixed(["rad"]),
+            Map::EulerToQuaternion
+            | Map::EulerToMatrix
+            | Map::QuaternionToMatrix
+            | Map::MatrixToQuaternion
+            | Map::QuaternionProduct
+            | Map::QuaternionConjugate => UnitRule::fixed(["1"]),
+            Map::AngularVelocityToQuaternionRate => UnitRule::fixed(["1/s"]),
+            // a matrix without unit times the second input: rates, or torques if transposed
+            Map::RotateVector | Map::EulerRates | Map::EulerRatesToAngularVelocity => UnitRule::Same(vec![1]),
+        }
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let Self { convention, option } = *self;
         match Self::ROW.map {

@@ -51,6 +51,10 @@ impl Block for Demux {
         Ok(vec![inputs[0].clone(); self.sizes.len()])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::InOrder
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         y.copy_from_slice(at.input(0));
     }

@@ -41,6 +41,10 @@ impl Block for MultiportSwitch {
         Ok(vec![common(&inputs[1..])?])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::Same((1..=self.inputs).collect())
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let selector = at.scalar(0).lane(0);
         let chosen = (1..=self.inputs).find(|k| *k as f64 == selector);

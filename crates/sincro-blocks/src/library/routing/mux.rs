@@ -30,8 +30,13 @@ impl Block for Mux {
     }
 
     fn units(&self, inputs: &[Option<Unit>]) -> Result<Vec<Option<Unit>>, String> {
-        // components may differ; the vector then has no unit
-        Ok(vec![common(inputs).ok().flatten()])
+        // components may differ; the vector then has no unit, nor if that of one is unknown
+        let all_known = inputs.iter().all(Option::is_some);
+        Ok(vec![common(inputs).ok().flatten().filter(|_| all_known)])
+    }
+
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::InOrder
     }
 
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {

@@ -46,6 +46,10 @@ impl Block for Selector {
         }
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::Components(self.indices.clone())
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, index) in y.iter_mut().zip(&self.indices) {
             *y = at.input(0)[*index];

@@ -46,6 +46,10 @@ impl Block for Switch {
         Ok(vec![common(&[inputs[0].clone(), inputs[2].clone()])?])
     }
 
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::Same(vec![0, 2])
+    }
+
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let is_on = self.criterion.of(at.component(1, i), R::splat(self.threshold));

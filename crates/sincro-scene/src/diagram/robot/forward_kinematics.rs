@@ -5,6 +5,7 @@ use std::sync::Arc;
 use sincro_blocks::block::{At, Block, Ports};
 use sincro_blocks::kind::{Category, Described, Kind, Parameter, ValueKind};
 use sincro_blocks::reader::Reader;
+use sincro_blocks::unit_rule::UnitRule;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Quat;
@@ -77,6 +78,11 @@ impl Block for ForwardKinematics {
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         check_widths(inputs, &[("q", self.model.n_q()), ("v", self.model.n_v())])?;
         Ok([3, 4, 3, 3][..if self.velocity { 4 } else { 2 }].iter().copied().map(Some).collect())
+    }
+
+    fn unit_rule(&self) -> UnitRule {
+        let ports = [("m", 3), ("1", 4), ("m/s", 3), ("rad/s", 3)].into_iter().take(if self.velocity { 4 } else { 2 });
+        UnitRule::fixed(ports.flat_map(|(unit, width)| std::iter::repeat_n(unit, width)))
     }
 
     fn work<R: Real>(&self) -> Robot<R> {

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use sincro_blocks::block::{At, Block, Ports};
 use sincro_blocks::kind::{Category, Described, Kind};
 use sincro_blocks::reader::Reader;
+use sincro_blocks::unit_rule::UnitRule;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea::inverse_dynamics;
 use sincro_math::Real;
 
-use super::{Context, Item, MODEL, Robot, SET, check_widths};
+use super::{Context, Item, MODEL, Robot, SET, check_widths, force_units};
 
 /// Block `inverse-dynamics`: inputs `q` (n_q), `v` and `a` (n_v each), output `y` (n_v), the generalized forces that
 /// cause these accelerations, gravity included, `[N·m]` or `[N]`.
@@ -54,6 +55,10 @@ impl Block for InverseDynamics {
         let (n_q, n_v) = (self.model.n_q(), self.model.n_v());
         check_widths(inputs, &[("q", n_q), ("v", n_v), ("a", n_v)])?;
         Ok(vec![Some(n_v)])
+    }
+
+    fn unit_rule(&self) -> UnitRule {
+        UnitRule::Fixed(force_units(&self.model))
     }
 
     fn work<R: Real>(&self) -> Robot<R> {

@@ -16,11 +16,13 @@ use std::sync::Arc;
 use sincro_blocks::instance::DynBlock;
 use sincro_blocks::kind::{Kind, Parameter, ValueKind};
 use sincro_blocks::reader::Reader;
+use sincro_blocks::unit::Unit;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
 use sincro_math::Real;
 
 use crate::fmu::FmuLoader;
+use crate::record::{Probe, catalogue};
 use crate::script::ScriptParser;
 
 pub use forward_kinematics::ForwardKinematics;
@@ -123,6 +125,17 @@ fn frame(reader: &mut Reader<'_>, context: &Context) -> usize {
             0
         }
     }
+}
+
+/// Units of generalized forces, in the order of the velocities: `N·m` of a rotation, `N` of a translation.
+fn force_units(model: &Model<f64>) -> Vec<Option<Unit>> {
+    let mut units = vec![None; model.n_v()];
+    for entry in catalogue(model) {
+        if let Probe::Rate(k) = entry.probe {
+            units[k] = Unit::parse(if entry.unit == "m/s" { "N" } else { "N·m" }).ok();
+        }
+    }
+    units
 }
 
 /// Inputs that must be as wide as the model's vectors are.
