@@ -112,9 +112,7 @@ impl Recording {
         // scripts may have changed what the run starts with
         self.follow(lockstep);
         self.ledger = Ledger::start(lockstep.world(), self.ledger.balances.capacity());
-        let end = self.publish(lockstep, true)?;
-        self.record_keyframe(lockstep, false);
-        Ok(end)
+        self.look(lockstep, Some(Row::First), false)
     }
 
     /// Records the state after one more tick, after [`LockStep::advance`]: its hash always, a row if one is due or
@@ -124,17 +122,13 @@ impl Recording {
     ///
     /// [`FileError`]: the CSV file cannot be written.
     pub fn tick(&mut self, lockstep: &mut LockStep, is_last: bool) -> Result<Option<String>, FileError> {
-        let mut end = None;
         self.follow(lockstep);
         lockstep.hash_into(&mut self.trace);
         let (tick, t) = (lockstep.tick(), lockstep.t());
         self.validity.update(lockstep.world(), t);
         self.audit.tick(lockstep.world(), t);
-        if tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last) {
-            end = self.publish(lockstep, false)?;
-        }
-        self.record_keyframe(lockstep, is_last || end.is_some() || tick == self.last_tick);
-        Ok(end)
+        let row_is_due = tick <= self.last_tick && (tick.is_multiple_of(self.record_every) || is_last);
+        self.look(lockstep, row_is_due.then_some(Row::Later), is_last || tick == self.last_tick)
     }
 
     /// Continues with another lock-step, `after`, which has the state of the last one, `before`, at the same tick, but
@@ -165,27 +159,37 @@ impl Recording {
         self.scenes[1] = scene;
     }
 
-    fn record_keyframe(&mut self, lockstep: &mut LockStep, is_last: bool) {
+    /// Observes the present state, once, for the `row` and the keyframe that are due; a run that ends here has both.
+    fn look(&mut self, lockstep: &mut LockStep, row: Option<Row>, is_last: bool) -> Result<Option<String>, FileError> {
         let (tick, t) = (lockstep.tick(), lockstep.t());
-        let is_due = |trajectory: &&mut Trajectory| trajectory.is_due(tick) && tick <= self.last_tick;
-        if let Some(trajectory) = self.trajectory.as_mut().filter(|trajectory| is_due(trajectory) || is_last) {
-            let seen = lockstep.observe(t).0;
+        let is_due = |trajectory: &Trajectory| is_last || (trajectory.is_due(tick) && tick <= self.last_tick);
+        let mut has_keyframe = self.trajectory.as_ref().is_some_and(is_due);
+        if row.is_none() && !has_keyframe {
+            return Ok(None);
+        }
+        let (seen, signals) = lockstep.observe(t);
+        let mut end = None;
+        if let Some(row) = row {
+            self.ledger.update(&seen);
+            self.audit.observe(&seen, t);
+            let row = self.recorder.row(&seen, signals, t, row == Row::First);
+            self.table.push_row(row);
+            self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
+            end = self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table));
+        }
+        has_keyframe |= end.is_some();
+        let (mut trajectory, mut poses) = (self.trajectory.as_mut().filter(|_| has_keyframe), None);
+        if let Some(trajectory) = &mut trajectory {
             trajectory.record(&seen, tick, t, self.frame_map.as_ref());
-            let poses = self.frame_map.as_ref().map(|_| seen.scratch().link_poses().to_vec());
+            poses = self.frame_map.as_ref().map(|_| seen.scratch().link_poses().to_vec());
+        }
+        if row.is_some() {
+            self.streams.update(lockstep.controllers_mut(), self.table.n_rows());
+        }
+        if let Some(trajectory) = trajectory {
             trajectory.runtime.update(t, poses.as_deref(), |visit| lockstep.visit_runtime_objects(visit));
         }
-    }
-
-    fn publish(&mut self, lockstep: &mut LockStep, is_start: bool) -> Result<Option<String>, FileError> {
-        let t = lockstep.t();
-        let (seen, signals) = lockstep.observe(t);
-        self.ledger.update(&seen);
-        self.audit.observe(&seen, t);
-        let row = self.recorder.row(&seen, signals, t, is_start);
-        self.table.push_row(row);
-        self.csv.as_mut().map_or(Ok(()), |csv| csv.push_row(row))?;
-        self.streams.update(lockstep.controllers_mut(), self.table.n_rows());
-        Ok(self.bounds.as_mut().and_then(|bounds| bounds.reached(&self.table)))
+        Ok(end)
     }
 
     /// Completes the recording and returns the result of the run; `status` and `method` are those of the run,
@@ -241,6 +245,15 @@ impl Recording {
             wall_time,
         })
     }
+}
+
+/// Row of the table that is due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Row {
+    /// Of the start.
+    First,
+    /// After a tick.
+    Later,
 }
 
 /// Warning about changes of the method.
