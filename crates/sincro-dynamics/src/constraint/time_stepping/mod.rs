@@ -12,7 +12,9 @@
 //! law is the test of convergence, and reported where it misses the tolerance.
 //!
 //! The constraint residual enters the vector b: a distance is used up within the step; a penetration beyond
-//! [`DEAD_ZONE`] is reduced by [`CORRECTION`] a step.
+//! [`DEAD_ZONE`] is reduced by [`CORRECTION`] a step. Over the points of a face both is linear in the distance
+//! ([`UsableDistance`]), as the motion of a rigid body is: else four points would contradict each other, and the sweeps
+//! would shift load between them without end.
 //!
 //! Sources: keys `acary2008` (chapters 10 and 13), `jain2011` (chapter 7), `jean1999`, `silcowitz2010`.
 
@@ -44,6 +46,41 @@ const CORRECTION: f64 = 0.2;
 
 /// Share of the friction limit beyond which a group counts as one that slips.
 const AT_LIMIT: f64 = 1.0 - 1e-9;
+
+/// Distances that the points of two surfaces may use up within a step, or have to gain: [`usable`] for the nearest and
+/// the farthest of them, and in between linear in the distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct UsableDistance {
+    least: f64,
+    of_least: f64,
+    slope: f64,
+}
+
+impl UsableDistance {
+    /// For points at these distances.
+    fn of(distances: impl Iterator<Item = f64>) -> Self {
+        let (least, most) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+        let (of_least, of_most) = (usable(least), usable(most));
+        let slope = if most > least { (of_most - of_least) / (most - least) } else { 0.0 };
+        Self { least, of_least, slope }
+    }
+
+    /// Of the point at `distance` `[m]`.
+    fn at(self, distance: f64) -> f64 {
+        self.of_least + self.slope * (distance - self.least)
+    }
+}
+
+/// Distance that a single point at `distance` may use up within a step `[m]`; below zero it has to separate.
+fn usable(distance: f64) -> f64 {
+    if distance > DEAD_ZONE {
+        distance - DEAD_ZONE
+    } else if distance < -DEAD_ZONE {
+        CORRECTION * (distance + DEAD_ZONE)
+    } else {
+        0.0
+    }
+}
 
 /// Working memory; grows to the largest problem it has seen.
 #[derive(Clone, Debug, Default)]
@@ -109,23 +146,30 @@ impl<R: Real> Constraints<R> {
         self.velocity_change = velocity;
         self.b.clear();
         self.b.extend(self.rows.iter().map(|row| self.motions.placed_rate(row, &self.velocity_change)));
-        let rest_speed = model.params.constraints.rest_speed;
-        for block in self.blocks.iter().filter(|block| !block.is_drive()) {
-            let i = block.row;
-            let distance = self.residual[i].lane(0);
-            let bounce = restitution(model, block.slot);
-            if bounce > 0.0 && distance + h * h * self.b[i].lane(0) <= 0.0 {
-                let speed = self.motions.rate(&self.rows[i], v).lane(0);
-                if speed < -rest_speed {
-                    // from the present distance: to close it first would take the approach velocity away
-                    self.b[i] += R::splat(speed * per_h * bounce);
-                    continue;
+        let set = &*model.params.constraints;
+        let pair = |slot: usize| slot.checked_sub(set.limits.len()).map(|contact| pair_of(set, contact));
+        let mut k = 0;
+        while let Some(first) = self.blocks.get(k).filter(|block| !block.is_drive()) {
+            let of_pair = pair(first.slot);
+            let is_same = |block: &&UnilateralConstraint<R>| of_pair.is_some() && pair(block.slot) == of_pair;
+            let more = self.blocks[k + 1..].iter().take_while(|block| !block.is_drive()).take_while(is_same).count();
+            let manifold = k..k + 1 + more;
+            k = manifold.end;
+            let bounce = restitution(model, first.slot);
+            let distances = self.blocks[manifold.clone()].iter().map(|block| self.residual[block.row].lane(0));
+            let usable = UsableDistance::of(distances);
+            for block in &self.blocks[manifold] {
+                let i = block.row;
+                let distance = self.residual[i].lane(0);
+                if bounce > 0.0 && distance + h * h * self.b[i].lane(0) <= 0.0 {
+                    let speed = self.motions.rate(&self.rows[i], v).lane(0);
+                    if speed < -set.rest_speed {
+                        // from the present distance: to close it first would take the approach velocity away
+                        self.b[i] += R::splat(speed * per_h * bounce);
+                        continue;
+                    }
                 }
-            }
-            if distance > DEAD_ZONE {
-                self.b[i] += R::splat((distance - DEAD_ZONE) * per_h * per_h);
-            } else if distance < -DEAD_ZONE {
-                self.b[i] += R::splat(CORRECTION * (distance + DEAD_ZONE) * per_h * per_h);
+                self.b[i] += R::splat(usable.at(distance) * per_h * per_h);
             }
         }
     }
