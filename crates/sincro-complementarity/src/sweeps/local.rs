@@ -161,7 +161,7 @@ impl ContactLocal {
 
 /// Product of a symmetric matrix, in the order of [`ContactLocal`], with a vector.
 #[inline(always)]
-fn product(g: &[f64; 6], x: [f64; 3]) -> [f64; 3] {
+pub(super) fn product(g: &[f64; 6], x: [f64; 3]) -> [f64; 3] {
     [
         g[0] * x[0] + g[1] * x[1] + g[2] * x[2],
         g[1] * x[0] + g[3] * x[1] + g[4] * x[2],

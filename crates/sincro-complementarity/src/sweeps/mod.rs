@@ -5,15 +5,19 @@
 //! last direction, p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖:
 //! they weigh forces and torques by their effect. Source: key `silcowitz2010`.
 //!
+//! Where that converges slowly, Newton steps for all forces of the island together take turns with sweeps (`newton`).
+//!
 //! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
 //! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
 
 mod local;
+mod newton;
 
 use sincro_math::{Real, Task};
 
 use crate::solver::SolverReport;
 use local::{ContactLocal, TangentialProblem};
+use newton::NewtonStep;
 
 /// Residual at which an island counts as solved.
 const TOLERANCE: f64 = 1e-6;
@@ -28,9 +32,18 @@ const REST_SWEEPS: usize = 10;
 /// Speed of all contacts of an island below which it hardly moves [m/s].
 const REST_SPEED: f64 = 2e-3;
 
-/// Iteration limit of an island, with one more for each of its blocks; beyond it the last iterate is taken and its
-/// residual reported.
-const MAX_SWEEPS: usize = 60;
+/// Number of sweeps before the first Newton step, with one more for every eight blocks.
+const FIRST_SWEEPS: usize = 50;
+
+/// Number of sweeps after each Newton step, with one more for every sixteen blocks.
+const NEXT_SWEEPS: usize = 12;
+
+/// Limit of Newton steps of an island; beyond it the best iterate is taken and its residual reported.
+const MAX_NEWTON_STEPS: usize = 12;
+
+/// Residual below which one Newton step must do, unless the island hardly moves: bodies that hit each other share forces
+/// that soon are others, and those at rest would creep.
+const ROUGH_TOLERANCE: f64 = 1e-4;
 
 /// Force law of a block of rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,6 +106,19 @@ struct Block {
     local: Local,
 }
 
+impl Block {
+    /// ρ of the natural map.
+    #[inline(always)]
+    fn step_length(&self) -> f64 {
+        match &self.local {
+            Local::Scalar { inverse } => *inverse,
+            Local::Tangential { trace, .. } => 2.0 / trace,
+            Local::Contact(local) => 3.0 / local.trace(),
+            Local::Immobile => 0.0,
+        }
+    }
+}
+
 /// Own problem of a block.
 #[derive(Clone, Copy, Debug)]
 enum Local {
@@ -110,7 +136,7 @@ enum Local {
 }
 
 /// Part of the lists that belongs to one island.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct IslandRange {
     blocks: (usize, usize),
     z: (usize, usize),
@@ -134,6 +160,24 @@ pub struct Sweeper {
     before: Vec<[f64; 3]>,
     /// Velocities along one block.
     along: Vec<f64>,
+    /// Forces with the least residual so far.
+    best: Vec<[f64; 3]>,
+    newton: NewtonStep,
+    last: Solved,
+}
+
+/// Problem last solved, and its solution. A step whose forces were looked at beforehand is solved twice.
+#[derive(Clone, Debug, Default)]
+struct Solved {
+    h: f64,
+    values: Vec<f64>,
+    index: Vec<u32>,
+    islands: Vec<IslandRange>,
+    /// Of each block: law, first row, b, and the forces to start from.
+    blocks: Vec<(Law, usize, [f64; 3], [f64; 3])>,
+    forces: Vec<[f64; 3]>,
+    /// What its solution added to the report.
+    report: SolverReport,
 }
 
 const NONE: u32 = u32::MAX;
@@ -204,6 +248,65 @@ impl Sweeper {
 
     /// Solves all islands of a step of length `h` `[s]` from the forces given as a start.
     pub fn solve(&mut self, h: f64, report: &mut SolverReport) {
+        if self.is_last(h) {
+            for (block, force) in self.blocks.iter_mut().zip(&self.last.forces) {
+                block.lambda = *force;
+            }
+        } else {
+            self.keep_problem(h);
+            self.solve_islands(h);
+            self.last.forces.clear();
+            self.last.forces.extend(self.blocks.iter().map(|block| block.lambda));
+        }
+        let SolverReport { islands, sweeps, unconverged_islands, worst_island, .. } = self.last.report;
+        report.islands += islands;
+        report.sweeps += sweeps;
+        report.unconverged_islands += unconverged_islands;
+        report.worst_island = report.worst_island.max(worst_island);
+    }
+
+    /// Returns true if the problem is the one last solved, to the last bit.
+    fn is_last(&self, h: f64) -> bool {
+        let last = &self.last;
+        let same = |x: &[f64], y: &[f64]| x.iter().zip(y).all(|(x, y)| x.to_bits() == y.to_bits());
+        h.to_bits() == last.h.to_bits()
+            && self.blocks.len() == last.blocks.len()
+            && self.values.len() == last.values.len()
+            && self.islands == last.islands
+            && self.blocks.iter().zip(&last.blocks).all(|(block, (law, row, b, start))| {
+                block.law == *law && block.row == *row && same(&block.b, b) && same(&block.lambda, start)
+            })
+            && self.index == last.index
+            && same(&self.values, &last.values)
+    }
+
+    fn keep_problem(&mut self, h: f64) {
+        let Self { last, values, index, islands, blocks, .. } = self;
+        last.h = h;
+        last.values.clone_from(values);
+        last.index.clone_from(index);
+        last.islands.clone_from(islands);
+        last.blocks.clear();
+        last.blocks.extend(blocks.iter().map(|block| (block.law, block.row, block.b, block.lambda)));
+    }
+
+    fn solve_islands(&mut self, h: f64) {
+        let mut report = SolverReport::default();
+        self.make_room();
+        for k in 0..self.islands.len() {
+            let IslandRange { blocks, z } = self.islands[k];
+            let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
+            let (residual, sweeps) = f64::run_hot(Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h });
+            report.islands += 1;
+            report.sweeps += sweeps as u64;
+            report.unconverged_islands += u64::from(residual > TOLERANCE);
+            report.worst_island = report.worst_island.max(residual);
+        }
+        self.last.report = report;
+    }
+
+    /// Working memory for the present problem.
+    fn make_room(&mut self) {
         self.z_before.clear();
         self.z_before.resize(self.z.len(), 0.0);
         self.direction_z.clear();
@@ -215,14 +318,6 @@ impl Sweeper {
         let longest = self.blocks.iter().map(|block| block.len).max().unwrap_or(0);
         self.along.clear();
         self.along.resize(longest, 0.0);
-        for k in 0..self.islands.len() {
-            let IslandRange { blocks, z } = self.islands[k];
-            let (residual, sweeps) = f64::run_hot(Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h });
-            report.islands += 1;
-            report.sweeps += sweeps as u64;
-            report.unconverged_islands += u64::from(residual > TOLERANCE);
-            report.worst_island = report.worst_island.max(residual);
-        }
     }
 
     /// Hands each row with its multiplier to `take`.
@@ -321,35 +416,62 @@ impl Sweeper {
     /// Natural map of a block's law at its present force and rates.
     #[inline(always)]
     fn natural_map(&self, k: usize, u: [f64; 3]) -> f64 {
-        let Block { law, lambda, local, .. } = &self.blocks[k];
-        match (local, *law) {
-            (Local::Contact(local), Law::Coulomb { friction }) => {
-                let rho = 3.0 / local.trace();
-                let shift = friction * (u[1] * u[1] + u[2] * u[2]).sqrt();
-                let moved = [lambda[0] - rho * (u[0] + shift), lambda[1] - rho * u[1], lambda[2] - rho * u[2]];
-                let projected = project_on_cone(friction, moved);
-                distance(lambda, &projected)
-            }
-            (Local::Scalar { inverse }, law) => {
-                (law.admitted(lambda[0] - u[0] * inverse, self.limit(k)) - lambda[0]).abs()
-            }
-            (Local::Tangential { trace, .. }, _) => {
-                let rho = 2.0 / trace;
-                let free = [lambda[0] - rho * u[0], lambda[1] - rho * u[1]];
-                let (size, limit) = ((free[0] * free[0] + free[1] * free[1]).sqrt(), self.limit(k));
-                let share = if size > limit { limit / size } else { 1.0 };
-                distance(lambda, &[free[0] * share, free[1] * share, 0.0])
-            }
+        distance(&self.blocks[k].lambda, &self.projected(k, u, 1.0).0)
+    }
+
+    /// P(λ − ρ (u + μ‖u_t‖ n)) of a block for `factor` times the ρ of the natural map, and the derivative of P.
+    #[inline(always)]
+    fn projected(&self, k: usize, u: [f64; 3], factor: f64) -> ([f64; 3], [f64; 6]) {
+        let block = &self.blocks[k];
+        let rho = factor * block.step_length();
+        let shift = match block.law {
+            Law::Coulomb { friction } => friction * (u[1] * u[1] + u[2] * u[2]).sqrt(),
             _ => 0.0,
+        };
+        let [normal, one, two] = block.lambda;
+        self.admitted(k, [normal - rho * (u[0] + shift), one - rho * u[1], two - rho * u[2]])
+    }
+
+    /// Force that the law of a block admits nearest to `x`, and the derivative of this projection.
+    #[inline(always)]
+    fn admitted(&self, k: usize, x: [f64; 3]) -> ([f64; 3], [f64; 6]) {
+        let Block { law, local, .. } = &self.blocks[k];
+        let limit = self.limit(k);
+        match (local, *law) {
+            (Local::Contact(_), Law::Coulomb { friction }) => project_on_cone(friction, x),
+            (Local::Scalar { .. }, law) => {
+                let force = law.admitted(x[0], limit);
+                let slope = if force == x[0] && !matches!(law, Law::Given { .. }) { 1.0 } else { 0.0 };
+                ([force, 0.0, 0.0], [slope, 0.0, 0.0, 0.0, 0.0, 0.0])
+            }
+            (Local::Tangential { .. }, _) => {
+                let size = (x[0] * x[0] + x[1] * x[1]).sqrt();
+                if size <= limit {
+                    return ([x[0], x[1], 0.0], [1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+                }
+                let (share, [t1, t2]) = (limit / size, [x[0] / size, x[1] / size]);
+                let slope = [share * t2 * t2, -share * t1 * t2, 0.0, share * t1 * t1, 0.0, 0.0];
+                ([x[0] * share, x[1] * share, 0.0], slope)
+            }
+            (Local::Immobile, Law::Given { force }) => ([force, 0.0, 0.0], [0.0; 6]),
+            _ => ([0.0; 3], [0.0; 6]),
         }
     }
+}
+
+/// Result of some sweeps.
+struct Swept {
+    residual: f64,
+    sweeps: usize,
+    /// True if the island hardly moves.
+    rests: bool,
 }
 
 /// One island to be solved.
 struct Island<'a> {
     sweeper: &'a mut Sweeper,
-    blocks: (usize, usize),
-    z: (usize, usize),
+    blocks: core::ops::Range<usize>,
+    z: core::ops::Range<usize>,
     /// Rate below which it hardly moves.
     rest_rate: f64,
 }
@@ -359,18 +481,75 @@ impl Task for Island<'_> {
     type Output = (f64, usize);
 
     #[inline(always)]
-    fn run(self) -> (f64, usize) {
-        let Self { sweeper, blocks, z, rest_rate } = self;
-        let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
-        for k in blocks.clone() {
-            // the velocities of the forces to start from
-            sweeper.rates(k);
-            let lambda = core::mem::take(&mut sweeper.blocks[k].lambda);
-            sweeper.change(k, lambda);
+    fn run(mut self) -> (f64, usize) {
+        self.find_velocities();
+        let Swept { residual: mut best, mut sweeps, .. } = self.sweep(FIRST_SWEEPS + self.blocks.len() / 8);
+        if best <= TOLERANCE {
+            return (best, sweeps);
         }
+        let mut newton = core::mem::take(&mut self.sweeper.newton);
+        self.keep();
+        let next_sweeps = NEXT_SWEEPS + self.blocks.len() / 16;
+        for _ in 0..MAX_NEWTON_STEPS {
+            newton.make(self.sweeper, self.blocks.clone(), self.z.clone());
+            let mut swept = self.sweep(next_sweeps);
+            sweeps += swept.sweeps;
+            if swept.residual >= best {
+                // the step was none
+                self.restore();
+                swept = self.sweep(2 * next_sweeps);
+                sweeps += swept.sweeps;
+            }
+            if swept.residual < best {
+                best = swept.residual;
+                self.keep();
+            }
+            if best <= if swept.rests { TOLERANCE } else { ROUGH_TOLERANCE } {
+                break;
+            }
+        }
+        self.restore();
+        self.sweeper.newton = newton;
+        (best, sweeps)
+    }
+}
+
+impl Island<'_> {
+    /// The velocities of the present forces.
+    #[inline(always)]
+    fn find_velocities(&mut self) {
+        self.sweeper.z[self.z.clone()].fill(0.0);
+        for k in self.blocks.clone() {
+            self.sweeper.rates(k);
+            let lambda = core::mem::take(&mut self.sweeper.blocks[k].lambda);
+            self.sweeper.change(k, lambda);
+        }
+    }
+
+    /// Keeps the present forces as the best ones.
+    #[inline(always)]
+    fn keep(&mut self) {
+        let Sweeper { best, blocks, .. } = &mut *self.sweeper;
+        best.clear();
+        best.extend(blocks[self.blocks.clone()].iter().map(|block| block.lambda));
+    }
+
+    /// Returns to the best forces.
+    #[inline(always)]
+    fn restore(&mut self) {
+        let Sweeper { best, blocks, .. } = &mut *self.sweeper;
+        for (block, best) in blocks[self.blocks.clone()].iter_mut().zip(best) {
+            block.lambda = *best;
+        }
+        self.find_velocities();
+    }
+
+    /// Makes up to `most` sweeps, fewer if they suffice.
+    #[inline(always)]
+    fn sweep(&mut self, most: usize) -> Swept {
+        let Self { sweeper, blocks, z, rest_rate } = self;
         let mut last_square = 0.0;
-        let max_sweeps = MAX_SWEEPS + blocks.len();
-        for sweep in 1..=max_sweeps {
+        for sweep in 1..=most {
             sweeper.z_before[z.clone()].copy_from_slice(&sweeper.z[z.clone()]);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for k in blocks.clone() {
@@ -382,13 +561,13 @@ impl Task for Island<'_> {
                 largest = largest.max(distance(&lambda, &[0.0; 3]));
                 sweeper.change(k, lambda);
             }
-            let is_last = sweep == max_sweeps;
+            let is_last = sweep == most;
             if change <= TOLERANCE * largest || is_last || largest == 0.0 {
                 let (residual, fastest) = residual(sweeper, blocks.clone(), largest);
-                let rests = fastest < rest_rate && sweep < REST_SWEEPS;
-                let tolerance = if rests { REST_TOLERANCE } else { TOLERANCE };
+                let rests = fastest < *rest_rate;
+                let tolerance = if rests && sweep < REST_SWEEPS { REST_TOLERANCE } else { TOLERANCE };
                 if residual <= tolerance || is_last {
-                    return (residual, sweep);
+                    return Swept { residual, sweeps: sweep, rests };
                 }
             }
             // further along the last direction
@@ -434,19 +613,31 @@ fn residual(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64
     (if worst > 0.0 { worst / largest } else { 0.0 }, fastest)
 }
 
-/// Projection on the cone ‖x_t‖ ≤ μ xₙ.
+/// Projection on the cone ‖x_t‖ ≤ μ xₙ, and its derivative: entries 00, 01, 02, 11, 12, 22.
 #[inline(always)]
-fn project_on_cone(friction: f64, x: [f64; 3]) -> [f64; 3] {
+fn project_on_cone(friction: f64, x: [f64; 3]) -> ([f64; 3], [f64; 6]) {
     let size = (x[1] * x[1] + x[2] * x[2]).sqrt();
     if size <= friction * x[0] {
-        return x;
+        return (x, [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]);
     }
     if friction * size <= -x[0] {
-        return [0.0; 3];
+        return ([0.0; 3], [0.0; 6]);
     }
-    let normal = (x[0] + friction * size) / (1.0 + friction * friction);
+    let of_normal = 1.0 / (1.0 + friction * friction);
+    let normal = (x[0] + friction * size) * of_normal;
     let share = friction * normal / size;
-    [normal, x[1] * share, x[2] * share]
+    // μ/(1 + μ²) couples normal and sliding direction; across that the force turns
+    let (t1, t2) = (x[1] / size, x[2] / size);
+    let (coupled, along) = (friction * of_normal, friction * friction * of_normal);
+    let slope = [
+        of_normal,
+        coupled * t1,
+        coupled * t2,
+        along * t1 * t1 + share * t2 * t2,
+        (along - share) * t1 * t2,
+        along * t2 * t2 + share * t1 * t1,
+    ];
+    ([normal, x[1] * share, x[2] * share], slope)
 }
 
 #[inline(always)]
