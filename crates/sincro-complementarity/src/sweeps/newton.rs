@@ -1,20 +1,22 @@
 //! Semismooth Newton step of an island whose sweeps converge slowly: bodies that share their load over many points.
 //!
-//! Every law says λ = P(λ − ρ w) with the projection P on the forces it admits and w its rates, those of a contact with
-//! the term of `sweeps` that makes Coulomb's law one of complementarity. With ρ large, P and its derivative taken at
-//! the present forces and λ eliminated, the whitened velocities z = Σ yᵢ λᵢ obey
+//! In the mode that the sweeps have brought it to, each law is linear: an open contact has no force, one that sticks has
+//! the force λ − ρ w with its rates w and a large ρ, which says w = 0 up to 1/ρ (an augmented Lagrangian), and one that
+//! slides so in its normal direction, with friction at its limit, against the sliding rate. With f the forces at the
+//! present rates, D what they lose by a growth of the rates, and λ eliminated, the whitened velocities z = Σ yᵢ λᵢ obey
 //!
-//! (1 + Σ Yᵀ ρ P′ Y) Δz = Σ Yᵀ P − z,
+//! (1 + Σ Yᵀ D Y) Δz = Σ Yᵀ f − z,
 //!
 //! one symmetric positive definite system of the size of the bodies, however redundant their contacts are: forces that
-//! move nothing stay as they are. It is factored by Cholesky's method within its envelope. Where a contact slides, P
-//! with the derivative of the term of Coulomb's law says λ_t = μ λₙ times the direction: that friction follows the
-//! normal force is left out of the matrix, which stays symmetric, and done afterwards. Sweeps follow each step. Sources:
-//! keys `alart1991` (augmented Lagrangian with a large ρ), `acary2008` (section 13.4).
+//! move nothing stay as they are. It is factored by Cholesky's method within its envelope. That friction follows the
+//! normal force is left out of the matrix, which stays symmetric, and done afterwards. The forces are projected on
+//! their laws, and sweeps follow each step, which find the next modes. Sources: keys `alart1991`, `acary2008`
+//! (section 13.4).
 
+use super::local::product;
 use super::{Law, Sweeper, dot};
 
-/// ρ, in units of that of the residual.
+/// ρ, in units of that of the natural map.
 const RHO: f64 = 1e4;
 
 /// Working memory of a step.
@@ -26,9 +28,18 @@ pub(super) struct NewtonStep {
     matrix: Vec<f64>,
     /// Right-hand side, then the change of the velocities.
     x: Vec<f64>,
-    /// Forces P of each block, and its derivative times ρ: entries 00, 01, 02, 11, 12, 22.
-    forces: Vec<[f64; 3]>,
-    slopes: Vec<[f64; 6]>,
+    laws: Vec<LinearLaw>,
+}
+
+/// Law of a block in its present mode.
+#[derive(Clone, Copy, Debug)]
+struct LinearLaw {
+    /// Force at the present rates.
+    force: [f64; 3],
+    /// Symmetric matrix D: entries 00, 01, 02, 11, 12, 22.
+    slope: [f64; 6],
+    /// Friction coefficient of a contact that slides, else 0.
+    friction: f64,
 }
 
 impl NewtonStep {
@@ -38,36 +49,31 @@ impl NewtonStep {
         self.lay_out(sweeper, blocks.clone(), z.clone());
         self.x.clear();
         self.x.extend(sweeper.z[z.clone()].iter().map(|z| -z));
-        self.forces.clear();
-        self.slopes.clear();
+        self.laws.clear();
         for k in blocks.clone() {
             let u = sweeper.rates(k);
-            let (force, slope) = linear_law(sweeper, k, u);
-            self.add(sweeper, k, z.start, force, &slope);
-            self.forces.push(force);
-            self.slopes.push(slope);
+            let law = LinearLaw::of(sweeper, k, u);
+            self.add(sweeper, k, z.start, &law);
+            self.laws.push(law);
         }
         self.solve();
-        for (k, (force, slope)) in blocks.zip(self.forces.iter().zip(&self.slopes)) {
+        for (k, LinearLaw { force, slope, friction }) in blocks.zip(&self.laws) {
             let block = &sweeper.blocks[k];
-            let mut along = [0.0; 3];
-            for (along, y) in
-                along.iter_mut().zip(sweeper.values[block.values..].chunks_exact(block.len.max(1))).take(block.n)
-            {
+            let mut growth = [0.0; 3];
+            let rows = sweeper.values[block.values..].chunks_exact(block.len.max(1));
+            for (growth, y) in growth.iter_mut().zip(rows).take(block.n) {
                 for (y, i) in y.iter().zip(&sweeper.index[block.index..]) {
                     if let Some(i) = (*i as usize).checked_sub(z.start) {
-                        *along += y * self.x[i];
+                        *growth += y * self.x[i];
                     }
                 }
             }
-            let change = super::local::product(slope, along);
-            let mut moved: [f64; 3] = core::array::from_fn(|c| force[c] - change[c]);
-            if let (Law::Coulomb { friction }, 0.0, true) =
-                (block.law, slope[1], slope[0] > 0.0 && slope[3] + slope[5] < 2.0 * slope[0])
-            {
-                let (old, new) = (force[1].hypot(force[2]), friction * moved[0].max(0.0));
-                let share = if old > 0.0 { new / old } else { 0.0 };
-                (moved[1], moved[2]) = (force[1] * share - change[1], force[2] * share - change[2]);
+            let lost = product(slope, growth);
+            let mut moved: [f64; 3] = core::array::from_fn(|c| force[c] - lost[c]);
+            if *friction > 0.0 {
+                let (old, limit) = (length(force[1], force[2]), friction * moved[0].max(0.0));
+                let share = if old > 0.0 { limit / old } else { 0.0 };
+                (moved[1], moved[2]) = (force[1] * share - lost[1], force[2] * share - lost[2]);
             }
             let admitted = sweeper.admitted(k, moved).0;
             sweeper.rates(k);
@@ -103,7 +109,7 @@ impl NewtonStep {
 
     /// Adds a block to matrix and right-hand side.
     #[inline(always)]
-    fn add(&mut self, sweeper: &Sweeper, k: usize, start: usize, force: [f64; 3], slope: &[f64; 6]) {
+    fn add(&mut self, sweeper: &Sweeper, k: usize, start: usize, law: &LinearLaw) {
         let block = &sweeper.blocks[k];
         let (len, n) = (block.len, block.n);
         let y = &sweeper.values[block.values..block.values + n * len];
@@ -112,12 +118,12 @@ impl NewtonStep {
             let Some(i) = (*i as usize).checked_sub(start) else { continue };
             let column = core::array::from_fn(|c| if c < n { y[c * len + a] } else { 0.0 });
             for c in 0..n {
-                self.x[i] += column[c] * force[c];
+                self.x[i] += column[c] * law.force[c];
             }
-            if slope == &[0.0; 6] {
+            if law.slope == [0.0; 6] {
                 continue;
             }
-            let pushed = super::local::product(slope, column);
+            let pushed = product(&law.slope, column);
             let row = &mut self.matrix[self.row[i]..=self.row[i] + i - self.first[i]];
             for (b, j) in index.iter().enumerate() {
                 let Some(j) = (*j as usize).checked_sub(start).filter(|j| *j <= i) else { continue };
@@ -160,35 +166,39 @@ impl NewtonStep {
     }
 }
 
-/// Law of a block in its present mode, made linear: force at the present rates `u` and what it loses by their growth.
-#[inline(always)]
-fn linear_law(sweeper: &Sweeper, k: usize, u: [f64; 3]) -> ([f64; 3], [f64; 6]) {
-    let block = &sweeper.blocks[k];
-    let rho = RHO * block.step_length();
-    let (force, slope) = sweeper.projected(k, u, 1.0);
-    let held: [f64; 3] = core::array::from_fn(|c| block.lambda[c] - rho * u[c]);
-    if slope == [0.0; 6] {
-        return (force, slope);
-    }
-    if slope[0] == 1.0 && (block.n == 1 || slope[3] == 1.0) {
-        let all = if block.n > 1 { rho } else { 0.0 };
-        return (held, [rho, 0.0, 0.0, all, 0.0, if block.n > 2 { rho } else { 0.0 }]);
-    }
-    match block.law {
-        Law::Coulomb { friction } => {
-            let (size, sliding) = (force[1].hypot(force[2]), u[1].hypot(u[2]));
-            if size <= 0.0 {
-                return ([held[0], 0.0, 0.0], [rho, 0.0, 0.0, 0.0, 0.0, 0.0]);
-            }
-            let [t1, t2] = [force[1] / size, force[2] / size];
-            let limit = friction * block.lambda[0];
-            let turn = if sliding > 0.0 { (limit / sliding).min(rho) } else { rho };
-            let across = [turn * t2 * t2, -turn * t1 * t2, turn * t1 * t1];
-            ([held[0], limit * t1, limit * t2], [rho, 0.0, 0.0, across[0], across[1], across[2]])
+impl LinearLaw {
+    /// Law of block `k` at its rates `u`.
+    #[inline(always)]
+    fn of(sweeper: &Sweeper, k: usize, u: [f64; 3]) -> Self {
+        let block = &sweeper.blocks[k];
+        let rho = RHO * block.step_length();
+        let (force, slope) = sweeper.projected(k, u, 1.0);
+        let held: [f64; 3] = core::array::from_fn(|c| block.lambda[c] - rho * u[c]);
+        if slope == [0.0; 6] {
+            return Self { force, slope, friction: 0.0 };
         }
-        // a disc at its limit
-        _ => (force, slope.map(|x| x * block.step_length())),
+        if slope[0] == 1.0 && (block.n == 1 || slope[3] == 1.0) {
+            // at rest in all its directions; those it does not have are zero
+            return Self { force: held, slope: [rho, 0.0, 0.0, rho, 0.0, rho], friction: 0.0 };
+        }
+        let Law::Coulomb { friction } = block.law else {
+            // rolling and spinning friction at its limit
+            return Self { force, slope: slope.map(|x| x * block.step_length()), friction: 0.0 };
+        };
+        let (size, sliding) = (length(force[1], force[2]), length(u[1], u[2]));
+        let (t1, t2) = if size > 0.0 { (force[1] / size, force[2] / size) } else { (0.0, 0.0) };
+        let limit = friction * block.lambda[0];
+        // across the sliding direction friction turns with it
+        let turn = if sliding > 0.0 { (limit / sliding).min(rho) } else { rho };
+        let slope = [rho, 0.0, 0.0, turn * t2 * t2, -turn * t1 * t2, turn * t1 * t1];
+        Self { force: [held[0], limit * t1, limit * t2], slope, friction }
     }
+}
+
+/// Length of a vector in a plane; the standard library's function may have other bits elsewhere.
+#[inline(always)]
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// Scalar product of two lists, in eight lanes and a rest.
