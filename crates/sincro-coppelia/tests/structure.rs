@@ -423,6 +423,80 @@ expressions = ["-20*x"]
 }
 
 #[test]
+fn a_diagram_goes_on_measuring_what_joins_bodies_when_something_else_changes() {
+    let scene = format!(
+        "{BOX_ON_FLOOR}\n[[joint]]\nname = \"slide\"\nkind = \"prismatic\"\naxis = [0.0, 0.0, 1.0]\n\
+         position = [0.0, 3.0, 1.0]\nmotor = {{ mode = \"torque\" }}\n[[body]]\nname = \"mass\"\nparent = \"/slide\"\n\
+         mass = 1.0\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n[[spring_damper]]\nname = \"spring\"\n\
+         between = [\"/\", \"/slide/mass\"]\npoints = [[0.0, 3.0, 0.0], [0.0, 0.0, 0.0]]\nfree_length = 1.0\nstiffness = 100.0\n"
+    );
+    let diagram = "wires = [\"/spring.force -> hold.f\", \"hold -> /slide\"]\n[[block]]\nname = \"hold\"\n\
+        type = \"expression\"\ninputs = [\"f\"]\nexpressions = [\"0*f + 9.81\"]\n";
+    let experiment = format!("{EXPERIMENT}diagram = \"diagram.toml\"\n");
+    let folder = SceneFolder::of(&scene, &experiment).with("diagram.toml", diagram);
+    let mut session = OpenSession::open(folder, &[], Extensions::default(), None);
+    let (mass, body) = (handle(&mut session, "/mass"), handle(&mut session, "/box"));
+    let copied = call(&mut session, "sim.copyPasteObjects", &[Value::List(vec![body.into()]), 0_i64.into()]);
+    put(&mut session, handles(&copied[0])[0], [1.0, 0.0, 0.05]);
+    session.start().unwrap();
+    steps(&mut session, 5);
+    call(&mut session, "sim.removeObjects", &[copied[0].clone()]);
+    steps(&mut session, 20);
+    assert!((position(&mut session, mass)[2] - 1.0).abs() < 1e-9, "the motor carries it at the spring's free length");
+    session.stop().unwrap();
+    session.start().unwrap();
+    steps(&mut session, 5);
+}
+
+#[test]
+fn a_model_may_have_an_object_of_the_name_that_it_gets() {
+    let text = "[[joint]]\nname = \"model\"\nkind = \"free\"\n[[body]]\nname = \"ball\"\nparent = \"/model\"\n\
+        density = 1000.0\nshape = [{ sphere = { radius = 0.1 } }]\n[[frame]]\nname = \"tip\"\nparent = \"/model/ball\"\n\
+        position = [0.0, 0.0, 0.1]\n[[frame]]\nname = \"beside\"\n";
+    let mut session = open(BOX_ON_FLOOR);
+    let model = call(&mut session, "sim.loadModel", &[text.into()])[0].as_int().unwrap();
+    let below = handles(&call(&mut session, "sim.getObjectsInTree", &[model.into()])[0]);
+    let mut paths: Vec<String> =
+        below.iter().map(|h| session.registry().entry(Handle(*h as i32)).unwrap().path.clone()).collect();
+    paths.sort();
+    assert_eq!(paths, ["/model", "/model/beside", "/model/model", "/model/model/ball", "/model/model/ball/tip"]);
+}
+
+#[test]
+fn spawning_and_removing_shapes_has_no_end() {
+    let mut session = open(BOX_ON_FLOOR);
+    session.start().unwrap();
+    for _ in 0..40 {
+        let made = call(
+            &mut session,
+            "sim.createPureShape",
+            &[0_i64.into(), 8_i64.into(), Value::reals([0.1; 3]), 1.0.into()],
+        );
+        put(&mut session, made[0].as_int().unwrap(), [1.0, 0.0, 0.5]);
+        call(&mut session, "sim.removeObjects", &[Value::List(vec![made[0].clone()])]);
+        steps(&mut session, 1);
+    }
+    assert_eq!(session.registry().created_count(), 0);
+}
+
+#[test]
+fn files_of_models_need_leave_and_are_looked_for_in_few_places() {
+    let mut session = open(IN_SPACE);
+    let hand = handle(&mut session, "/hand");
+    let why = session.call("sim.saveModel", &[hand.into(), "hand.toml".into()]).unwrap_err().to_string();
+    assert!(why.contains("--grant files"), "{why}");
+    let mut session = beside_models();
+    let here = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+    let there = session.call("sim.loadModel", &[here.into()]).unwrap_err().to_string();
+    let nowhere = session.call("sim.loadModel", &["/nothing/at/all.toml".into()]).unwrap_err().to_string();
+    assert_eq!(
+        there.replace(here, "F"),
+        nowhere.replace("/nothing/at/all.toml", "F"),
+        "nothing is told of files outside"
+    );
+}
+
+#[test]
 fn a_body_that_joins_a_hinged_arm_brings_its_angular_momentum_about_the_hinge() {
     let arm = r#"
 [[joint]]

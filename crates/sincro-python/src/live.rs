@@ -238,6 +238,10 @@ impl Live {
         if !fits || self.held().len() != to.held.len() {
             return Err(LiveError::Argument("the snapshot has another number of states".into()));
         }
+        if self.has_functions && (self.lockstep.structure().is_some() || snapshot.structure.is_some()) {
+            let words = "a script has changed the structure, which Python functions do not follow: close the model";
+            return Err(LiveError::Argument(words.into()));
+        }
         self.lockstep.restore(&snapshot);
         self.trace = snapshot.trace;
         self.held().copy_from_slice(&to.held);

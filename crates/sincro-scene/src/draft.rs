@@ -404,15 +404,25 @@ impl SceneDraft {
             return Err(found.sorted());
         }
         let mut other = Self::of_document(&document, &self.folder, self.seed);
+        // every path of the text at once: an object of it may have the name of the frame
         let tops = other.children("/");
-        let frame = Map::from_iter([("name".to_owned(), name.into()), ("parent".to_owned(), "/".into())]);
-        let root = other.add("frame", frame);
-        for top in tops {
-            let Some(k) = other.place(&top) else { continue };
-            other.items[k].table.insert("parent".into(), root.clone().into());
-            let new = other.items[k].path();
-            other.rename(&top, &new);
+        let is_path = |text: &str| {
+            tops.iter()
+                .any(|top| text.strip_prefix(&**top).is_some_and(|rest| rest.is_empty() || rest.starts_with('/')))
+        };
+        let root = format!("/{name}");
+        for item in &mut other.items {
+            for (pointer, text) in item.references() {
+                if is_path(&text) {
+                    item.replace(&pointer, format!("{root}{text}"));
+                }
+            }
+            if item.is_object() && matches!(item.parent(), "" | "/") {
+                item.table.insert("parent".into(), root.clone().into());
+            }
         }
+        let frame = Map::from_iter([("name".to_owned(), name.into()), ("parent".to_owned(), "/".into())]);
+        other.add("frame", frame);
         for item in
             other.items.iter_mut().filter(|item| matches!(&*item.list, "closure" | "coupling" | "spring_damper"))
         {

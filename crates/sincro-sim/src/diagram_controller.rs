@@ -325,10 +325,9 @@ impl DiagramController<f64> {
             }
         }
         let former = &change.transferred.commands;
-        for terminal in &mut self.terminals {
-            let now = former.iter().position(|old| *old == Some(*terminal));
-            *terminal = now.ok_or("the diagram commands a motor, rotor or force that has gone")?;
-        }
+        let terminals: Option<Vec<usize>> =
+            self.terminals.iter().map(|terminal| former.iter().position(|old| *old == Some(*terminal))).collect();
+        self.terminals = terminals.ok_or("the diagram commands a motor, rotor or force that has gone")?;
         self.wiring = Arc::new(wiring);
         let fresh = Self::new(&self.wiring, model);
         self.impulse = change.transferred.state.totals[2..].to_vec();

@@ -10,7 +10,7 @@
 //! to the lock-step ([`Controller::take_restructured`](crate::controller::Controller::take_restructured)), which tells
 //! the others. Recorded columns are those of the start: signals of objects that have gone are NaN.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sincro_dynamics::kinematics::Attached;
@@ -28,15 +28,19 @@ pub struct Restructured {
     pub former: Model<f64>,
     /// Former path of each object that is still there, by its path now.
     pub paths: BTreeMap<String, String>,
+    /// Former paths of the objects that have gone.
+    pub gone: BTreeSet<String>,
     /// State and what it was made of.
     pub transferred: Transferred,
 }
 
 impl Restructured {
-    /// Returns the path now of an object, closure or signal prefix that had the path `former`; `None` if it has gone.
+    /// Returns the path now of an object that had the path `former`; `None` if it has gone. What is no object, such as a
+    /// closure or a spring between two bodies, keeps its name.
     #[must_use]
     pub fn path_of(&self, former: &str) -> Option<String> {
-        self.paths.iter().find(|(_, old)| *old == former).map(|(new, _)| new.clone())
+        let now = self.paths.iter().find(|(_, old)| *old == former).map(|(new, _)| new.clone());
+        now.or_else(|| (!self.gone.contains(former)).then(|| former.to_owned()))
     }
 }
 
@@ -92,6 +96,9 @@ pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restruc
             }
         }
     }
+    let still: BTreeSet<&str> = paths.values().map(String::as_str).collect();
+    let gone = from.objects.iter().filter(|object| !still.contains(&*object.path));
+    let gone = gone.map(|object| object.path.clone()).collect();
     // what joins objects is no object: it is known by its name
     let is_object = |name: &str| to.objects.iter().any(|object| object.path == name);
     let origin = |name: &str| match origins.get(name) {
@@ -105,7 +112,7 @@ pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restruc
     let links = links_of(from, &to);
     *world = world.continued(model, transferred.state.clone(), &|link| links.get(&link).copied());
     to.initial = transferred.state.clone();
-    Restructured { scene: Arc::new(to), former, paths, transferred }
+    Restructured { scene: Arc::new(to), former, paths, gone, transferred }
 }
 
 /// New place of each former link: where an object on it is now.

@@ -569,8 +569,8 @@ diagram.toml:7:11: error: block `a`: there is no file `nowhere.csv` (files there
     (
         &[],
         "a constant value = 1; unit = 3",
-        r##"diagram.toml:7:8: error: `unit` is the number 3, expected a string
-  help: Unit of its outputs, such as `N·m`; compared where two units meet."##,
+        r##"diagram.toml:7:8: error: `unit` is the number 3, expected a string or a list of strings
+  help: Unit of its outputs, such as `N·m`, or a list of one for each component; compared where two units meet."##,
     ),
     (
         &["a -> s.u1", "b -> s.u2"],
@@ -884,7 +884,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "pid=3",
         r##"--set:1:1: error: `pid`: a scene or experiment has no `pid`
-  help: keys: `spring_damper`, `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `joint` and 36 more"##,
+  help: keys: `spring_damper`, `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `units` and 37 more"##,
     ),
     (
         "diagram.pid=3",

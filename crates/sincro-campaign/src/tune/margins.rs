@@ -79,8 +79,11 @@ fn of_sensitivity(signal: &str, sensitivity: &StateSpace) -> Option<LoopMargin> 
     let mut open = StateSpace::from_matrices(a - b * c, b.clone(), -c, 0.0 * &sensitivity.d).ok()?;
     (open.inputs, open.outputs) = (vec![axis.clone()], vec![axis]);
     let bode = open.bode(0, 0).ok()?;
-    let largest =
-        sensitivity.frequency_response(0, 0, &bode.omega).iter().map(|s| s.re.hypot(s.im)).fold(1.0, f64::max);
+    let largest = sensitivity
+        .frequency_response(0, 0, &bode.omega)
+        .iter()
+        .map(|s| sincro_math::elementary::hypot(s.re, s.im).0)
+        .fold(1.0, f64::max);
     Some(LoopMargin {
         signal: signal.to_owned(),
         gain_db: bode.gain_margin().map(|m| m.value),

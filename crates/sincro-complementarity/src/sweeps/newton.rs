@@ -19,6 +19,9 @@ use super::{Law, Sweeper, dot};
 /// ρ, in units of that of the natural map.
 const RHO: f64 = 1e4;
 
+/// Size of a matrix beyond which an island is left to its sweeps: 32 MiB, and seconds for a thousand steps.
+const MAX_NUMBERS: usize = 1 << 22;
+
 /// Working memory of a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NewtonStep {
@@ -43,10 +46,13 @@ struct LinearLaw {
 }
 
 impl NewtonStep {
-    /// Changes the forces of the `blocks` of an island with the velocities `z`, which follow them.
+    /// Changes the forces of the `blocks` of an island with the velocities `z`, which follow them; those of an island of
+    /// hundreds of bodies stay.
     #[inline(always)]
     pub fn make(&mut self, sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>) {
-        self.lay_out(sweeper, blocks.clone(), z.clone());
+        if !self.lay_out(sweeper, blocks.clone(), z.clone()) {
+            return;
+        }
         self.x.clear();
         self.x.extend(sweeper.z[z.clone()].iter().map(|z| -z));
         self.laws.clear();
@@ -81,9 +87,10 @@ impl NewtonStep {
         }
     }
 
-    /// Envelope of the matrix: a row begins with the first velocity that one of its blocks moves.
+    /// Envelope of the matrix: a row begins with the first velocity that one of its blocks moves. Returns false if it has
+    /// too many numbers.
     #[inline(always)]
-    fn lay_out(&mut self, sweeper: &Sweeper, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>) {
+    fn lay_out(&mut self, sweeper: &Sweeper, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>) -> bool {
         self.first.clear();
         self.first.extend(0..z.len());
         for block in &sweeper.blocks[blocks] {
@@ -100,11 +107,15 @@ impl NewtonStep {
             self.row.push(length);
             length += i + 1 - first;
         }
+        if length > MAX_NUMBERS {
+            return false;
+        }
         self.matrix.clear();
         self.matrix.resize(length, 0.0);
         for (i, first) in self.first.iter().enumerate() {
             self.matrix[self.row[i] + i - first] = 1.0;
         }
+        true
     }
 
     /// Adds a block to matrix and right-hand side.

@@ -45,6 +45,8 @@ pub struct Handle(pub i32);
 const MAX_BYTES: usize = 256 << 20;
 /// Lines of the log that are kept until somebody takes them.
 const MAX_LINES: usize = 1_000;
+/// Files of models that may wait to be written.
+const MAX_SAVES: usize = 16;
 
 /// Type of an object of the registry, with what its functions need to know of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -578,6 +580,21 @@ impl ObjectRegistry {
             self.stop_requests += 1;
         }
         self.requests.push(request);
+    }
+
+    /// Asks for a file of a model to be written; the last text of a name counts.
+    ///
+    /// # Errors
+    ///
+    /// Many files wait to be written.
+    pub(crate) fn ask_to_save(&mut self, name: &str, text: String) -> Result<(), ApiError> {
+        self.requests.retain(|request| !matches!(request, Request::Save(known, _) if known == name));
+        let waiting = self.requests.iter().filter(|request| matches!(request, Request::Save(..))).count();
+        if waiting >= MAX_SAVES {
+            return Err(ApiError::new("16 models wait to be written: let the simulation step in between"));
+        }
+        self.requests.push(Request::Save(name.to_owned(), text));
+        Ok(())
     }
 
     /// Takes the changes of the structure that were made since the last call.

@@ -41,6 +41,12 @@ impl ObjectRegistry {
         Ok(handle)
     }
 
+    /// Number of objects made at run time that are there and no part of the model.
+    #[must_use]
+    pub fn created_count(&self) -> usize {
+        self.n_created
+    }
+
     /// Removes a runtime object; its children pass to its parent, data stored with it are dropped. Its handle is not
     /// used again.
     ///

@@ -60,16 +60,16 @@ pub struct Transferred {
 /// use sincro_dynamics::prelude::*;
 /// use sincro_dynamics::transfer::{Origin, transfer};
 ///
-/// let ball = BodySpec { mass: Shape::Sphere { radius: 0.1 }.mass_properties(1000.0) };
+/// let ball = || BodySpec { mass: Shape::Sphere { radius: 0.1 }.mass_properties(1000.0) };
 /// let mut apart = ModelBuilder::new([0.0; 3]);
 /// let mut joined = ModelBuilder::new([0.0; 3]);
 /// for name in ["a", "b"] {
 ///     let base = apart.joint(&format!("{name}'s"), NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
-///     apart.body(name, base, Pose::identity(), ball);
+///     apart.body(name, base, Pose::identity(), ball());
 /// }
 /// let base = joined.joint("a's", NodeId::WORLD, Pose::identity(), JointSpec::new(JointKind::Free));
-/// let a = joined.body("a", base, Pose::identity(), ball);
-/// joined.body("b", a, Pose::translation(Vec3([1.0, 0.0, 0.0])), ball);
+/// let a = joined.body("a", base, Pose::identity(), ball());
+/// joined.body("b", a, Pose::translation(Vec3([1.0, 0.0, 0.0])), ball());
 /// let (apart, mut joined) = (apart.build()?.0, joined.build()?.0);
 /// let mut before = State::new(&apart);
 /// before.q[7] = 1.0; // b is at x = 1 m

@@ -198,7 +198,10 @@ fn save(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     if name.is_empty() {
         return Ok(vec![Value::Bytes(text.into_bytes())]);
     }
-    sim.registry.ask(crate::api::Request::Save(name.to_owned(), text));
+    if sim.registry.sent_folder.is_none() {
+        return Err(ApiError::new("a file needs a session with `--grant files`; without a name the text is returned"));
+    }
+    sim.registry.ask_to_save(name, text)?;
     one(1_i64)
 }
 

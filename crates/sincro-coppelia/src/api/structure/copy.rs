@@ -90,7 +90,13 @@ impl SimApi<'_> {
             name = next_name(&name);
         }
         named.insert(name.clone());
-        let below: BTreeSet<Handle> = self.registry.tree(root).into_iter().filter(|h| chosen.contains(h)).collect();
+        // those that hang on the root by chosen ones alone: a deeper one is a root of its own
+        let parent = |handle: &Handle| self.registry.entry(*handle).ok().and_then(|entry| entry.parent);
+        let is_joined = |handle: &Handle| {
+            let mut way = std::iter::successors(Some(*handle), parent).take_while(|above| *above != root);
+            way.all(|above| chosen.contains(&above))
+        };
+        let below: BTreeSet<Handle> = self.registry.tree(root).into_iter().filter(is_joined).collect();
         let mut paths = vec![self.model_path(root)?];
         for handle in below.iter().filter(|h| **h != root && self.is_of_model(**h)) {
             paths.push(self.model_path(*handle)?);

@@ -46,6 +46,9 @@ struct Rebuild {
     conserves_momentum: bool,
 }
 
+/// Changes of the structure that may wait for the lock-step; each keeps the model before it.
+const MAX_CHANGES: usize = 256;
+
 impl SimApi<'_> {
     /// A draft of the scene as it is now.
     fn draft(&self) -> Result<Rebuild, ApiError> {
@@ -61,6 +64,10 @@ impl SimApi<'_> {
     ///
     /// The scene cannot be: nothing has changed then.
     fn rebuild(&mut self, edit: Rebuild) -> Result<(), ApiError> {
+        if self.registry.restructured.len() >= MAX_CHANGES {
+            let words = "more than 256 changes of the structure in one call: let the simulation step in between";
+            return Err(ApiError::new(words));
+        }
         let Rebuild { mut draft, copies, joined, conserves_momentum } = edit;
         for (path, handle) in &joined {
             draft.set_id(path, handle.0 as usize - 1);
@@ -78,6 +85,9 @@ impl SimApi<'_> {
             // it is a runtime object no longer: its pieces are those of the scene
             self.registry.senses.forget_parts(*handle);
             self.registry.parked.remove(handle);
+            if self.registry.entry(*handle).is_ok_and(|entry| entry.is_runtime) {
+                self.registry.n_created -= 1;
+            }
             self.registry.entry_mut(*handle).is_runtime = false;
         }
         let model = self.world.model().clone();

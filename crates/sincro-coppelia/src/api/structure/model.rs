@@ -1,6 +1,6 @@
 //! Models: scene files that are loaded below an object of their own, and written.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use crate::api::registry::{Handle, Kind};
 use crate::api::{ApiError, SimApi};
@@ -77,7 +77,6 @@ impl SimApi<'_> {
         let mut roots: Vec<PathBuf> = whole(&scene).into_iter().collect();
         let above: Vec<PathBuf> =
             roots.iter().flat_map(|scene| scene.ancestors().skip(1)).map(Path::to_path_buf).collect();
-        roots.extend(above.first().cloned());
         roots.extend(above.iter().filter_map(|folder| whole(&folder.join("models"))));
         roots.extend(whole(Path::new("models")));
         roots.extend(self.registry.sent_folder.as_deref().and_then(whole));
@@ -85,20 +84,27 @@ impl SimApi<'_> {
         let last = plain.rsplit('/').next().unwrap_or(plain);
         let spelled: String = last.to_lowercase().split_whitespace().collect::<Vec<_>>().join("-");
         let under_models = plain.split_once("models/").map_or(plain, |(_, rest)| rest);
+        let stays =
+            |candidate: &str| Path::new(candidate).components().all(|part| matches!(part, Component::Normal(_)));
+        let within = |root: &Path, candidate: &str| {
+            let path = root.join(candidate);
+            let file = if path.is_dir() { path.join("scene.toml") } else { path };
+            whole(&file).filter(|file| file.is_file() && file.starts_with(root))
+        };
         for root in &roots {
-            for candidate in [&*text, plain, under_models, last, &spelled] {
-                let path = root.join(candidate);
-                let file = if path.is_dir() { path.join("scene.toml") } else { path };
-                let Some(file) = whole(&file).filter(|file| file.is_file()) else { continue };
-                if roots.iter().any(|root| file.starts_with(root)) {
-                    return Ok(file);
-                }
-                return Err(ApiError(format!(
-                    "the model `{short}` lies outside the folders of the scene and of models"
-                )));
+            let candidates = [&*text, plain, under_models, last, &spelled].into_iter().filter(|name| stays(name));
+            if let Some(file) = candidates.filter_map(|name| within(root, name)).next() {
+                return Ok(file);
             }
         }
-        let help = "give a folder or scene file inside the folder of the scene, or one of `models/`";
+        // a scene beside this one, by the name of its folder
+        let beside = above.first().into_iter().flat_map(|folder| [last, &spelled].map(|name| (folder, name)));
+        let mut beside = beside.filter(|(folder, name)| stays(name) && folder.join(name).is_dir());
+        if let Some(file) = beside.find_map(|(folder, name)| within(folder, name)) {
+            return Ok(file);
+        }
+        let help =
+            "give a folder or scene file inside the folder of the scene, a scene folder beside it, or one of `models/`";
         Err(ApiError(format!("there is no model `{short}`: {help}")))
     }
 
