@@ -35,8 +35,8 @@ pub struct Restructured {
 }
 
 impl Restructured {
-    /// Returns the path now of an object that had the path `former`; `None` if it has gone. What is no object, such as a
-    /// closure or a spring between two bodies, keeps its name.
+    /// Returns the path now of an object that had the path `former`; `None` if it has gone. What is no object, such as
+    /// a closure or a spring between two bodies, keeps its name.
     #[must_use]
     pub fn path_of(&self, former: &str) -> Option<String> {
         let now = self.paths.iter().find(|(_, old)| *old == former).map(|(new, _)| new.clone());

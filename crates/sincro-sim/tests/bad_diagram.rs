@@ -906,7 +906,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "sample_time=0.003",
         r##"--set:1:1: error: `sample_time`: a scene or experiment has no `sample_time`
-  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `campaign`, `spring_damper`, `rest_speed`, `initial_pose` and 36 more"##,
+  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `campaign`, `spring_damper`, `rest_speed`, `initial_pose` and 37 more"##,
     ),
     (
         "diagram.sample_time=0.003",

@@ -41,8 +41,8 @@ const NEXT_SWEEPS: usize = 12;
 /// Limit of Newton steps of an island; beyond it the best iterate is taken and its residual reported.
 const MAX_NEWTON_STEPS: usize = 12;
 
-/// Residual below which one Newton step must do, unless the island hardly moves: bodies that hit each other share forces
-/// that soon are others, and those at rest would creep.
+/// Residual below which one Newton step must do, unless the island hardly moves: bodies that hit each other share
+/// forces that soon are others, and those at rest would creep.
 const ROUGH_TOLERANCE: f64 = 1e-4;
 
 /// Force law of a block of rows.
@@ -173,10 +173,10 @@ struct Solved {
     values: Vec<f64>,
     index: Vec<u32>,
     islands: Vec<IslandRange>,
-    /// Of each block: law, first row, b, and the forces to start from.
+    /// Law, first row, b and the forces to start from, of each block.
     blocks: Vec<(Law, usize, [f64; 3], [f64; 3])>,
     forces: Vec<[f64; 3]>,
-    /// What its solution added to the report.
+    /// Entries that its solution added to the report.
     report: SolverReport,
 }
 
@@ -292,7 +292,7 @@ impl Sweeper {
 
     fn solve_islands(&mut self, h: f64) {
         let mut report = SolverReport::default();
-        self.make_room();
+        self.resize_buffers();
         for k in 0..self.islands.len() {
             let IslandRange { blocks, z } = self.islands[k];
             let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
@@ -306,7 +306,7 @@ impl Sweeper {
     }
 
     /// Working memory for the present problem.
-    fn make_room(&mut self) {
+    fn resize_buffers(&mut self) {
         self.z_before.clear();
         self.z_before.resize(self.z.len(), 0.0);
         self.direction_z.clear();

@@ -1,8 +1,8 @@
 //! Semismooth Newton step of an island whose sweeps converge slowly: bodies that share their load over many points.
 //!
-//! In the mode that the sweeps have brought it to, each law is linear: an open contact has no force, one that sticks has
-//! the force λ − ρ w with its rates w and a large ρ, which says w = 0 up to 1/ρ (an augmented Lagrangian), and one that
-//! slides so in its normal direction, with friction at its limit, against the sliding rate. With f the forces at the
+//! In the mode that the sweeps have brought it to, each law is linear: an open contact has no force, one that sticks
+//! has the force λ − ρ w with its rates w and a large ρ, which says w = 0 up to 1/ρ (an augmented Lagrangian), and one
+//! that slides so in its normal direction, with friction at its limit, against the sliding rate. With f the forces at the
 //! present rates, D what they lose by a growth of the rates, and λ eliminated, the whitened velocities z = Σ yᵢ λᵢ obey
 //!
 //! (1 + Σ Yᵀ D Y) Δz = Σ Yᵀ f − z,
@@ -46,8 +46,8 @@ struct LinearLaw {
 }
 
 impl NewtonStep {
-    /// Changes the forces of the `blocks` of an island with the velocities `z`, which follow them; those of an island of
-    /// hundreds of bodies stay.
+    /// Changes the forces of the `blocks` of an island with the velocities `z`, which follow them; those of an island
+    /// of hundreds of bodies stay.
     #[inline(always)]
     pub fn make(&mut self, sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>) {
         if !self.lay_out(sweeper, blocks.clone(), z.clone()) {
@@ -87,8 +87,8 @@ impl NewtonStep {
         }
     }
 
-    /// Envelope of the matrix: a row begins with the first velocity that one of its blocks moves. Returns false if it has
-    /// too many numbers.
+    /// Envelope of the matrix: a row begins with the first velocity that one of its blocks moves. Returns false if it
+    /// has too many numbers.
     #[inline(always)]
     fn lay_out(&mut self, sweeper: &Sweeper, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>) -> bool {
         self.first.clear();

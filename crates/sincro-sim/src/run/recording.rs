@@ -250,7 +250,7 @@ impl Recording {
 /// Row of the table that is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Row {
-    /// Of the start.
+    /// The first row, of the start.
     First,
     /// After a tick.
     Later,

@@ -65,7 +65,7 @@ impl UsableDistance {
         Self { least, of_least, slope }
     }
 
-    /// Of the point at `distance` `[m]`.
+    /// Usable distance of the point at `distance` `[m]`.
     fn at(self, distance: f64) -> f64 {
         self.of_least + self.slope * (distance - self.least)
     }
