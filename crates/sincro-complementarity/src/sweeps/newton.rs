@@ -3,7 +3,8 @@
 //! In the mode that the sweeps have brought it to, each law is linear: an open contact has no force, one that sticks
 //! has the force λ − ρ w with its rates w and a large ρ, which says w = 0 up to 1/ρ (an augmented Lagrangian), and one
 //! that slides so in its normal direction, with friction at its limit, against the sliding rate. With f the forces at
-//! the present rates, D what they lose by a growth of the rates, and λ eliminated, the whitened velocities z = Σ yᵢ λᵢ obey
+//! the present rates, D what they lose by a growth of the rates, and λ eliminated, the whitened velocities z = Σ yᵢ λᵢ
+//! obey
 //!
 //! (1 + Σ Yᵀ D Y) Δz = Σ Yᵀ f − z,
 //!
