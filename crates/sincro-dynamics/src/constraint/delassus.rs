@@ -29,7 +29,7 @@ pub(crate) struct InverseMass<R> {
 impl<R: Real> InverseMass<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.links.len();
-        let tree = trees(model);
+        let tree = model.trees();
         let dofs = vec![R::zero(); model.n_v()];
         Self {
             force: vec![Force::zero(); n],
@@ -128,13 +128,9 @@ pub(crate) struct Delassus<R> {
 impl<R: Real> Delassus<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.n_v();
-        let mut link_of = vec![WORLD; n];
-        for (i, link) in model.links.iter().enumerate() {
-            let k = link.v_idx as usize;
-            link_of[k..k + link.kind.n_v()].fill(i as u32);
-        }
+        let link_of = model.links_of_dofs();
         let o = R::zero();
-        let tree = trees(model);
+        let tree = model.trees();
         Self { u: vec![Force::zero(); n], inv_d: vec![o; n], inv_root: vec![o; n], link_of, tree, values: Vec::new() }
     }
 
@@ -246,15 +242,6 @@ impl<R: Real> Delassus<R> {
             *at = link.parent;
         }
     }
-}
-
-/// First link of the tree that each link belongs to.
-fn trees<R: Real>(model: &Model<R>) -> Vec<u32> {
-    let mut tree = vec![0; model.links.len()];
-    for (i, link) in model.links.iter().enumerate() {
-        tree[i] = if link.parent == WORLD { i as u32 } else { tree[link.parent as usize] };
-    }
-    tree
 }
 
 /// Sum over the degrees of freedom of the products of the factors.

@@ -145,6 +145,25 @@ impl<R: Real> Model<R> {
         &self.links
     }
 
+    /// First link of the tree that each link belongs to.
+    pub(crate) fn trees(&self) -> Vec<u32> {
+        let mut tree = vec![0; self.links.len()];
+        for (i, link) in self.links.iter().enumerate() {
+            tree[i] = if link.parent == WORLD { i as u32 } else { tree[link.parent as usize] };
+        }
+        tree
+    }
+
+    /// Link that each degree of freedom moves.
+    pub(crate) fn links_of_dofs(&self) -> Vec<u32> {
+        let mut of_dof = vec![WORLD; self.n_v()];
+        for (i, link) in self.links.iter().enumerate() {
+            let k = link.v_idx as usize;
+            of_dof[k..k + link.kind.n_v()].fill(i as u32);
+        }
+        of_dof
+    }
+
     /// Passive properties of each degree of freedom (n_v), in the order of v.
     #[must_use]
     pub fn dofs(&self) -> &[Dof<R>] {

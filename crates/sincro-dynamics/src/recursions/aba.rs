@@ -354,7 +354,7 @@ pub(crate) fn joint_inertias(model: &Model<f64>, state: &State<f64>) -> Vec<f64>
     scratch.dofs.iter().map(|d| d.d).collect()
 }
 
-/// Mechanism at rest and without forces, all of it left free but force sensors, for factors of its mass matrix.
+/// Mechanism at rest and without gravity, all of it left free but force sensors, for factors of its mass matrix.
 #[derive(Clone, Debug)]
 pub(crate) struct AtRest {
     zeros: Vec<f64>,
@@ -381,10 +381,20 @@ impl AtRest {
 
     /// Factors the mass matrix at the coordinates `q`.
     pub fn factor(&mut self, model: &Model<f64>, q: &[f64], scratch: &mut Scratch<f64>) {
+        self.accelerate(model, q, None, scratch);
+    }
+
+    /// Change M⁻¹ r of the velocities by an impulse `r` along each degree of freedom, at the coordinates `q`.
+    pub fn respond(&mut self, model: &Model<f64>, q: &[f64], r: &[f64], scratch: &mut Scratch<f64>) -> &[f64] {
+        self.accelerate(model, q, Some(r), scratch);
+        &self.v_dot
+    }
+
+    fn accelerate(&mut self, model: &Model<f64>, q: &[f64], torque: Option<&[f64]>, scratch: &mut Scratch<f64>) {
         let input = Input {
             q,
             v: &self.zeros,
-            torque: &self.zeros,
+            torque: torque.unwrap_or(&self.zeros),
             diagonal: &self.diagonal,
             prescribed: Some(Prescribed { mask: &self.mask, acceleration: &self.zeros }),
             external: None,

@@ -10,8 +10,7 @@
 //! ```
 //!
 //! so that momentum along every new degree of freedom is conserved and kinetic energy can only be lost. Source: key
-//! `featherstone2008`, section 11.7 (impulsive dynamics). Cost: bodies × degrees of freedom, and a Cholesky
-//! factorization if something was joined or parted.
+//! `featherstone2008`, section 11.7 (impulsive dynamics). Cost: bodies × degrees of freedom.
 
 mod momentum;
 mod numbers;

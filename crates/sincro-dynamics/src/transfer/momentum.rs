@@ -5,14 +5,18 @@
 //! | Δv_b, Δω_b | velocity of the centre of mass and angular velocity of body b: before, less that of the candidate v |
 //! | J_b | Jacobian of its centre of mass frame in the new model, 6 × n_v |
 //! | r | Σ J_bᵀ (I_b Δω_b, m_b Δv_b): momentum that the candidate lacks along each degree of freedom |
+//!
+//! The candidate is corrected by M⁻¹ r. What force sensors hold does not move: the base of their tree takes it.
+
+use std::collections::BTreeSet;
 
 use super::numbers::Correspondence;
 use crate::energy::energy_at;
 use crate::kinematics::{self, Attached};
-use crate::model::{MassProperties, Model};
-use crate::recursions::crba::mass_matrix;
+use crate::model::Model;
+use crate::recursions::aba::AtRest;
 use crate::scratch::Scratch;
-use crate::spatial::{Motion, Pose, Sym3, Vec3};
+use crate::spatial::{Force, Mat3, Motion, Pose, RigidInertia, Sym3, Vec3};
 use crate::state::State;
 
 /// Momentum that a candidate lacks, relative to the momenta of the bodies, that is put down to rounding.
@@ -22,7 +26,16 @@ const ROUNDING: f64 = 1e-12;
 struct Body {
     /// Frame in its centre of mass: before, and in the new model.
     frames: [Attached<f64>; 2],
-    mass: MassProperties,
+    /// About the centre of mass, in the axes of the body.
+    inertia: RigidInertia<f64>,
+}
+
+impl Body {
+    /// Momentum about the centre of mass, world axes, of a body whose axes are turned by `rot`.
+    fn momentum(&self, rot: &Mat3<f64>, v: &Motion<f64>) -> Force<f64> {
+        let own = self.inertia.mul(&Motion { ang: rot.tr_mul_vec(v.ang), lin: rot.tr_mul_vec(v.lin) });
+        Force { ang: rot.mul_vec(own.ang), lin: rot.mul_vec(own.lin) }
+    }
 }
 
 /// Bodies that both models have, each where its mass properties are known.
@@ -33,7 +46,8 @@ fn bodies(former: &Model<f64>, model: &Model<f64>, names: &Correspondence) -> Ve
         let other = &former.names().frames[old];
         let center = Pose::translation(Vec3(mass.center_of_mass));
         let at = |link: Option<usize>, pose: &Pose<f64>| Attached { link, pose: pose.compose(&center) };
-        all.push(Body { frames: [at(other.link, &other.pose), at(frame.link, &frame.pose)], mass });
+        let inertia = RigidInertia::from_center_of_mass(mass.mass, Vec3::zero(), &Sym3(mass.inertia));
+        all.push(Body { frames: [at(other.link, &other.pose), at(frame.link, &frame.pose)], inertia });
     }
     all
 }
@@ -67,42 +81,34 @@ pub(super) fn conserve(
         }
         kinematics::jacobian(model, &state.q, &body.frames[1], &mut scratch, &mut jacobian);
         let rot = kinematics::frame_pose(&scratch, &body.frames[1]).rot;
-        let turned = |w: Vec3<f64>| rot.mul_vec(inertia_times(&body.mass, rot.tr_mul_vec(w)));
-        let momentum = |v: &Motion<f64>| (turned(v.ang), v.lin.scale(body.mass.mass));
-        let ((ang, lin), (ang_old, lin_old)) =
-            (momentum(&Motion { ang: old.ang - new.ang, lin: old.lin - new.lin }), momentum(old));
+        let short = body.momentum(&rot, &Motion { ang: old.ang - new.ang, lin: old.lin - new.lin });
+        let all = body.momentum(&rot, old);
         for k in 0..n {
             let column = |row: usize| jacobian[row * n + k];
             for c in 0..3 {
-                lacking[k] += column(c) * ang[c] + column(3 + c) * lin[c];
-                scale[k] += (column(c) * ang_old[c]).abs() + (column(3 + c) * lin_old[c]).abs();
+                lacking[k] += column(c) * short.ang[c] + column(3 + c) * short.lin[c];
+                scale[k] += (column(c) * all.ang[c]).abs() + (column(3 + c) * all.lin[c]).abs();
             }
         }
     }
-    let roots = roots(model);
+    let (trees, links) = (model.trees(), model.links_of_dofs());
+    let tree_of = |k: usize| trees[links[k] as usize];
     let is_changed = |k: &usize| lacking[*k].abs() > ROUNDING * (scale[*k] + f64::MIN_POSITIVE / ROUNDING);
-    let changed: Vec<usize> = (0..n).filter(is_changed).map(|k| roots[k]).collect();
-    let dofs: Vec<usize> = (0..n).filter(|k| changed.contains(&roots[*k])).collect();
-    if dofs.is_empty() {
+    let changed: BTreeSet<u32> = (0..n).filter(is_changed).map(tree_of).collect();
+    if changed.is_empty() {
         return 0.0;
     }
+    (0..n).filter(|k| !changed.contains(&tree_of(*k))).for_each(|k| lacking[k] = 0.0);
     let kinetic = |v: &[f64]| energy_at(model, &state.q, v, &mut Scratch::new(model)).kinetic;
-    let mut mass = vec![0.0; n * n];
-    mass_matrix(model, &state.q, &mut scratch, &mut mass);
-    let rows: Vec<Vec<f64>> = dofs.iter().map(|i| dofs.iter().map(|j| mass[i * n + j]).collect()).collect();
-    let step = solve(&rows, &dofs.iter().map(|k| lacking[*k]).collect::<Vec<_>>());
-    let mut v = state.v.clone();
-    for (k, step) in dofs.iter().zip(&step) {
-        v[*k] += step;
-    }
+    let mut at_rest = AtRest::new(model);
+    let step = at_rest.respond(model, &state.q, &lacking, &mut Scratch::new(model));
+    let v: Vec<f64> = state.v.iter().zip(step).map(|(v, step)| v + step).collect();
     if !v.iter().all(|x| x.is_finite()) {
         return 0.0;
     }
     // kinetic energy of the same bodies and rotors, moving as before
     let own = |body: &Body, w: &Motion<f64>| {
-        let rot = kinematics::frame_pose(&scratch, &body.frames[1]).rot;
-        let local = rot.tr_mul_vec(w.ang);
-        0.5 * (body.mass.mass * w.lin.dot(w.lin) + local.dot(inertia_times(&body.mass, local)))
+        0.5 * w.dot(&body.momentum(&kinematics::frame_pose(&scratch, &body.frames[1]).rot, w))
     };
     let moves = |body: &Body| body.frames[1].link.is_some();
     let change: f64 = bodies
@@ -116,44 +122,41 @@ pub(super) fn conserve(
     loss
 }
 
-/// Inertia about the centre of mass, in the axes of the body, times a vector.
-fn inertia_times(mass: &MassProperties, w: Vec3<f64>) -> Vec3<f64> {
-    let inertia = Sym3(mass.inertia);
-    Vec3(std::array::from_fn(|i| (0..3).map(|j| inertia.at(i, j) * w[j]).sum()))
-}
+#[cfg(test)]
+mod tests {
+    use crate::prelude::*;
+    use crate::transfer::{Origin, transfer};
 
-/// Root link of the tree of each degree of freedom.
-fn roots(model: &Model<f64>) -> Vec<usize> {
-    let mut of_link = Vec::with_capacity(model.links().len());
-    let mut roots = vec![0; model.n_v()];
-    for (k, link) in model.links().iter().enumerate() {
-        let root = link.parent().map_or(k, |parent| of_link[parent]);
-        of_link.push(root);
-        let first = link.first_dof();
-        roots[first..first + link.kind.n_v()].fill(root);
+    /// A hand of two bodies with a force sensor between them, and a ball: apart, or the ball on the palm.
+    fn hand(holds_ball: bool) -> Model<f64> {
+        let mut builder = ModelBuilder::new([0.0; 3]);
+        let ball = |mass: f64| BodySpec { mass: Shape::Sphere { radius: 0.1 }.mass_properties(mass / 0.004) };
+        let free = JointSpec::new(JointKind::Free);
+        let base = builder.joint("base", NodeId::WORLD, Pose::identity(), free.clone());
+        let wrist = builder.body("wrist", base, Pose::identity(), ball(2.0));
+        let sensor = JointSpec { sensor: true, ..JointSpec::new(JointKind::Fixed) };
+        let sensor = builder.joint("sensor", wrist, Pose::translation(Vec3([0.2, 0.1, 0.0])), sensor);
+        let palm = builder.body("palm", sensor, Pose::identity(), ball(1.0));
+        let held = if holds_ball { palm } else { builder.joint("air", NodeId::WORLD, Pose::identity(), free) };
+        builder.body("ball", held, Pose::translation(Vec3([0.3, 0.0, 0.1])), ball(0.5));
+        builder.build().unwrap().0
     }
-    roots
-}
 
-/// Solution of a positive definite system by its Cholesky factor L: L Lᵀ x = b. Rows and columns are those of a matrix
-/// of masses, whose pivots are positive.
-fn solve(rows: &[Vec<f64>], b: &[f64]) -> Vec<f64> {
-    let n = b.len();
-    let mut l = vec![vec![0.0; n]; n];
-    for i in 0..n {
-        for j in 0..=i {
-            let sum = (0..j).fold(rows[i][j], |sum, k| sum - l[i][k] * l[j][k]);
-            l[i][j] = if i == j { sum.sqrt() } else { sum / l[j][j] };
-        }
+    #[test]
+    fn what_is_joined_behind_a_force_sensor_moves_the_base_and_not_the_sensor() {
+        let (former, mut joined) = (hand(false), hand(true));
+        let mut before = State::new(&former);
+        let n = former.n_v();
+        before.q[former.n_q() - 7..][..3].copy_from_slice(&[0.2, 0.1, 0.0]);
+        before.v[n - 6..].copy_from_slice(&[1.0, -0.5, 0.3, 0.7, 1.1, -0.4]);
+        let same = |name: &str| Some(Origin { name: name.to_owned(), is_same: true });
+        let initial = State::new(&joined);
+        let after = transfer((&former, &before), (&mut joined, initial), &same, true);
+        let sensor = joined.names().joint("sensor").unwrap();
+        assert!(sensor.n_v > 0, "the sensor has degrees of freedom that are held");
+        assert_eq!(after.state.v[sensor.v_idx..][..sensor.n_v], vec![0.0; sensor.n_v]);
+        assert!(after.momentum_change.norm() < 1e-12, "{:?}", after.momentum_change);
+        assert!(after.angular_momentum_change.norm() < 1e-12, "{:?}", after.angular_momentum_change);
+        assert!((after.joining_loss + after.energy_change).abs() < 1e-12 && after.joining_loss > 0.1);
     }
-    let mut x = b.to_vec();
-    for i in 0..n {
-        let sum = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]);
-        x[i] = sum / l[i][i];
-    }
-    for i in (0..n).rev() {
-        let sum = (i + 1..n).fold(x[i], |sum, k| sum - l[k][i] * x[k]);
-        x[i] = sum / l[i][i];
-    }
-    x
 }
