@@ -4,28 +4,11 @@ use sincro_coppelia::api::{Handle, Search, Value};
 use sincro_coppelia::session::Session;
 use sincro_sim::Extensions;
 use sincro_sim::run::Simulated;
+use sincro_testing::scenes::box_above_floor;
 use sincro_testing::{OpenSession, SceneFolder};
 
 /// Acceleration of gravity [m/s²].
 const G: f64 = 9.81;
-
-const BOX_ON_FLOOR: &str = r#"
-gravity = [0.0, 0.0, -9.81]
-[[body]]
-name = "floor"
-shape = [{ plane = {} }]
-contact = { friction = 0.5 }
-[[joint]]
-name = "box_joint"
-kind = "free"
-initial = { position = [0.0, 0.0, 0.05, 1.0, 0.0, 0.0, 0.0] }
-[[body]]
-name = "box"
-parent = "/box_joint"
-density = 1000.0
-shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
-contact = { friction = 0.5 }
-"#;
 
 const EXPERIMENT: &str = r#"
 title = "Structure"
@@ -89,7 +72,7 @@ fn spawn(session: &mut Session, height: f64) -> Vec<i64> {
 
 #[test]
 fn copies_of_a_box_fall_and_rest_on_the_floor() {
-    let mut session = open(BOX_ON_FLOOR);
+    let mut session = open(&box_above_floor(0.05));
     let copies = spawn(&mut session, 0.2);
     for (k, copy) in copies.iter().enumerate() {
         let [x, _, z] = position(&mut session, *copy);
@@ -111,7 +94,7 @@ fn normal_force(session: &mut Session) -> f64 {
 
 #[test]
 fn removed_copies_are_gone_and_the_others_stay() {
-    let mut session = open(BOX_ON_FLOOR);
+    let mut session = open(&box_above_floor(0.05));
     let copies = spawn(&mut session, 0.2);
     let gone = Value::List(copies[..2].iter().map(|h| Value::from(*h)).collect());
     call(&mut session, "sim.removeObjects", &[gone]);
@@ -135,7 +118,7 @@ fn finished(session: &mut Session) -> Simulated {
 #[test]
 fn a_changed_run_has_the_same_trace_each_time_and_another_one_without_the_change() {
     let run = |with_copies: bool| {
-        let mut session = open(BOX_ON_FLOOR);
+        let mut session = open(&box_above_floor(0.05));
         if with_copies {
             spawn(&mut session, 0.2);
         } else {
@@ -150,7 +133,7 @@ fn a_changed_run_has_the_same_trace_each_time_and_another_one_without_the_change
 
 #[test]
 fn energy_and_columns_go_on_when_the_structure_changes() {
-    let mut session = open(BOX_ON_FLOOR);
+    let mut session = open(&box_above_floor(0.05));
     let original = handle(&mut session, "/box");
     spawn(&mut session, 0.2);
     call(&mut session, "sim.removeObjects", &[Value::List(vec![original.into()])]);
@@ -231,7 +214,7 @@ fn hanging_a_moving_body_on_another_one_is_a_perfectly_inelastic_impact() {
 
 #[test]
 fn hanging_a_moving_body_on_the_floor_tells_the_momentum_that_the_floor_took() {
-    let mut session = open(&BOX_ON_FLOOR.replace("0.05, 1.0, 0.0, 0.0, 0.0]", "1.0, 1.0, 0.0, 0.0, 0.0]"));
+    let mut session = open(&box_above_floor(1.0));
     let (floor, body) = (handle(&mut session, "/floor"), handle(&mut session, "/box"));
     session.start().unwrap();
     steps(&mut session, 20);
@@ -246,7 +229,7 @@ fn hanging_a_moving_body_on_the_floor_tells_the_momentum_that_the_floor_took() {
 
 #[test]
 fn a_joint_and_a_body_that_are_made_swing_as_a_pendulum() {
-    let mut session = open(BOX_ON_FLOOR);
+    let mut session = open(&box_above_floor(0.05));
     session.start().unwrap();
     steps(&mut session, 2);
     let joint = call(&mut session, "sim.createJoint", &[10_i64.into(), 5_i64.into(), 0_i64.into()])[0].clone();
@@ -282,7 +265,7 @@ fn a_joint_and_a_body_that_are_made_swing_as_a_pendulum() {
 
 #[test]
 fn shapes_that_are_made_fall_when_they_are_made_dynamic() {
-    let mut session = open(BOX_ON_FLOOR);
+    let mut session = open(&box_above_floor(0.05));
     session.start().unwrap();
     let size = Value::reals([0.2, 0.2, 0.2]);
     let made = call(&mut session, "sim.createPrimitiveShape", &[3_i64.into(), size, 0_i64.into()])[0].clone();
@@ -405,9 +388,10 @@ inputs = ["x"]
 expressions = ["-20*x"]
 "#;
     let scene = format!(
-        "{BOX_ON_FLOOR}\n[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\naxis = [0.0, 1.0, 0.0]\nposition = [0.0, 3.0, 1.0]\n\
+        "{}\n[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\naxis = [0.0, 1.0, 0.0]\nposition = [0.0, 3.0, 1.0]\n\
          motor = {{ mode = \"torque\" }}\n[[body]]\nname = \"arm\"\nparent = \"/hinge\"\nmass = 1.0\n\
-         inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+         inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n",
+        box_above_floor(0.05)
     );
     let experiment = format!("{EXPERIMENT}diagram = \"diagram.toml\"\n");
     let folder = SceneFolder::of(&scene, &experiment).with("diagram.toml", diagram);
@@ -425,10 +409,11 @@ expressions = ["-20*x"]
 #[test]
 fn a_diagram_goes_on_measuring_what_joins_bodies_when_something_else_changes() {
     let scene = format!(
-        "{BOX_ON_FLOOR}\n[[joint]]\nname = \"slide\"\nkind = \"prismatic\"\naxis = [0.0, 0.0, 1.0]\n\
+        "{}\n[[joint]]\nname = \"slide\"\nkind = \"prismatic\"\naxis = [0.0, 0.0, 1.0]\n\
          position = [0.0, 3.0, 1.0]\nmotor = {{ mode = \"torque\" }}\n[[body]]\nname = \"mass\"\nparent = \"/slide\"\n\
          mass = 1.0\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n[[spring_damper]]\nname = \"spring\"\n\
-         between = [\"/\", \"/slide/mass\"]\npoints = [[0.0, 3.0, 0.0], [0.0, 0.0, 0.0]]\nfree_length = 1.0\nstiffness = 100.0\n"
+         between = [\"/\", \"/slide/mass\"]\npoints = [[0.0, 3.0, 0.0], [0.0, 0.0, 0.0]]\nfree_length = 1.0\nstiffness = 100.0\n",
+        box_above_floor(0.05)
     );
     let diagram = "wires = [\"/spring.force -> hold.f\", \"hold -> /slide\"]\n[[block]]\nname = \"hold\"\n\
         type = \"expression\"\ninputs = [\"f\"]\nexpressions = [\"0*f + 9.81\"]\n";
@@ -453,7 +438,7 @@ fn a_model_may_have_an_object_of_the_name_that_it_gets() {
     let text = "[[joint]]\nname = \"model\"\nkind = \"free\"\n[[body]]\nname = \"ball\"\nparent = \"/model\"\n\
         density = 1000.0\nshape = [{ sphere = { radius = 0.1 } }]\n[[frame]]\nname = \"tip\"\nparent = \"/model/ball\"\n\
         position = [0.0, 0.0, 0.1]\n[[frame]]\nname = \"beside\"\n";
-    let mut session = open(BOX_ON_FLOOR);
+    let mut session = open(&box_above_floor(0.05));
     let model = call(&mut session, "sim.loadModel", &[text.into()])[0].as_int().unwrap();
     let below = handles(&call(&mut session, "sim.getObjectsInTree", &[model.into()])[0]);
     let mut paths: Vec<String> =
@@ -464,7 +449,7 @@ fn a_model_may_have_an_object_of_the_name_that_it_gets() {
 
 #[test]
 fn spawning_and_removing_shapes_has_no_end() {
-    let mut session = open(BOX_ON_FLOOR);
+    let mut session = open(&box_above_floor(0.05));
     session.start().unwrap();
     for _ in 0..40 {
         let made = call(

@@ -486,13 +486,7 @@ impl SceneDraft {
     ///
     /// All findings about the scene; their places are in [`SceneDraft::text`].
     pub fn compile(&self, next_id: usize) -> Result<Scene, Diagnostics> {
-        let source = Arc::new(SourceText { path: self.folder.path_of("scene.toml"), text: self.text() });
-        let document = Document::parse(&source)?;
-        let found = validate(&document, scene_schema());
-        if found.any_error() {
-            return Err(found);
-        }
-        let mut scene = compile_edited(&document, &self.folder, self.seed)?;
+        let (document, mut scene) = compile_written_out(self.text(), &self.folder, self.seed)?;
         let ids: BTreeMap<String, Option<usize>> =
             self.items.iter().filter(|item| item.is_object()).map(|item| (item.path(), item.id)).collect();
         let mut next = next_id;
@@ -525,6 +519,17 @@ impl SceneDraft {
     }
 }
 
+/// Compiles a text in which everything is written out.
+fn compile_written_out(text: String, folder: &Folder, seed: u64) -> Result<(Document, Scene), Diagnostics> {
+    let document = Document::parse(&Arc::new(SourceText { path: folder.path_of("scene.toml"), text }))?;
+    let found = validate(&document, scene_schema());
+    if found.any_error() {
+        return Err(found);
+    }
+    let scene = compile_edited(&document, folder, seed)?;
+    Ok((document, scene))
+}
+
 /// Compiles a text of [`SceneDraft::text`] again, as a snapshot holds it; `source` has folder and seed, `ids` the
 /// numbers of the objects in their order, `parked` is the text of [`parked_text`].
 ///
@@ -534,13 +539,7 @@ impl SceneDraft {
 pub fn compile_text(text: &str, source: &SceneSource, ids: &[usize], parked: &str) -> Result<Scene, Diagnostics> {
     let SceneSource { folder, seed, .. } = source;
     let parked = serde_json::from_str(parked).map_err(|e| Diagnostic::without_location(e.to_string()))?;
-    let file = Arc::new(SourceText { path: folder.path_of("scene.toml"), text: text.to_owned() });
-    let document = Document::parse(&file)?;
-    let found = validate(&document, scene_schema());
-    if found.any_error() {
-        return Err(found);
-    }
-    let mut scene = compile_edited(&document, folder, *seed)?;
+    let (document, mut scene) = compile_written_out(text.to_owned(), folder, *seed)?;
     if scene.objects.len() != ids.len() {
         return Err(Diagnostic::without_location("the scene has another number of objects").into());
     }

@@ -316,7 +316,7 @@ impl DiagramController<f64> {
     /// Connects measurements and commands to the same objects of a model whose structure has changed.
     fn rewire(&mut self, change: &Restructured) -> Result<(), String> {
         let model = &change.scene.model;
-        let map = ProbeMap::new(&change.former, model, &|path| change.path_of(path));
+        let map = ProbeMap::new(&change.former, model, &|path| change.renamed.path(path));
         let gone = |name: &str| format!("the diagram measures `{name}`, which has gone");
         let mut wiring = (*self.wiring).clone();
         for reading in wiring.early.iter_mut().chain(&mut wiring.late) {

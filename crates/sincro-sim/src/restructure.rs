@@ -10,7 +10,7 @@
 //! to the lock-step ([`Controller::take_restructured`](crate::controller::Controller::take_restructured)), which tells
 //! the others. Recorded columns are those of the start: signals of objects that have gone are NaN.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sincro_dynamics::kinematics::Attached;
@@ -26,22 +26,10 @@ pub struct Restructured {
     pub scene: Arc<Scene>,
     /// Model before the change.
     pub former: Model<f64>,
-    /// Former path of each object that is still there, by its path now.
-    pub paths: BTreeMap<String, String>,
-    /// Former paths of the objects that have gone.
-    pub gone: BTreeSet<String>,
+    /// Paths of the former objects now.
+    pub renamed: Renamed,
     /// State and what it was made of.
     pub transferred: Transferred,
-}
-
-impl Restructured {
-    /// Returns the path now of an object that had the path `former`; `None` if it has gone. What is no object, such as
-    /// a closure or a spring between two bodies, keeps its name.
-    #[must_use]
-    pub fn path_of(&self, former: &str) -> Option<String> {
-        let now = self.paths.iter().find(|(_, old)| *old == former).map(|(new, _)| new.clone());
-        now.or_else(|| (!self.gone.contains(former)).then(|| former.to_owned()))
-    }
 }
 
 /// Edit of a structure: from which scene to which.
@@ -85,20 +73,14 @@ pub struct Edit<'a> {
 pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restructured {
     let Edit { from, copies, conserves_momentum } = *edit;
     let old_path: BTreeMap<usize, &str> = from.objects.iter().map(|o| (o.id, o.path.as_str())).collect();
-    let (mut origins, mut paths) = (BTreeMap::new(), BTreeMap::new());
+    let mut origins = BTreeMap::new();
     for object in &to.objects {
         let same = old_path.get(&object.id).map(|path| (*path, true));
         let copied = || copies.get(&object.id).and_then(|id| old_path.get(id)).map(|path| (*path, false));
         if let Some((path, is_same)) = same.or_else(copied) {
             origins.insert(object.path.clone(), Origin { name: path.to_owned(), is_same });
-            if is_same {
-                paths.insert(object.path.clone(), path.to_owned());
-            }
         }
     }
-    let still: BTreeSet<&str> = paths.values().map(String::as_str).collect();
-    let gone = from.objects.iter().filter(|object| !still.contains(&*object.path));
-    let gone = gone.map(|object| object.path.clone()).collect();
     // what joins objects is no object: it is known by its name
     let is_object = |name: &str| to.objects.iter().any(|object| object.path == name);
     let origin = |name: &str| match origins.get(name) {
@@ -109,10 +91,10 @@ pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restruc
     let initial = to.initial.clone();
     let former = world.model().clone();
     let transferred = transfer((&former, &world.state), (&mut model, initial), &origin, conserves_momentum);
-    let links = links_of(from, &to);
+    let (links, renamed) = (links_of(from, &to), Renamed::new(from, &to));
     *world = world.continued(model, transferred.state.clone(), &|link| links.get(&link).copied());
     to.initial = transferred.state.clone();
-    Restructured { scene: Arc::new(to), former, paths, gone, transferred }
+    Restructured { scene: Arc::new(to), former, renamed, transferred }
 }
 
 /// New place of each former link: where an object on it is now.
@@ -128,26 +110,26 @@ fn links_of(from: &Scene, to: &Scene) -> BTreeMap<usize, Attached<f64>> {
     links
 }
 
-/// Paths now of the objects of the scene at the start, as recorded signals name them.
+/// Paths now of the objects of an earlier scene.
 #[derive(Clone, Debug)]
 pub struct Renamed {
-    /// Path now of each path at the start; `None` for what has gone.
+    /// Path now of each earlier path; `None` for what has gone.
     paths: BTreeMap<String, Option<String>>,
 }
 
 impl Renamed {
-    /// Compares the objects of the scene at the start with those now.
+    /// Compares the objects of an earlier scene with those now.
     #[must_use]
-    pub fn new(start: &Scene, now: &Scene) -> Self {
+    pub fn new(earlier: &Scene, now: &Scene) -> Self {
         let present: BTreeMap<usize, &str> = now.objects.iter().map(|o| (o.id, o.path.as_str())).collect();
         let path = |id: &usize| present.get(id).map(|path| (*path).to_owned());
-        Self { paths: start.objects.iter().map(|o| (o.path.clone(), path(&o.id))).collect() }
+        Self { paths: earlier.objects.iter().map(|o| (o.path.clone(), path(&o.id))).collect() }
     }
 
-    /// Returns the path now of an object that had the path `start` at the start; a path that was none of an object is
-    /// as it was.
+    /// Returns the path now of an object that had the path `earlier`; `None` if it has gone. What is no object, such as
+    /// a closure or a spring between two bodies, keeps its name.
     #[must_use]
-    pub fn path(&self, start: &str) -> Option<String> {
-        self.paths.get(start).cloned().unwrap_or_else(|| Some(start.to_owned()))
+    pub fn path(&self, earlier: &str) -> Option<String> {
+        self.paths.get(earlier).cloned().unwrap_or_else(|| Some(earlier.to_owned()))
     }
 }

@@ -4,49 +4,21 @@ use std::collections::BTreeMap;
 
 use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_scene::draft::SceneDraft;
+use sincro_scene::record::Recorder;
 use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptError;
 use sincro_sim::controller::{Controller, Forked, Instant};
 use sincro_sim::prelude::*;
 use sincro_sim::restructure::{Edit, Restructured, restructure};
+use sincro_sim::run::Followed;
 use sincro_testing::SceneFolder;
-
-const SCENE: &str = r#"
-gravity = [0.0, 0.0, -9.81]
-[[body]]
-name = "floor"
-shape = [{ plane = {} }]
-contact = { friction = 0.5 }
-[[joint]]
-name = "hinge"
-kind = "revolute"
-axis = [0.0, 1.0, 0.0]
-position = [0.0, 2.0, 3.0]
-motor = { mode = "torque" }
-initial = { position = 0.5 }
-[[body]]
-name = "arm"
-parent = "/hinge"
-mass = 1.0
-center_of_mass = [0.0, 0.0, -0.5]
-inertia = { xx = 0.1, yy = 0.1, zz = 0.01 }
-[[joint]]
-name = "loose"
-kind = "free"
-initial = { position = [0.0, 0.0, 0.3, 1.0, 0.0, 0.0, 0.0] }
-[[body]]
-name = "box"
-parent = "/loose"
-density = 1000.0
-shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
-contact = { friction = 0.5 }
-"#;
+use sincro_testing::scenes::{MOTOR_PENDULUM, box_above_floor};
 
 const EXPERIMENT: &str = r#"
 title = "Restructured"
 duration = 1.0
 step = 0.005
-record = ["/hinge.position", "/loose/box.position.z"]
+record = ["/hinge.position", "/box_joint/box.position.z"]
 error_bar = "none"
 diagram = "diagram.toml"
 "#;
@@ -62,7 +34,10 @@ expressions = ["-20*x - 4*v"]
 "#;
 
 fn loaded() -> Loaded {
-    SceneFolder::of(SCENE, EXPERIMENT).with("diagram.toml", DIAGRAM).load(&[]).unwrap()
+    SceneFolder::of(&format!("{MOTOR_PENDULUM}{}", box_above_floor(0.3)), EXPERIMENT)
+        .with("diagram.toml", DIAGRAM)
+        .load(&[])
+        .unwrap()
 }
 
 /// Copies the box at tick 20, and removes the first one at tick 60.
@@ -70,6 +45,8 @@ fn loaded() -> Loaded {
 struct Spawner {
     scene: Option<std::sync::Arc<Scene>>,
     made: Vec<Restructured>,
+    /// Where the copy is put [m].
+    place: [f64; 3],
 }
 
 impl Controller for Spawner {
@@ -84,13 +61,13 @@ impl Controller for Spawner {
         match at.tick {
             20 => {
                 // before the hinge in the order of the file or not: the model's order is another one
-                draft.copy("/loose", "copy", "/", &Pose::translation(Vec3([0.5, 0.0, 0.0])));
+                draft.copy("/box_joint", "copy", "/", &Pose::translation(Vec3(self.place)));
             }
-            60 => draft.remove(&["/loose", "/loose/box"].map(str::to_owned).into()),
+            60 => draft.remove(&["/box_joint", "/box_joint/box"].map(str::to_owned).into()),
             _ => return Ok(()),
         }
         let to = draft.compile(100).unwrap();
-        for (new, old) in [("/copy", "/loose"), ("/copy/box", "/loose/box")] {
+        for (new, old) in [("/copy", "/box_joint"), ("/copy/box", "/box_joint/box")] {
             if let (Some(new), Some(old)) = (to.object(new), scene.object(old)) {
                 copies.insert(new.id, old.id);
             }
@@ -117,8 +94,12 @@ impl Controller for Spawner {
 }
 
 fn lockstep(loaded: &Loaded) -> LockStep {
+    lockstep_with_copy_at(loaded, [0.5, 0.0, 0.0])
+}
+
+fn lockstep_with_copy_at(loaded: &Loaded, place: [f64; 3]) -> LockStep {
     let mut lockstep = LockStep::new(loaded, method_for(loaded).0, false);
-    lockstep.attach(Box::new(Spawner { scene: Some(loaded.scene.clone()), made: Vec::new() }));
+    lockstep.attach(Box::new(Spawner { scene: Some(loaded.scene.clone()), made: Vec::new(), place }));
     lockstep.start().unwrap();
     lockstep
 }
@@ -172,6 +153,28 @@ fn a_snapshot_after_a_change_continues_with_the_same_bits() {
         advance(&mut other, &mut back, 160);
         assert_eq!(trace, back, "back from tick 160 to 10");
     }
+}
+
+#[test]
+fn a_recorder_follows_from_one_structure_to_another_with_as_many_changes() {
+    let loaded = loaded();
+    let at_30 = |place| {
+        let mut run = lockstep_with_copy_at(&loaded, place);
+        let mut trace = run.trace();
+        advance(&mut run, &mut trace, 30);
+        let snapshot = run.snapshot(trace);
+        (run, snapshot)
+    };
+    let ((mut run, here), (_, there)) = (at_30([0.5, 0.0, 0.0]), at_30([0.5, 0.0, 0.4]));
+    let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &[]).unwrap();
+    let mut known = Followed::default();
+    assert!(run.bring_up(&mut recorder, &mut known) && !run.bring_up(&mut recorder, &mut known));
+    let energy = known.energy;
+    run.restore(&there);
+    assert!(run.bring_up(&mut recorder, &mut known), "one change here and one there");
+    assert!((known.energy - energy - 0.4 * 9.81).abs() < 1e-9, "a box of 1 kg, 0.4 m higher");
+    run.restore(&here);
+    assert!(run.bring_up(&mut recorder, &mut known) && (known.energy - energy).abs() < 1e-12);
 }
 
 #[test]

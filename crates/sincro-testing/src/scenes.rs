@@ -165,6 +165,31 @@ pub fn two_link_arm(more: &str) -> SceneFolder {
     SceneFolder::of(TWO_LINK_ARM, &format!("{more}{TWO_LINK_ARM_EXPERIMENT}"))
 }
 
+/// A box of 1 kg with edges of 0.1 m, free, whose centre is `height` `[m]` above a rough floor: at 0.05 it lies there.
+#[must_use]
+pub fn box_above_floor(height: f64) -> String {
+    format!(
+        r#"
+[[body]]
+name = "floor"
+shape = [{{ plane = {{}} }}]
+contact = {{ friction = 0.5 }}
+
+[[joint]]
+name = "box_joint"
+kind = "free"
+initial = {{ position = [0.0, 0.0, {height}, 1.0, 0.0, 0.0, 0.0] }}
+
+[[body]]
+name = "box"
+parent = "/box_joint"
+density = 1000.0
+shape = [{{ cuboid = {{ size = [0.1, 0.1, 0.1] }} }}]
+contact = {{ friction = 0.5 }}
+"#
+    )
+}
+
 /// A pendulum on a motor that takes torques, with a tip.
 pub const MOTOR_PENDULUM: &str = r#"
 [[joint]]

@@ -416,14 +416,14 @@ impl Sweeper {
     /// Natural map of a block's law at its present force and rates.
     #[inline(always)]
     fn natural_map(&self, k: usize, u: [f64; 3]) -> f64 {
-        distance(&self.blocks[k].lambda, &self.projected(k, u, 1.0).0)
+        distance(&self.blocks[k].lambda, &self.projected(k, u).0)
     }
 
-    /// P(λ − ρ (u + μ‖u_t‖ n)) of a block for `factor` times the ρ of the natural map, and the derivative of P.
+    /// P(λ − ρ (u + μ‖u_t‖ n)) of a block, and the derivative of P.
     #[inline(always)]
-    fn projected(&self, k: usize, u: [f64; 3], factor: f64) -> ([f64; 3], [f64; 6]) {
+    fn projected(&self, k: usize, u: [f64; 3]) -> ([f64; 3], [f64; 6]) {
         let block = &self.blocks[k];
-        let rho = factor * block.step_length();
+        let rho = block.step_length();
         let shift = match block.law {
             Law::Coulomb { friction } => friction * (u[1] * u[1] + u[2] * u[2]).sqrt(),
             _ => 0.0,
@@ -497,6 +497,7 @@ impl Task for Island<'_> {
             if swept.residual >= best {
                 // the step was none
                 self.restore();
+                self.find_velocities();
                 swept = self.sweep(2 * next_sweeps);
                 sweeps += swept.sweeps;
             }
@@ -534,14 +535,13 @@ impl Island<'_> {
         best.extend(blocks[self.blocks.clone()].iter().map(|block| block.lambda));
     }
 
-    /// Returns to the best forces.
+    /// Returns to the best forces; velocities stay.
     #[inline(always)]
     fn restore(&mut self) {
         let Sweeper { best, blocks, .. } = &mut *self.sweeper;
         for (block, best) in blocks[self.blocks.clone()].iter_mut().zip(best) {
             block.lambda = *best;
         }
-        self.find_velocities();
     }
 
     /// Makes up to `most` sweeps, fewer if they suffice.

@@ -184,7 +184,7 @@ impl LinearLaw {
     fn of(sweeper: &Sweeper, k: usize, u: [f64; 3]) -> Self {
         let block = &sweeper.blocks[k];
         let rho = RHO * block.step_length();
-        let (force, slope) = sweeper.projected(k, u, 1.0);
+        let (force, slope) = sweeper.projected(k, u);
         let held: [f64; 3] = core::array::from_fn(|c| block.lambda[c] - rho * u[c]);
         if slope == [0.0; 6] {
             return Self { force, slope, friction: 0.0 };

@@ -3,27 +3,10 @@
 use sincro_coppelia::api::{Search, Value};
 use sincro_sim::Extensions;
 use sincro_sim::prelude::*;
+use sincro_testing::scenes::box_above_floor;
 use sincro_testing::{OpenSession, SceneFolder};
 
 use super::world::{open, run};
-
-const SCENE: &str = r#"
-gravity = [0.0, 0.0, -9.81]
-[[body]]
-name = "floor"
-shape = [{ plane = {} }]
-contact = { friction = 0.5 }
-[[joint]]
-name = "box_joint"
-kind = "free"
-initial = { position = [0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0] }
-[[body]]
-name = "box"
-parent = "/box_joint"
-density = 1000.0
-shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
-contact = { friction = 0.5 }
-"#;
 
 const EXPERIMENT: &str = r#"
 title = "Structure"
@@ -48,7 +31,7 @@ function sysCall_actuation()
 end";
 
 fn scripted() -> Loaded {
-    let scene = format!("{SCENE}\n[[script]]\nobject = \"/floor\"\nfile = \"a.lua\"\n");
+    let scene = format!("{}\n[[script]]\nobject = \"/floor\"\nfile = \"a.lua\"\n", box_above_floor(0.1));
     open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", SPAWNER)]).unwrap()
 }
 
@@ -56,7 +39,8 @@ fn scripted() -> Loaded {
 fn a_script_and_a_client_that_change_the_structure_give_the_same_trace() {
     let of_script = run(&scripted());
     assert_eq!(of_script.status, Status::Completed);
-    let mut session = OpenSession::open(SceneFolder::of(SCENE, EXPERIMENT), &[], Extensions::default(), None);
+    let mut session =
+        OpenSession::open(SceneFolder::of(&box_above_floor(0.1), EXPERIMENT), &[], Extensions::default(), None);
     session.start().unwrap();
     let find = |session: &mut OpenSession, path: &str| -> Value {
         i64::from(session.registry().find(path, Search::default()).unwrap().0).into()

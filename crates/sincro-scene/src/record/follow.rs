@@ -14,6 +14,11 @@ pub fn present_name(name: &str, path_of: &dyn Fn(&str) -> Option<String>) -> Opt
     path_of(path).map(|path| format!("{path}.{quantity}"))
 }
 
+/// Probes of a model by the names of their signals.
+fn probes(model: &Model<f64>) -> BTreeMap<String, Probe> {
+    catalogue(model).into_iter().map(|entry| (entry.name, entry.probe)).collect()
+}
+
 /// Finds the probes of one model in another one.
 #[derive(Clone, Debug)]
 pub struct ProbeMap {
@@ -31,8 +36,7 @@ impl ProbeMap {
         let former = catalogue(former);
         let path = |entry: &Entry| entry.name.split_once('.').map_or("", |(path, _)| path).to_owned();
         let paths = former.iter().map(path).map(|path| (path.clone(), path_of(&path))).collect();
-        let now = catalogue(model).into_iter().map(|entry| (entry.name, entry.probe)).collect();
-        Self { former, now, paths }
+        Self { former, now: probes(model), paths }
     }
 
     /// Returns the probe of the same signal in the other model, or the name of the signal, if there is none.
@@ -53,11 +57,9 @@ impl ProbeMap {
 impl Recorder {
     /// Goes on with the signals of a model whose structure has changed; the columns stay. `path_of` gives the path now
     /// of an object by its path at the start. Signals of what has gone are NaN from now on. `energy_added` is the
-    /// energy
-    /// `[J]` that the change has brought in: the balance leaves it out.
+    /// energy that the change has brought in `[J]`: the balance leaves it out.
     pub fn follow(&mut self, model: &Model<f64>, path_of: &dyn Fn(&str) -> Option<String>, energy_added: f64) {
-        let now: BTreeMap<String, Probe> =
-            catalogue(model).into_iter().map(|entry| (entry.name, entry.probe)).collect();
+        let now = probes(model);
         let mut impulse = vec![0.0; model.motors().len()];
         for (entry, bound) in self.entries.iter().zip(&mut self.bound) {
             let before = *bound;

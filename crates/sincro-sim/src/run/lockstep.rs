@@ -83,8 +83,9 @@ pub struct Fork {
 /// Changes of the structure that a recorder has followed, for [`LockStep::bring_up`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Followed {
-    count: u64,
-    /// Energy that they have added `[J]`.
+    /// Hash of the structure; 0 for that of the start.
+    hash: u64,
+    /// Energy that the changes have added `[J]`.
     pub energy: f64,
 }
 
@@ -447,14 +448,14 @@ impl LockStep {
     /// Lets a recorder of the scene at the start go on with the present structure; `known` is what it has followed so
     /// far. To be called before each row. Returns true if the structure has changed since.
     pub fn bring_up(&self, recorder: &mut Recorder, known: &mut Followed) -> bool {
-        let (count, energy) = self.structure.as_ref().map_or((0, 0.0), |s| (s.count, s.energy_added));
-        if count == known.count {
+        let (hash, energy) = self.structure.as_ref().map_or((0, 0.0), |s| (s.hash, s.energy_added));
+        if hash == known.hash {
             return false;
         }
         let scene = self.scene();
         let renamed = Renamed::new(&self.scene, scene);
         recorder.follow(&scene.model, &|path| renamed.path(path), energy - known.energy);
-        *known = Followed { count, energy };
+        *known = Followed { hash, energy };
         true
     }
 
