@@ -140,7 +140,7 @@ impl Recording {
             seen.energy().total() - seen.state.totals[0] + seen.state.totals[1]
         };
         let added = stored(after) - stored(before);
-        self.ledger.start.0 += added;
+        self.ledger.added += added;
     }
 
     /// Goes on with the structure of the lock-step, if it has changed: columns stay, signals of what has gone are NaN.
@@ -154,7 +154,7 @@ impl Recording {
         let of_known = Renamed::new(known, &scene);
         self.audit.restructured(&known.model);
         self.validity.restructured(&known.model, &scene.model, &|path| of_known.path(path));
-        self.ledger.start.0 += self.followed.energy - before;
+        self.ledger.added += self.followed.energy - before;
         self.frame_map = self.trajectory.as_ref().map(|t| FrameMap::new(&t.layout, start, &scene));
         self.scenes[1] = scene;
     }
@@ -322,7 +322,10 @@ fn about_constraints(world: &World) -> Vec<String> {
 
 /// Follows the balance of energy.
 struct Ledger {
+    /// Kinetic and potential energy at the start.
     start: (f64, f64),
+    /// Energy that changes of state and structure from outside have brought in since.
+    added: f64,
     worst: f64,
     last: (f64, f64),
     /// Balance of each row.
@@ -336,12 +339,12 @@ impl Ledger {
     fn start(world: &mut World, rows: usize) -> Self {
         let e = world.observe(0.0).energy();
         let (start, balances) = ((e.kinetic, e.potential), Vec::with_capacity(rows));
-        Self { start, worst: 0.0, last: start, balances, scale: 0.0 }
+        Self { start, added: 0.0, worst: 0.0, last: start, balances, scale: 0.0 }
     }
 
     fn update(&mut self, seen: &Observation<'_>) {
         let (e, totals) = (seen.energy(), &seen.state.totals);
-        let balance = e.total() - (self.start.0 + self.start.1) - totals[0] + totals[1];
+        let balance = e.total() - (self.start.0 + self.start.1) - self.added - totals[0] + totals[1];
         self.worst = self.worst.max(balance.abs());
         self.balances.push(balance);
         let energies = [e.kinetic, e.potential, totals[0], totals[1]];
