@@ -45,7 +45,7 @@ fn loaded() -> Loaded {
 struct Spawner {
     scene: Option<std::sync::Arc<Scene>>,
     made: Vec<Restructured>,
-    /// Where the copy is put [m].
+    /// Position of the copy [m].
     place: [f64; 3],
 }
 
