@@ -1,14 +1,12 @@
 //! The V-REP/CoppeliaSim API as a controller: the object registry that clients and scripts act on, and the scripts
 //! themselves.
 
-use std::sync::Arc;
-
 use sincro_dynamics::world::World;
 
 use crate::api::{self, ApiError, Handle, ObjectRegistry, Request, SimApi, Value};
 use crate::host::{Host, Phase, Scripts, Setting};
 use sincro_scene::scenery::Piece;
-use sincro_scene::script::{Kind, Script, ScriptError};
+use sincro_scene::script::{Kind, ScriptError};
 use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
@@ -33,12 +31,11 @@ impl ApiController {
         Self { registry: Some(Box::new(registry)), scripts: None }
     }
 
-    /// Creates a controller for the scripts of a scene, with a registry of its own. `start` makes their host from the
-    /// scripts, in the order in which they are called (descendants before ancestors), and the settings.
-    pub fn with_scripts(loaded: &Loaded, start: impl FnOnce(&Arc<[Script]>, Setting) -> Box<dyn Host>) -> Self {
+    /// Creates a controller for the scripts of a scene, with a registry of its own. `start` makes their host.
+    pub fn with_scripts(loaded: &Loaded, start: impl FnOnce(Setting) -> Box<dyn Host>) -> Self {
         let ticks = loaded.experiment.simulation_ticks;
         let setting = Setting { step: loaded.experiment.step * ticks as f64, seed: loaded.experiment.seed };
-        let scripts = Scripts::of(&loaded.scene, setting, start);
+        let scripts = Scripts::new(start(setting));
         let mut registry = ObjectRegistry::new(loaded, ticks);
         registry.phase = api::Phase::Running;
         Self { registry: Some(Box::new(registry)), scripts: Some(scripts) }
@@ -132,6 +129,12 @@ impl ApiController {
         self.scripts.as_ref().is_some_and(Scripts::is_started)
     }
 
+    /// True if the scene has scripts and these can be run.
+    fn runs_scripts(&self) -> bool {
+        let has_some = |registry: &ObjectRegistry| !registry.scene().scripts.is_empty();
+        self.scripts.is_some() && self.registry.as_deref().is_none_or(has_some)
+    }
+
     /// True if a step of clients and scripts begins at a tick.
     fn is_due(&self, tick: u64) -> bool {
         self.registry.as_ref().is_some_and(|registry| registry.is_due(tick))
@@ -146,7 +149,7 @@ impl ApiController {
 
 impl Controller for ApiController {
     fn name(&self) -> &str {
-        if self.scripts.is_some() { "scripts" } else { "clients" }
+        if self.runs_scripts() { "scripts" } else { "clients" }
     }
 
     fn start(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
@@ -206,7 +209,7 @@ impl Controller for ApiController {
     /// The registry alone: memory of scripts cannot be copied.
     fn fork(&self) -> Forked {
         let copy = Box::new(Self { registry: self.registry.clone(), scripts: None });
-        if self.scripts.is_some() { Forked::Part(copy, "scripts".to_owned()) } else { Forked::Whole(copy) }
+        if self.runs_scripts() { Forked::Part(copy, "scripts".to_owned()) } else { Forked::Whole(copy) }
     }
 
     fn pieces(&self) -> &[Piece] {

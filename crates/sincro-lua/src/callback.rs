@@ -4,7 +4,7 @@ use mlua::{Error, Function, Lua, MultiValue, Table, Value};
 use sincro_coppelia::api::{ApiError, SimApi};
 use sincro_dynamics::joint::JointKind;
 
-use crate::shared::{Shared, handle_of};
+use crate::shared::Shared;
 
 /// Arguments of the callback of a joint.
 struct Seen {
@@ -49,7 +49,7 @@ pub(crate) fn joint(
     function: &Function,
     (step, is_first): (f64, bool),
 ) -> mlua::Result<()> {
-    let own = handle_of(&shared.scripts[index]);
+    let own = shared.object(index);
     let told = |ApiError(message): ApiError| Error::RuntimeError(format!("{message} (in function 'sysCall_joint')"));
     let seen = shared.with_sim(own, look).map_err(told)?;
     let answer: MultiValue = function.call(table_of(lua, &seen, step, is_first)?)?;

@@ -4,7 +4,7 @@
 use mlua::{Error, Function, Lua, Table, Value};
 use sincro_coppelia::api::{ContactOverride, Handle};
 
-use crate::shared::{Shared, handle_of};
+use crate::shared::Shared;
 
 /// Physics engine that scripts are given: the number that `sim.getInt32Param(8)` gives.
 const ENGINE: i64 = 4;
@@ -29,7 +29,7 @@ pub(crate) fn ask(
     let passes = is_set(&given, "collisionResponse")? == Some(false);
     let (friction, restitution) = coefficients(&given)?;
     let answer = ContactOverride { passes, friction, restitution };
-    let own = handle_of(&shared.scripts[index]);
+    let own = shared.object(index);
     shared.with_sim(own, |sim| sim.override_contact(bodies, answer)).map_err(|error| wrong(error.0))?;
     Ok(true)
 }

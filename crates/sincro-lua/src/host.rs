@@ -1,13 +1,15 @@
 //! The scripts of a run: made at the first call, called in V-REP's order.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use sincro_coppelia::api::{ApiError, Handle, Value};
 use sincro_coppelia::api_controller::ApiController;
-use sincro_coppelia::host::{Call, Host, Phase};
+use sincro_coppelia::host::{Call, Host, Phase, in_order};
 use sincro_dynamics::model::ModelBuilder;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
+use sincro_scene::scene::Scene;
 use sincro_scene::script::{Kind, Script, ScriptError, ScriptParser, ScriptedLaw, ScriptedLawSpec};
 use sincro_sim::Loaded;
 use sincro_sim::ScriptEngine;
@@ -17,8 +19,8 @@ use sincro_sim::controller::Message;
 use crate::guard::Guard;
 use crate::law::LuaLaw;
 use crate::machine::{self, Machine};
-use crate::shared::Shared;
-use crate::{api, fault, sandbox};
+use crate::shared::{Shared, handle_of};
+use crate::{fault, sandbox};
 
 /// Limit on how often one step may be held back; the simulation time does not advance meanwhile.
 const MAX_HELD: u32 = 1_000;
@@ -41,9 +43,9 @@ impl ScriptParser for Lua54 {
 
 impl ScriptEngine for Lua54 {
     fn controller(&self, loaded: &Loaded) -> Box<dyn Controller> {
-        Box::new(ApiController::with_scripts(loaded, |scripts, setting| {
-            let shared = Arc::new(Shared::new(scripts.clone(), setting, nothing()));
-            Box::new(Scripts { shared, machines: Vec::new(), holder: 0 })
+        Box::new(ApiController::with_scripts(loaded, |setting| {
+            let shared = Arc::new(Shared::new(setting, nothing()));
+            Box::new(Scripts { shared, machines: Vec::new(), scene: None, holder: 0 })
         }))
     }
 }
@@ -58,7 +60,10 @@ fn nothing() -> World {
 #[derive(Debug)]
 struct Scripts {
     shared: Arc<Shared>,
+    /// Machines of the scripts that have not ended, in the order of calls.
     machines: Vec<Machine>,
+    /// Scene that they belong to.
+    scene: Option<Arc<Scene>>,
     /// The last one that has held back a step.
     holder: usize,
 }
@@ -78,10 +83,9 @@ impl Host for Scripts {
         function: &str,
         arguments: &[Value],
     ) -> Result<Vec<Value>, ApiError> {
-        let place = api::script_on(&self.shared.scripts, object, kind).filter(|k| *k < self.machines.len());
-        let place = place.ok_or_else(|| ApiError::new("there is no script on that object"))?;
+        let k = self.machine_on(object, kind)?;
         self.lend(&mut call);
-        let done = self.machines[place].call_function(function, arguments);
+        let done = self.machines[k].call_function(function, arguments);
         self.machines.iter().for_each(Machine::resume_script);
         self.lend(&mut call);
         done
@@ -93,10 +97,9 @@ impl Host for Scripts {
         (object, kind): (Handle, Option<Kind>),
         text: &str,
     ) -> Result<Vec<Value>, ApiError> {
-        let place = api::script_on(&self.shared.scripts, object, kind).filter(|k| *k < self.machines.len());
-        let place = place.ok_or_else(|| ApiError::new("there is no script on that object"))?;
+        let k = self.machine_on(object, kind)?;
         self.lend(&mut call);
-        let done = self.machines[place].evaluate(text);
+        let done = self.machines[k].evaluate(text);
         self.machines.iter().for_each(Machine::resume_script);
         self.lend(&mut call);
         done
@@ -118,24 +121,39 @@ impl Scripts {
 
     fn run(&mut self, phase: Phase) -> Result<(), ScriptError> {
         let step = self.shared.setting.step;
-        if self.machines.is_empty() {
-            self.make()?;
+        let new = self.follow_scene()?;
+        if phase != Phase::Initialization {
+            // those that are started while the simulation runs
+            let is_new = |m: &&mut Machine| new.contains(&m.place());
+            self.machines.iter_mut().filter(is_new).try_for_each(|m| m.call(Phase::Initialization))?;
         }
+        let n = self.machines.len();
         self.machines.iter().for_each(Machine::refill);
         if phase == Phase::Actuation {
             self.wait_for_main()?;
-            self.machines.iter_mut().try_for_each(Machine::resume)?;
+            (0..n).try_for_each(|k| self.with_machine(k, Machine::resume))?;
         }
         if phase == Phase::Sensing {
-            self.machines.iter_mut().try_for_each(|m| m.call_dynamics(step, true))?;
+            (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_dynamics(step, true)))?;
         }
-        self.machines.iter_mut().try_for_each(|m| m.call(phase))?;
+        (0..n).try_for_each(|k| self.with_machine(k, |m| m.call(phase)))?;
         if phase == Phase::Actuation {
-            self.machines.iter_mut().try_for_each(|m| m.call_dynamics(step, false))?;
-            self.machines.iter_mut().try_for_each(|m| m.call_joint(step))?;
+            (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_dynamics(step, false)))?;
+            (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_joint(step)))?;
             self.decide_contacts()?;
         }
         Ok(())
+    }
+
+    /// Calls a script, unless another one has removed its object in this phase.
+    fn with_machine(
+        &mut self,
+        k: usize,
+        call: impl FnOnce(&mut Machine) -> Result<(), ScriptError>,
+    ) -> Result<(), ScriptError> {
+        let machine = &mut self.machines[k];
+        let own = self.shared.script(machine.place());
+        if self.shared.is_present(&own, self.scene.as_ref()) { call(machine) } else { Ok(()) }
     }
 
     /// Calls `sysCall_beforeMainScript` again and again while a script holds the step back.
@@ -158,7 +176,7 @@ impl Scripts {
     /// leave it to others decides.
     fn decide_contacts(&mut self) -> Result<(), ScriptError> {
         let Some(first) = self.machines.iter().position(Machine::has_contact) else { return Ok(()) };
-        let own = crate::shared::handle_of(&self.shared.scripts[first]);
+        let own = self.shared.object(self.machines[first].place());
         // a table is there while scripts are called
         let near = self.shared.with_sim(own, |sim| Ok(sim.candidate_pairs())).unwrap_or_default();
         for bodies in near {
@@ -171,12 +189,53 @@ impl Scripts {
         Ok(())
     }
 
-    fn make(&mut self) -> Result<(), ScriptError> {
-        for index in 0..self.shared.scripts.len() {
-            self.machines.push(Machine::new(&self.shared, index)?);
+    /// Machine of the script on an object.
+    fn machine_on(&self, object: Handle, kind: Option<Kind>) -> Result<usize, ApiError> {
+        let place = self.shared.script_on(object, kind);
+        let machine = place.and_then(|place| self.machines.iter().position(|m| m.place() == place));
+        machine.ok_or_else(|| ApiError::new("there is no script on that object"))
+    }
+
+    /// Ends the scripts whose objects have gone and makes those that are new; returns the places of the latter, which
+    /// have not been called yet.
+    fn follow_scene(&mut self) -> Result<BTreeSet<usize>, ScriptError> {
+        let mut new = BTreeSet::new();
+        let Some(scene) = self.shared.stage().registry.as_ref().map(|registry| registry.scene().clone()) else {
+            return Ok(new);
+        };
+        if self.scene.as_ref().is_some_and(|known| Arc::ptr_eq(known, &scene)) {
+            return Ok(new);
         }
-        let states = self.machines.iter().map(|m| m.lua.weak()).collect();
-        let _ = self.shared.states.set(states);
-        Ok(())
+        let scripts = in_order(&scene);
+        let stays = |m: &Machine| {
+            let own = self.shared.script(m.place());
+            scripts.iter().any(|script| (script.object, script.kind) == (own.object, own.kind))
+        };
+        let (staying, gone): (Vec<Machine>, Vec<Machine>) = self.machines.drain(..).partition(stays);
+        self.machines = staying;
+        for mut machine in gone {
+            if let Err(fault) = machine.call(Phase::Cleanup) {
+                // its object is not there any more
+                self.shared.say(machine.place(), fault.to_string());
+            }
+            self.shared.end(machine.place());
+        }
+        let mut places = Vec::new();
+        for script in scripts {
+            let known = self.shared.script_on(handle_of(script), Some(script.kind));
+            let place = known.unwrap_or_else(|| self.shared.add(Arc::new(script.clone())));
+            if known.is_none() {
+                new.insert(place);
+            }
+            places.push(place);
+        }
+        for place in &new {
+            self.machines.push(Machine::new(&self.shared, *place)?);
+        }
+        self.machines.iter().for_each(|m| self.shared.set_state(m.place(), m.lua.weak()));
+        let order = |m: &Machine| places.iter().position(|place| *place == m.place());
+        self.machines.sort_by_cached_key(order);
+        self.scene = Some(scene);
+        Ok(new)
     }
 }

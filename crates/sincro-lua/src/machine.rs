@@ -74,13 +74,13 @@ pub(crate) fn compile(lua: &Lua, script: &Script) -> mlua::Result<Function> {
 impl Machine {
     /// The script `index` of a run, not called yet.
     pub fn new(shared: &Arc<Shared>, index: usize) -> Result<Self, ScriptError> {
-        let script = &shared.scripts[index];
+        let script = &*shared.script(index);
         let guard = Guard::new(script.max_instructions);
         Self::furnished(shared, index, guard.clone()).map_err(|error| fault::of(script, &guard, &error))
     }
 
     fn furnished(shared: &Arc<Shared>, index: usize, guard: Arc<Guard>) -> mlua::Result<Self> {
-        let script = &shared.scripts[index];
+        let script = &*shared.script(index);
         guard.begin(false);
         let lua = sandbox::new(&guard, script.max_memory)?;
         let (of_time, of_signals, of_prints) = (shared.clone(), shared.clone(), shared.clone());
@@ -109,8 +109,13 @@ impl Machine {
         })
     }
 
-    fn script(&self) -> &Script {
-        &self.shared.scripts[self.index]
+    fn script(&self) -> Arc<Script> {
+        self.shared.script(self.index)
+    }
+
+    /// Place of its script among those that have been started.
+    pub fn place(&self) -> usize {
+        self.index
     }
 
     /// Gives the script all its instructions again: other scripts may call its functions before it is called itself.
@@ -151,7 +156,7 @@ impl Machine {
     fn within<T>(&mut self, is_thread: bool, run: impl FnOnce(&mut Self) -> mlua::Result<T>) -> Result<T, ScriptError> {
         self.guard.begin(is_thread);
         let done = run(self).and_then(|value| self.guard.check().map(|()| value));
-        done.map_err(|error| fault::of(self.script(), &self.guard, &error))
+        done.map_err(|error| fault::of(&self.script(), &self.guard, &error))
     }
 
     /// A phase of the step; threads are resumed by [`Machine::resume`].

@@ -1,13 +1,14 @@
 //! Data shared by all scripts of a run: the world while they are called, their messages, and each other.
 
 use std::fmt;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use mlua::WeakLua;
+use mlua::{Lua, WeakLua};
 use sincro_coppelia::api::{ApiError, Handle, ObjectRegistry, SimApi};
 use sincro_coppelia::host::Setting;
 use sincro_dynamics::world::World;
-use sincro_scene::script::Script;
+use sincro_scene::scene::Scene;
+use sincro_scene::script::{Kind, Script};
 use sincro_sim::controller::Message;
 
 /// Messages of one phase that are kept: one more than a run keeps, so that the run reports that some were dropped.
@@ -30,17 +31,23 @@ pub(crate) struct Stage {
 pub(crate) struct Shared {
     stage: Mutex<Stage>,
     messages: Mutex<Vec<Message>>,
-    /// The scripts, in the order of calls.
-    pub scripts: Arc<[Script]>,
+    /// Scripts in the order in which they were started, with those that have ended.
+    scripts: Mutex<Vec<Known>>,
     /// Settings of the run.
     pub setting: Setting,
-    /// Their Lua states, once all are made.
-    pub states: OnceLock<Vec<WeakLua>>,
+}
+
+/// Script that has been started.
+struct Known {
+    script: Arc<Script>,
+    /// Its Lua state; none before it and those that are started with it are there, and after it has ended.
+    state: Option<WeakLua>,
+    has_ended: bool,
 }
 
 impl fmt::Debug for Shared {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Shared").field("scripts", &self.scripts.len()).finish_non_exhaustive()
+        f.debug_struct("Shared").field("scripts", &open(&self.scripts).len()).finish_non_exhaustive()
     }
 }
 
@@ -51,9 +58,73 @@ fn open<T>(lock: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl Shared {
     /// Before the first call; `nothing` is a world of nothing.
-    pub fn new(scripts: Arc<[Script]>, setting: Setting, nothing: World) -> Self {
+    pub fn new(setting: Setting, nothing: World) -> Self {
         let stage = Mutex::new(Stage { world: nothing, registry: None, t: 0.0 });
-        Self { stage, messages: Mutex::default(), scripts, setting, states: OnceLock::new() }
+        Self { stage, messages: Mutex::default(), scripts: Mutex::default(), setting }
+    }
+
+    /// Adds a script; returns its place, which it keeps.
+    pub fn add(&self, script: Arc<Script>) -> usize {
+        let mut scripts = open(&self.scripts);
+        scripts.push(Known { script, state: None, has_ended: false });
+        scripts.len() - 1
+    }
+
+    /// Keeps the Lua state of a script for others that call it.
+    pub fn set_state(&self, place: usize, state: WeakLua) {
+        open(&self.scripts)[place].state = Some(state);
+    }
+
+    /// Lets a script be found no longer.
+    pub fn end(&self, place: usize) {
+        let known = &mut open(&self.scripts)[place];
+        (known.state, known.has_ended) = (None, true);
+    }
+
+    /// The script of a place, whether it has ended or not.
+    pub fn script(&self, place: usize) -> Arc<Script> {
+        open(&self.scripts)[place].script.clone()
+    }
+
+    /// The Lua state of a script.
+    pub fn state(&self, place: usize) -> Option<Lua> {
+        open(&self.scripts)[place].state.as_ref()?.try_upgrade()
+    }
+
+    /// The object of a script.
+    pub fn object(&self, place: usize) -> Handle {
+        handle_of(&self.script(place))
+    }
+
+    /// Returns true if the object of a script is part of the scene; `known` is a scene that it is part of.
+    pub fn is_present(&self, script: &Script, known: Option<&Arc<Scene>>) -> bool {
+        let stage = self.stage();
+        let Some(registry) = &stage.registry else { return true };
+        let scene = registry.scene();
+        known.is_some_and(|known| Arc::ptr_eq(known, scene)) || scene.objects.iter().any(|o| o.id == script.object)
+    }
+
+    /// Place of the first script that is meant, of those whose objects are there.
+    pub fn find(&self, is_meant: impl Fn(&Script) -> bool) -> Option<usize> {
+        let is_it = |known: &Known| !known.has_ended && is_meant(&known.script) && self.is_present(&known.script, None);
+        open(&self.scripts).iter().position(is_it)
+    }
+
+    /// Place of the script on an object.
+    pub fn script_on(&self, object: Handle, kind: Option<Kind>) -> Option<usize> {
+        self.find(|script| handle_of(script) == object && kind.is_none_or(|kind| script.kind == kind))
+    }
+
+    /// Objects with scripts that have not ended.
+    pub fn objects(&self) -> Vec<Handle> {
+        let is_there = |known: &&Known| !known.has_ended && self.is_present(&known.script, None);
+        open(&self.scripts).iter().filter(is_there).map(|known| handle_of(&known.script)).collect()
+    }
+
+    /// Returns true if there is a script of that place that has not ended.
+    pub fn has(&self, place: usize) -> bool {
+        let is_there = |known: &Known| !known.has_ended && self.is_present(&known.script, None);
+        open(&self.scripts).get(place).is_some_and(is_there)
     }
 
     /// The stage. No Lua may run while it is held.
@@ -88,7 +159,7 @@ impl Shared {
         let mut messages = open(&self.messages);
         if messages.len() < MAX_MESSAGES {
             let end = text.floor_char_boundary(MAX_MESSAGE_LEN);
-            messages.push(Message { t, object: self.scripts[script].path.clone(), text: text[..end].to_owned() });
+            messages.push(Message { t, object: self.script(script).path.clone(), text: text[..end].to_owned() });
         }
     }
 

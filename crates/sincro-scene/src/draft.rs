@@ -18,9 +18,9 @@ use crate::expand::expand;
 use crate::folder::Folder;
 use crate::names::{collect, resolve_objects};
 use crate::normalize::{Parameters, normalize};
-use crate::scene::{Scene, SceneSource, compile_edited, scene_schema};
+use crate::scene::{Scene, SceneSource, compile_edited, scene_schema, scripts_of_model};
 use crate::schema::validate;
-use crate::script::Script;
+use crate::script::{Script, ScriptParser};
 use crate::tree::{KINDS, join};
 
 /// Lists of a scene file whose entries join objects, and go with them.
@@ -99,7 +99,8 @@ pub struct SceneDraft {
     top: Map<String, Value>,
     folder: Arc<Folder>,
     seed: u64,
-    scripts: Vec<Script>,
+    /// Scripts, compiled, each with the path of its object.
+    scripts: Vec<(String, Script)>,
 }
 
 impl SceneDraft {
@@ -122,7 +123,8 @@ impl SceneDraft {
                 item.table.insert("free_length".into(), length.into());
             }
         }
-        draft.scripts.clone_from(&scene.scripts);
+        let path_of = |script: &Script| scene.objects.iter().find(|o| o.id == script.object).map(|o| o.path.clone());
+        draft.scripts = scene.scripts.iter().filter_map(|script| Some((path_of(script)?, script.clone()))).collect();
         Some(draft)
     }
 
@@ -130,12 +132,13 @@ impl SceneDraft {
     fn of_document(document: &Document, folder: &Arc<Folder>, seed: u64) -> Self {
         let (mut items, mut top) = (Vec::new(), Map::new());
         for (key, value) in document.root.as_object().into_iter().flatten() {
+            // scripts are kept compiled
             let is_list = KINDS.contains(&key.as_str()) || matches!(key.as_str(), "contact_pair" | "script");
             if !(is_list || SPENT.contains(&key.as_str())) {
                 top.insert(key.clone(), value.clone());
             }
         }
-        for list in KINDS.into_iter().chain(["contact_pair", "script"]) {
+        for list in KINDS.into_iter().chain(["contact_pair"]) {
             let entries = document.get(&format!("/{list}")).and_then(Value::as_array);
             for (k, entry) in entries.into_iter().flatten().enumerate() {
                 if let Value::Object(table) = entry {
@@ -234,6 +237,7 @@ impl SceneDraft {
             let names_it = || item.references().iter().any(|(_, text)| is_gone(text));
             if item.is_object() { !is_gone(&item.path()) } else { !names_it() }
         });
+        self.scripts.retain(|(path, _)| !is_gone(path));
         for item in self.items.iter_mut().filter(|item| item.is_object()) {
             // lists of what a sensor looks at lose what has gone; other keys that named it are dropped
             for key in ["with", "joint", "look_at_object"] {
@@ -260,6 +264,13 @@ impl SceneDraft {
                 } else if let Some(rest) = text.strip_prefix(&below) {
                     item.replace(&pointer, format!("{new}/{rest}"));
                 }
+            }
+        }
+        for (path, _) in &mut self.scripts {
+            if path == old {
+                new.clone_into(path);
+            } else if let Some(rest) = path.strip_prefix(&below) {
+                *path = format!("{new}/{rest}");
             }
         }
     }
@@ -301,9 +312,9 @@ impl SceneDraft {
         table.extend(pose_keys(pose));
     }
 
-    /// Copies an object with all below it and with what joins objects of the copy among themselves. The copy has the
-    /// name `name`, hangs on `parent` and stands at `pose` there `[m]`. Returns the paths of the originals, each with
-    /// that of its copy, parents before children.
+    /// Copies an object with all below it, their scripts, and what joins objects of the copy among themselves. The copy
+    /// has the name `name`, hangs on `parent` and stands at `pose` there `[m]`. Returns the paths of the originals, each
+    /// with that of its copy, parents before children.
     pub fn copy(&mut self, path: &str, name: &str, parent: &str, pose: &Pose<f64>) -> Vec<(String, String)> {
         let originals = self.subtree(path);
         self.copy_some(&originals, path, name, parent, pose)
@@ -345,19 +356,27 @@ impl SceneDraft {
             copies.push(copy);
         }
         self.items.append(&mut copies);
+        let scripts = self.scripts.iter().filter(|(path, _)| is_copied(path));
+        let scripts: Vec<_> = scripts.map(|(path, script)| (new_path(path), script.clone())).collect();
+        self.scripts.extend(scripts);
         if let Some(k) = self.place(&new_root) {
             self.set_pose_of(k, pose);
         }
         pairs
     }
 
-    /// Loads the objects of a scene file, or of the scene of a folder, below a new frame `name` at the world's origin.
-    /// Returns the paths of all of them, the frame first.
+    /// Loads the objects of a scene file, or of the scene of a folder, below a new frame `name` at the world's origin,
+    /// with its scripts if `parser` knows their language. Returns the paths of all objects, the frame first.
     ///
     /// # Errors
     ///
     /// The file cannot be read, or something in it is wrong.
-    pub fn load(&mut self, file: &Path, name: &str) -> Result<Vec<String>, Diagnostics> {
+    pub fn load(
+        &mut self,
+        file: &Path,
+        name: &str,
+        parser: Option<&dyn ScriptParser>,
+    ) -> Result<Vec<String>, Diagnostics> {
         let shown = relative(self.folder.path(), file)
             .ok_or_else(|| Diagnostic::without_location(format!("`{}` cannot be reached", file.display())))?;
         let mut instance = Map::new();
@@ -374,7 +393,16 @@ impl SceneDraft {
         if found.any_error() {
             return Err(found.sorted());
         }
-        self.take(&document, name)
+        let loaded = self.take(&document, name)?;
+        if parser.is_some() {
+            let paths: Vec<&str> = loaded.iter().map(String::as_str).collect();
+            let scripts = scripts_of_model(&document, &paths, &self.folder, parser, &mut found);
+            if found.any_error() {
+                return Err(found.sorted());
+            }
+            self.scripts.extend(scripts.into_iter().map(|script| (script.path.clone(), script)));
+        }
+        Ok(loaded)
     }
 
     /// Loads the objects of the text of a scene file, as [`SceneDraft::part`] gives it, below a new frame `name` at the
@@ -444,10 +472,9 @@ impl SceneDraft {
 
     fn adopt(&mut self, other: Self, root: &str) -> Vec<String> {
         let loaded = other.subtree(root);
-        // the model's scripts are no part of it: those that run were there at the start
-        let items = other.items.into_iter().filter(|item| item.list != "script");
         // the frame comes before what it carries
-        let (frame, rest): (Vec<Item>, Vec<Item>) = items.partition(|item| item.is_object() && item.path() == *root);
+        let (frame, rest): (Vec<Item>, Vec<Item>) =
+            other.items.into_iter().partition(|item| item.is_object() && item.path() == *root);
         self.items.extend(frame.into_iter().chain(rest));
         loaded
     }
@@ -496,7 +523,11 @@ impl SceneDraft {
                 next - 1
             })
         });
-        scene.scripts.clone_from(&self.scripts);
+        let scripts = self.scripts.iter().filter_map(|(path, script)| {
+            let object = scene.object(path)?.id;
+            Some(Script { object, path: path.clone(), ..script.clone() })
+        });
+        scene.scripts = scripts.collect();
         let (folder, seed) = (self.folder.clone(), self.seed);
         let parked = self.items.iter().filter_map(|item| {
             let id = scene.object(&item.path()).filter(|_| item.is_object())?.id;
@@ -511,8 +542,7 @@ impl SceneDraft {
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = lines_of(&self.top);
-        // scripts are kept compiled
-        for item in self.items.iter().filter(|item| item.list != "script") {
+        for item in &self.items {
             let _ = write!(text, "\n[[{}]]\n{}", item.list, lines_of(&item.table));
         }
         text

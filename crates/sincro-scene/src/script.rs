@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Location, SourceText};
 /// `sincro-lua`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Script {
-    /// Index of the object that it belongs to among the scene's objects.
+    /// Number of the object that it belongs to ([`Object::id`](crate::scene::Object)).
     pub object: usize,
     /// Path of that object.
     pub path: String,

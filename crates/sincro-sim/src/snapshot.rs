@@ -223,7 +223,8 @@ fn read_structure(reader: &mut Reader<'_>, loaded: &Loaded) -> Result<Option<Str
     let q = reader.vector()?;
     let source = loaded.scene.source.as_ref().ok_or(SnapshotError::OtherModel)?;
     let mut scene = draft::compile_text(text, source, &ids, parked).map_err(|_| SnapshotError::OtherModel)?;
-    scene.scripts.clone_from(&loaded.scene.scripts);
+    let stays = |script: &&sincro_scene::script::Script| ids.contains(&script.object);
+    scene.scripts = loaded.scene.scripts.iter().filter(stays).cloned().collect();
     if scene.initial.q.len() != q.len() {
         return Err(damaged);
     }

@@ -22,6 +22,7 @@ use super::motions::{JointMotion, Motions};
 use super::note::Notes;
 use super::pairs::{self, Pair};
 use super::ports::LegacyPorts;
+use super::scene_objects::handle_of_id;
 use super::senses::Senses;
 use super::signals::Signals;
 use super::stored::Stored;
@@ -31,6 +32,7 @@ use super::value::Value;
 use super::vision::Vision;
 use super::{ApiError, Phase};
 use sincro_scene::scene::{Object, Scene};
+use sincro_scene::script::{Script, ScriptParser};
 use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
 use sincro_sim::restructure::Restructured;
@@ -251,6 +253,8 @@ pub struct ObjectRegistry {
     pub(super) restructured: Vec<Restructured>,
     /// Folder for files of clients, from which models may be loaded; none if they may send none.
     pub(crate) sent_folder: Option<PathBuf>,
+    /// Parser of the scripts of models that are loaded; none if no scripts can be run.
+    pub(super) script_parser: Option<&'static dyn ScriptParser>,
 }
 
 impl ObjectRegistry {
@@ -314,6 +318,7 @@ impl ObjectRegistry {
             needed: Arc::new(Needed::new(loaded)),
             restructured: Vec::new(),
             sent_folder: None,
+            script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
         };
         new.take_objects(scene, &scene.model);
         new.pairs = pairs::pairs_of(scene, &new);
@@ -323,12 +328,21 @@ impl ObjectRegistry {
                 && names.clone().any(|name| name.strip_prefix(&*e.path).is_some_and(|s| s.starts_with('.')))
         };
         new.recorded_frames = new.entries().filter(is_recorded).map(|e| e.handle).collect();
-        for script in &scene.scripts {
-            let object = Handle(script.object as i32 + 1);
-            let texts = script.parameters.iter().map(|(name, value)| ((object, name.clone()), value.to_string()));
-            new.script_parameters.extend(texts);
-        }
+        scene.scripts.iter().for_each(|script| new.take_parameters(script, None));
         new
+    }
+
+    /// Takes the parameters of a script: those that the script on `original` has now, for none those of the scene file.
+    pub(super) fn take_parameters(&mut self, script: &Script, original: Option<Handle>) {
+        let object = handle_of_id(script.object);
+        let texts: Vec<_> = match original {
+            Some(original) => {
+                let own = self.script_parameters.iter().filter(|((object, _), _)| *object == original);
+                own.map(|((_, name), text)| ((object, name.clone()), text.clone())).collect()
+            }
+            None => script.parameters.iter().map(|(name, value)| ((object, name.clone()), value.to_string())).collect(),
+        };
+        self.script_parameters.extend(texts);
     }
 
     pub(super) fn next_handle(&self) -> Handle {

@@ -20,7 +20,12 @@ const NO_MASS: MassProperties = MassProperties { mass: 0.0, center_of_mass: [0.0
 
 /// Handle of an object of a scene.
 pub(super) fn handle_of_object(object: &Object) -> Handle {
-    Handle(object.id as i32 + 1)
+    handle_of_id(object.id)
+}
+
+/// Handle of the object of a number.
+pub(super) fn handle_of_id(id: usize) -> Handle {
+    Handle(id as i32 + 1)
 }
 
 impl ObjectRegistry {
@@ -157,6 +162,7 @@ impl ObjectRegistry {
         }
         self.free_name(&entry.name);
         self.data.retain(|(owner, _), _| *owner != handle);
+        self.script_parameters.retain(|(owner, _), _| *owner != handle);
         self.senses.forget(handle);
         self.drawings.forget(handle);
         self.joint_motions.remove(&handle);

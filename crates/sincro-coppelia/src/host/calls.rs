@@ -1,10 +1,8 @@
 //! The scripts of one run: made when there are any, called by the lock-step.
 
-use std::sync::Arc;
-
 use sincro_dynamics::world::World;
 
-use super::{Call, Host, Phase, Setting};
+use super::{Call, Host, Phase};
 use crate::api::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::scene::Scene;
 use sincro_scene::script::{Kind, Script, ScriptError};
@@ -26,13 +24,8 @@ pub(crate) struct Scripts {
 }
 
 impl Scripts {
-    /// The scripts of a scene. Descendants are called before their ancestors, siblings in the order of the file.
-    pub(crate) fn of(
-        scene: &Scene,
-        setting: Setting,
-        start: impl FnOnce(&Arc<[Script]>, Setting) -> Box<dyn Host>,
-    ) -> Self {
-        let host = start(&order(scene), setting);
+    /// Scripts that a host calls.
+    pub(crate) fn new(host: Box<dyn Host>) -> Self {
         Self { host, messages: Vec::new(), n_dropped: 0, is_started: false }
     }
 
@@ -123,12 +116,15 @@ impl Scripts {
     }
 }
 
-/// Depth first from the leaves; at one object a child script before a customization script.
-fn order(scene: &Scene) -> Arc<[Script]> {
+/// Scripts of a scene in the order in which a [`Host`] calls them: descendants before their ancestors, siblings in the
+/// order of the file; at one object a child script before a customization script.
+#[must_use]
+pub fn in_order(scene: &Scene) -> Vec<&Script> {
     let mut scripts: Vec<&Script> = scene.scripts.iter().collect();
     let rank = ranks(scene);
-    scripts.sort_by_key(|script| (rank[script.object], script.kind));
-    scripts.into_iter().cloned().collect()
+    let rank_of = |id: usize| scene.objects.iter().position(|object| object.id == id).map(|k| rank[k]);
+    scripts.sort_by_cached_key(|script| (rank_of(script.object), script.kind));
+    scripts
 }
 
 /// Place of each object in an order of leaves before roots; objects stand in the scene with parents before children.

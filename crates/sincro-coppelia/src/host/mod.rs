@@ -9,6 +9,7 @@ mod calls;
 use std::fmt;
 
 pub(crate) use calls::Scripts;
+pub use calls::in_order;
 
 use sincro_dynamics::world::World;
 
@@ -53,7 +54,8 @@ pub struct Call<'a> {
 /// Scripts of one run in memory, in the language of an adapter (`sincro-lua`); the lock-step calls them in each
 /// [`Phase`].
 pub trait Host: Send + fmt::Debug {
-    /// Calls the callback of a phase in all scripts that have it, descendants before ancestors.
+    /// Calls the callback of a phase in all scripts that have it, in their order ([`in_order`]). Scripts that are new
+    /// in the registry's scene are started before, those that it has no longer are ended.
     ///
     /// # Errors
     ///

@@ -675,6 +675,10 @@ impl Session {
 /// A lock-step that has not started, with a registry.
 fn fresh(loaded: &Loaded, structure: Option<&Structure>, method: MethodKind, registry: ObjectRegistry) -> LockStep {
     let mut lockstep = LockStep::new(loaded, method, false);
+    if let (None, Some(engine)) = (ApiController::of(&mut lockstep), loaded.extensions.scripts) {
+        // models that clients load may have scripts
+        lockstep.attach(engine.controller(loaded));
+    }
     ApiController::set_registry(&mut lockstep, registry);
     if let Some(structure) = structure {
         lockstep.set_structure(structure);

@@ -25,14 +25,14 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
             Some((name, object)) => {
                 let object = shared.with_sim(own, |sim| super::object_of_name(sim, own, object));
                 let object = object.map_err(|error| super::refused("callScriptFunction", &error))?;
-                (name.to_owned(), scripts::script_on(&shared.scripts, object, None))
+                (name.to_owned(), shared.script_on(object, None))
             }
         };
         let place = place.ok_or_else(|| fail(format!("there is no script {handle}")))?;
-        let Some(other) = shared.states.get().and_then(|states| states[place].try_upgrade()) else {
+        let Some(other) = shared.state(place) else {
             return Err(fail("scripts can call each other once all of them are there, not while they are read".into()));
         };
-        let path = &shared.scripts[place].path;
+        let path = &shared.script(place).path;
         let function =
             find(&other, &name).ok_or_else(|| fail(format!("the script of `{path}` has no function `{name}`")))?;
         if depth.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= MAX_DEPTH {

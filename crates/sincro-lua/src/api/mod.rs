@@ -13,7 +13,6 @@ mod threads;
 use std::sync::Arc;
 
 pub(crate) use callbacks::find as function_of;
-pub(crate) use scripts::script_on;
 
 use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions};
@@ -22,7 +21,7 @@ use crate::convert;
 use crate::guard::Guard;
 use crate::machine::CALL_TYPES;
 use crate::sandbox::Waits;
-use crate::shared::{Shared, handle_of};
+use crate::shared::Shared;
 
 /// Context of the registration of `sim`'s functions, under all their names.
 pub(crate) struct ApiContext<'a> {
@@ -44,7 +43,7 @@ pub(crate) fn offer(
     guard: &Arc<Guard>,
     waits: &Waits,
 ) -> mlua::Result<()> {
-    let own = handle_of(&shared.scripts[index]);
+    let own = shared.object(index);
     let context = ApiContext { lua, sim: lua.create_table()?, shared, index, own, guard };
     constants_of(&context)?;
     for function in functions::functions() {

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use mlua::{Error, Value as LuaValue};
 use sincro_coppelia::api::{ApiError, Handle, check_name};
-use sincro_scene::script::{Kind, Script};
+use sincro_scene::script::Kind;
 
 use super::ApiContext;
-use crate::shared::{Shared, handle_of};
+use crate::shared::Shared;
 
 /// Handle of the first script: beyond those of objects, below the flags.
 pub(super) const FIRST_SCRIPT: i64 = 1_000_000;
@@ -26,7 +26,7 @@ pub(super) fn place_of(shared: &Shared, index: usize, handle: i64) -> Option<usi
         return Some(index);
     }
     let k = usize::try_from(handle.checked_sub(FIRST_SCRIPT)?).ok()?;
-    (k < shared.scripts.len()).then_some(k)
+    shared.has(k).then_some(k)
 }
 
 fn handle_of_place(k: usize) -> i64 {
@@ -37,11 +37,6 @@ fn unknown(handle: i64, function: &str) -> Error {
     Error::RuntimeError(format!("there is no script with the handle {handle} (in function 'sim.{function}')"))
 }
 
-/// The script on an object.
-pub(crate) fn script_on(scripts: &[Script], object: Handle, kind: Option<Kind>) -> Option<usize> {
-    scripts.iter().position(|s| handle_of(s) == object && kind.is_none_or(|kind| s.kind == kind))
-}
-
 fn kind_of(script_type: i64) -> Kind {
     if script_type == CUSTOMIZATION { Kind::Customization } else { Kind::Child }
 }
@@ -50,7 +45,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let (shared, index) = (context.shared.clone(), context.index);
     context.add("getObjectAssociatedWithScript", move |_, script: i64| {
         let k = place_of(&shared, index, script).ok_or_else(|| unknown(script, "getObjectAssociatedWithScript"))?;
-        Ok(handle_of(&shared.scripts[k]).0)
+        Ok(shared.object(k).0)
     })?;
     for (name, kind) in [
         ("getScriptAssociatedWithObject", Kind::Child),
@@ -59,7 +54,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         let (shared, own) = (context.shared.clone(), context.own);
         context.add(name, move |_, object: i32| {
             let object = if object == -4 { own } else { Handle(object) };
-            Ok(script_on(&shared.scripts, object, Some(kind)).map_or(-1, handle_of_place))
+            Ok(shared.script_on(object, Some(kind)).map_or(-1, handle_of_place))
         })?;
     }
     let (shared, own) = (context.shared.clone(), context.own);
@@ -75,13 +70,13 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
             Some(LuaValue::Integer(h)) => Handle(i32::try_from(h).unwrap_or(-1)),
             Some(_) => return Err(Error::RuntimeError("argument 2 is no handle (in function 'sim.getScript')".into())),
         };
-        Ok(script_on(&shared.scripts, object, Some(kind_of(script_type))).map_or(-1, handle_of_place))
+        Ok(shared.script_on(object, Some(kind_of(script_type))).map_or(-1, handle_of_place))
     })?;
     let shared = context.shared.clone();
     context.add("getScriptHandle", move |_, name: Option<String>| {
         let found = match name {
             None => Some(index),
-            Some(name) => shared.scripts.iter().position(|s| s.path.rsplit('/').next() == name.split('#').next()),
+            Some(name) => shared.find(|s| s.path.rsplit('/').next() == name.split('#').next()),
         };
         Ok(found.map_or(-1, handle_of_place))
     })?;
@@ -110,7 +105,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 ))
             })?,
         };
-        let own = handle_of(&shared.scripts[index]);
+        let own = shared.object(index);
         let done = shared.with_sim(own, |sim| {
             let parameters = &mut sim.registry.script_parameters;
             let mut n_set = 0;
@@ -146,9 +141,9 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
 
 /// Objects of all scripts, or of those on the script's own object and below.
 fn scripts_below(shared: &Arc<Shared>, index: usize, in_tree: bool) -> Vec<Handle> {
-    let own = handle_of(&shared.scripts[index]);
+    let own = shared.object(index);
     let tree = shared.with_sim(own, |sim| Ok(sim.registry.tree(own))).unwrap_or_default();
-    let mut all: Vec<Handle> = shared.scripts.iter().map(handle_of).collect();
+    let mut all = shared.objects();
     all.retain(|object| !in_tree || tree.contains(object));
     all.sort_unstable();
     all.dedup();
@@ -157,9 +152,8 @@ fn scripts_below(shared: &Arc<Shared>, index: usize, in_tree: bool) -> Vec<Handl
 
 /// The object whose parameters are meant: that of a script, by the script's handle or its own.
 fn object_with(shared: &Arc<Shared>, index: usize, handle: i64, function: &str) -> mlua::Result<Handle> {
-    let of_script = place_of(shared, index, handle).map(|k| handle_of(&shared.scripts[k]));
-    let of_object =
-        || i32::try_from(handle).ok().map(Handle).filter(|h| script_on(&shared.scripts, *h, None).is_some());
+    let of_script = place_of(shared, index, handle).map(|k| shared.object(k));
+    let of_object = || i32::try_from(handle).ok().map(Handle).filter(|h| shared.script_on(*h, None).is_some());
     of_script.or_else(of_object).ok_or_else(|| unknown(handle, function))
 }
 

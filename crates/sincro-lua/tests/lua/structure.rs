@@ -101,3 +101,142 @@ fn a_run_with_scripts_goes_on_from_a_snapshot_after_a_change() {
         assert_eq!(trace, others, "from tick {tick}");
     }
 }
+
+/// Scene with a box that its own script holds up by the parameter `lift`, in newtons, and a script on the floor.
+fn lifted(of_floor: &str) -> Loaded {
+    let scene = format!(
+        "{}
+[[script]]
+object = \"/box_joint/box\"
+file = \"lift.lua\"
+parameters = {{ lift = 0.0 }}
+[[script]]
+object = \"/floor\"
+file = \"floor.lua\"
+",
+        box_above_floor(0.1)
+    );
+    let lift = "
+function sysCall_init()
+    own = sim.getObject('.')
+    name = sim.getObjectAlias(own)
+    print('begins')
+end
+function sysCall_actuation()
+    local lift = sim.getScriptSimulationParameter(sim.handle_self, 'lift')
+    sim.addForceAndTorque(own, { 0, 0, lift }, { 0, 0, 0 })
+    if sim.getInt32Signal('leave') == own then sim.removeObjects({ own }) end
+end
+function sysCall_sensing() sim.setFloatSignal(name, sim.getObjectPosition(own, -1)[3]) end
+function sysCall_cleanup() print('ends at ' .. string.format('%.3f', sim.getSimulationTime())) end
+function height() return sim.getObjectPosition(own, -1)[3] end
+";
+    open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("lift.lua", lift), ("floor.lua", of_floor)])
+        .unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn texts(run: &Simulated, object: &str) -> Vec<(f64, String)> {
+    run.messages.iter().filter(|m| m.object == object).map(|m| (m.t, m.text.clone())).collect()
+}
+
+#[test]
+fn a_copy_runs_a_script_of_its_own_until_it_is_removed() {
+    let floor = "
+local function is(t) return math.abs(sim.getSimulationTime() - t) < 1e-9 end
+function sysCall_init()
+    box = sim.getObject('/box')
+    mass = sim.getShapeMass(box)
+end
+function sysCall_actuation()
+    if is(0.1) then
+        sim.setScriptSimulationParameter(sim.getScript(sim.scripttype_childscript, box), 'lift', 2 * 9.81 * mass)
+        copy = sim.copyPasteObjects({ box }, 0)[1]
+        sim.setObjectPosition(copy, -1, { 0.3, 0, 0.2 })
+        sim.setScriptSimulationParameter(sim.getScript(sim.scripttype_childscript, box), 'lift', 0)
+    end
+    if is(0.3) then
+        local script = sim.getScript(sim.scripttype_childscript, copy)
+        print(string.format('%.3f', sim.callScriptFunction('height', script)))
+        sim.removeObjects({ copy })
+        print(sim.getScript(sim.scripttype_childscript, copy))
+    end
+end";
+    let run = run(&lifted(floor));
+    assert_eq!(run.status, Status::Completed, "{:?}", run.messages);
+    let begins = |t: f64| (t, "begins".to_owned());
+    let original = texts(&run, "/box_joint/box");
+    assert_eq!(original, [begins(0.0), (0.5, "ends at 0.500".to_owned())]);
+    let copy = run.messages.iter().find(|m| m.text == "begins" && m.t > 0.0).expect("the copy's script begins");
+    let copy = texts(&run, &copy.object.clone());
+    assert_eq!(copy.len(), 2, "{copy:?}");
+    assert!(copy[0].0 >= 0.1 && copy[0].0 < 0.106, "{copy:?}");
+    assert!(copy[1].1 == "ends at 0.300" && copy[1].0 < 0.306, "{copy:?}");
+    // it was given twice its weight: 0.2 m + g t²/2 after 0.195 s, since its script acts from the next step on
+    let floor: Vec<String> = texts(&run, "/floor").into_iter().map(|(_, text)| text).collect();
+    let height: f64 = floor[0].parse().unwrap();
+    let fell = 0.005;
+    let (v, s) = (-9.81 * fell, 0.2 - 0.5 * 9.81 * fell * fell);
+    let t: f64 = 0.2 - fell;
+    assert!((height - (s + v * t + 0.5 * 9.81 * t * t)).abs() < 2e-3, "{height}");
+    assert_eq!(floor[1], "-1", "{floor:?}");
+}
+
+#[test]
+fn a_script_may_remove_its_own_object() {
+    let floor = "
+function sysCall_actuation()
+    if math.abs(sim.getSimulationTime() - 0.2) < 1e-9 then sim.setInt32Signal('leave', sim.getObject('/box')) end
+end";
+    let run = run(&lifted(floor));
+    assert_eq!(run.status, Status::Completed, "{:?}", run.messages);
+    let own = texts(&run, "/box_joint/box");
+    assert_eq!(own.len(), 2, "{own:?}");
+    assert!(own[1].0 < 0.21, "{own:?}");
+}
+
+/// Model with a script that turns its wheel, and a client that loads it into a scene without scripts.
+#[test]
+fn the_scripts_of_a_loaded_model_run() {
+    let folder = SceneFolder::of(&box_above_floor(0.1), EXPERIMENT);
+    let model = r#"
+[[joint]]
+name = "axle"
+kind = "revolute"
+position = [0.0, 0.0, 1.0]
+axis = [0.0, 0.0, 1.0]
+motor = { mode = "velocity" }
+[[body]]
+name = "wheel"
+parent = "/axle"
+mass = 1.0
+inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
+[[script]]
+object = "/axle/wheel"
+file = "turn.lua"
+parameters = { speed = 2.5 }
+"#;
+    let turn = "
+function sysCall_actuation()
+    local axle = sim.getObjectParent(sim.getObject('.'))
+    sim.setJointTargetVelocity(axle, sim.getScriptSimulationParameter(sim.handle_self, 'speed'))
+end";
+    std::fs::create_dir(folder.join("turner")).unwrap();
+    std::fs::write(folder.join("turner/scene.toml"), model).unwrap();
+    std::fs::write(folder.join("turner/turn.lua"), turn).unwrap();
+    let mut session = OpenSession::open(folder, &[], sincro_testing::with_scripts(), None);
+    session.start().unwrap();
+    session.step().unwrap();
+    let mut axles = Vec::new();
+    for _ in 0..2 {
+        let base = session.call("sim.loadModel", &[Value::from("turner")]).unwrap().remove(0);
+        let Value::Int(base) = base else { panic!("{base:?}") };
+        let tree = session.registry().tree(sincro_coppelia::api::Handle(base as i32));
+        axles.push(Value::Int(i64::from(tree[1].0)));
+    }
+    (0..20).for_each(|_| session.step().unwrap());
+    for axle in axles {
+        let angle = session.call("sim.getJointPosition", &[axle]).unwrap().remove(0);
+        let Value::Real(angle) = angle else { panic!("{angle:?}") };
+        assert!((angle - 2.5 * 20.0 * 0.005).abs() < 1e-9, "{angle}");
+    }
+}

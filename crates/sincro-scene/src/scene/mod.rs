@@ -52,6 +52,7 @@ pub use mesh::{Triangles, mesh_of_file};
 pub use object::{Object, ObjectKind, ShapeInstance, ShownSurface};
 pub use pieces::frame_of;
 pub use schema::scene_schema;
+pub(crate) use script::of_model as scripts_of_model;
 pub use source::SceneSource;
 pub use stills::Camera;
 pub use text::from_text;
@@ -217,7 +218,8 @@ fn compile_from(
     assembly.join(&file, document, &mut diagnostics);
     assembly.join_by_springs(&file, document, folder, &mut diagnostics);
     contact::warn_of_idle(&file, document, &mut diagnostics);
-    let scripts = script::read(&file.script, &assembly.objects, document, folder, parser, &mut diagnostics);
+    let paths: Vec<&str> = assembly.objects.iter().map(|object| object.path.as_str()).collect();
+    let scripts = script::read(&file.script, &paths, document, folder, parser, &mut diagnostics);
     assembly.finish(&entries, &file, (scripts, is_start), document, diagnostics)
 }
 

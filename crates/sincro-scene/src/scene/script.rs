@@ -3,17 +3,17 @@
 use std::sync::Arc;
 
 use super::file::{ScriptFile, ScriptKindFile, ScriptParameterFile, ScriptStyleFile};
-use super::object::Object;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use crate::document::Document;
 use crate::folder::Folder;
 use crate::script::{Kind, Parameter, Script, ScriptParser, Style};
 use crate::suggest;
 
-/// The scripts that can be, in the order of the file; notes what is wrong with the others.
+/// The scripts that can be, in the order of the file, each with the place of its object among `objects` as its number;
+/// notes what is wrong with the others.
 pub(super) fn read(
     files: &[ScriptFile],
-    objects: &[Object],
+    objects: &[&str],
     document: &Document,
     folder: &Folder,
     parser: Option<&dyn ScriptParser>,
@@ -34,6 +34,25 @@ pub(super) fn read(
     }
     check(&scripts, parser, diagnostics);
     scripts
+}
+
+/// The scripts of a model that is loaded while a run is on, by the paths of its objects; places of objects among
+/// `objects` stand for their numbers.
+pub(crate) fn of_model(
+    document: &Document,
+    objects: &[&str],
+    folder: &Folder,
+    parser: Option<&dyn ScriptParser>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Script> {
+    let Some(list) = document.get("/script") else { return Vec::new() };
+    match serde_json::from_value::<Vec<ScriptFile>>(list.clone()) {
+        Ok(files) => read(&files, objects, document, folder, parser, diagnostics),
+        Err(error) => {
+            diagnostics.push(Diagnostic::error(&document.at("/script"), error.to_string()));
+            Vec::new()
+        }
+    }
 }
 
 fn word(kind: Kind) -> &'static str {
@@ -59,17 +78,16 @@ fn check(scripts: &[Script], parser: Option<&dyn ScriptParser>, diagnostics: &mu
 fn script(
     file: &ScriptFile,
     pointer: &str,
-    objects: &[Object],
+    objects: &[&str],
     document: &Document,
     folder: &Folder,
     diagnostics: &mut Diagnostics,
 ) -> Option<Script> {
-    let object = objects.iter().position(|object| object.path == file.object);
+    let object = objects.iter().position(|path| *path == file.object);
     if object.is_none() {
-        let known: Vec<&str> = objects.iter().map(|object| object.path.as_str()).collect();
         let message = format!("there is no object `{}` for the script", file.object);
         let diagnostic = Diagnostic::error(&document.at(&format!("{pointer}/object")), message);
-        diagnostics.push(diagnostic.with_help(suggest::help(&file.object, &known, "objects")));
+        diagnostics.push(diagnostic.with_help(suggest::help(&file.object, objects, "objects")));
     }
     let (source, text, lines_before) = match (&file.file, &file.code) {
         (Some(_), _) => {

@@ -16,8 +16,6 @@ const PARTLY: &[(&[&str], &str)] = &[
         ],
         "not of bodies that other joints than free ones carry; recorded signals of a frame stay those of the scene",
     ),
-    (&["removeObject", "removeObjects", "removeModel"], "not of objects that carry a script"),
-    (&["copyPasteObjects"], "scripts are not copied"),
     (&["setObjectAlias", "setObjectName"], "runtime objects only"),
     (
         &["createPrimitiveShape", "createPureShape", "createMeshShape", "createShape", "createHeightfieldShape"],
@@ -34,7 +32,7 @@ const PARTLY: &[(&[&str], &str)] = &[
     (&["importShape", "importMesh"], "STL and OBJ files of the scene's folder"),
     (
         &["loadModel"],
-        "scene files of this program, the robots in `models/`, STL and OBJ files of the scene's folder; scripts of models are left out",
+        "scene files of this program, the robots in `models/`, STL and OBJ files of the scene's folder; scripts of models that clients have sent are left out",
     ),
     (&["saveModel"], "scene files of this program: their text, or a file in the folder for files of clients"),
     (&["createJoint"], "moves something as soon as a body is hung on it; has no limits"),

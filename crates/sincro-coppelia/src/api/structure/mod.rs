@@ -24,7 +24,7 @@ use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::spatial::Pose;
 
 use super::registry::{Handle, Kind};
-use super::scene_objects::handle_of_object;
+use super::scene_objects::{handle_of_id, handle_of_object};
 use super::{ApiError, Phase, SimApi};
 use sincro_scene::diagnostic::{Diagnostics, Severity};
 use sincro_scene::draft::SceneDraft;
@@ -48,6 +48,8 @@ struct Rebuild {
 
 /// Changes of the structure that may wait for the lock-step; each keeps the model before it.
 const MAX_CHANGES: usize = 256;
+/// Scripts that a scene may have at once; each has a state of its own.
+const MAX_SCRIPTS: usize = 1_000;
 
 impl SimApi<'_> {
     /// A draft of the scene as it is now.
@@ -75,6 +77,9 @@ impl SimApi<'_> {
         let next = self.registry.next_handle().0 as usize - 1;
         let to = draft.compile(next).map_err(|found| refused(&found))?;
         self.registry.needed.check(&to)?;
+        if to.scripts.len() > MAX_SCRIPTS {
+            return Err(ApiError(format!("more than {MAX_SCRIPTS} scripts at once")));
+        }
         let ids: BTreeMap<usize, usize> =
             copies.iter().filter_map(|(path, original)| Some((to.object(path)?.id, original.0 as usize - 1))).collect();
         self.finish_pictures();
@@ -95,6 +100,9 @@ impl SimApi<'_> {
         let known: Vec<usize> = from.objects.iter().map(|object| object.id).collect();
         for object in change.scene.objects.iter().filter(|object| !known.contains(&object.id)) {
             self.registry.added.insert(handle_of_object(object));
+        }
+        for script in change.scene.scripts.iter().filter(|script| !known.contains(&script.object)) {
+            self.registry.take_parameters(script, ids.get(&script.object).map(|id| handle_of_id(*id)));
         }
         self.note_change(&from, &change);
         self.registry.restructured.push(change);

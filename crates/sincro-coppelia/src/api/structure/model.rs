@@ -10,7 +10,8 @@ const MAX_TEXT: usize = 16 << 20;
 
 impl SimApi<'_> {
     /// Loads the objects of a scene file, or of the scene of a folder, below a new object at the world's origin, and
-    /// returns its handle. Its scripts, gravity and experiment are left out.
+    /// returns its handle. Its gravity and experiment are left out; its scripts run from the next phase on, but for
+    /// those of models that clients have sent.
     ///
     /// A name is looked for in the folder of the scene, in the one that holds it, and in folders `models` beside these,
     /// further up and in the working directory; a name of V-REP (`robots/Pioneer P3DX.ttm`) means the folder
@@ -40,7 +41,8 @@ impl SimApi<'_> {
         let name = self.fresh_name(&own.unwrap_or_else(|| "model".to_owned()));
         self.check_room(1)?;
         let mut edit = self.draft()?;
-        let loaded = edit.draft.load(file, &name).map_err(|found| super::refused(&found))?;
+        let loaded =
+            edit.draft.load(file, &name, self.registry.script_parser).map_err(|found| super::refused(&found))?;
         self.check_room(loaded.len())?;
         self.rebuild(edit)?;
         self.handle_at(&format!("/{name}"))

@@ -11,18 +11,17 @@ use crate::api::{ApiError, SimApi};
 impl SimApi<'_> {
     /// Removes objects, with `whole` each with all below it; else their children pass to what carries them. Joints that
     /// carried only what is removed go, too: those that let it move freely for good, the others until something that
-    /// moves is hung on them.
+    /// moves is hung on them. Scripts of what is removed end before the next phase.
     ///
     /// # Errors
     ///
-    /// A handle is no object, or an object carries a script.
+    /// A handle is no object.
     pub fn remove_objects(&mut self, handles: &[Handle], whole: bool) -> Result<(), ApiError> {
         let mut chosen: BTreeSet<Handle> = BTreeSet::new();
         for handle in handles {
             self.registry.entry(*handle)?;
             chosen.extend(if whole { self.registry.tree(*handle) } else { vec![*handle] });
         }
-        self.check_scripts(&chosen)?;
         let (of_model, runtime): (Vec<Handle>, Vec<Handle>) =
             chosen.iter().copied().partition(|handle| self.is_of_model(*handle));
         if of_model.is_empty() {
@@ -44,17 +43,6 @@ impl SimApi<'_> {
         }
         self.rebuild(edit)?;
         runtime.into_iter().try_for_each(|handle| self.remove(handle))
-    }
-
-    /// Refuses what a script belongs to: it would be left without its object.
-    fn check_scripts(&self, chosen: &BTreeSet<Handle>) -> Result<(), ApiError> {
-        let carries = |script: &&sincro_scene::script::Script| chosen.contains(&Handle(script.object as i32 + 1));
-        match self.registry.scene().scripts.iter().find(carries) {
-            None => Ok(()),
-            Some(script) => {
-                Err(ApiError(format!("`{}` carries a script, which runs until the simulation ends", script.path)))
-            }
-        }
     }
 
     /// Hangs the children of what is removed on what carries that, where they are.
