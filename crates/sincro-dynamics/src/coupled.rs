@@ -5,7 +5,7 @@
 //! instant, then, with the accelerations that follow, for the derivatives of its own states. The joint state vector is
 //! y = (mechanism's y, z).
 
-use sincro_math::Real;
+use sincro_math::{Dual, Real};
 
 use crate::integrate::{Implicit, SingularStages, System};
 use crate::mechanism::Mechanism;
@@ -164,6 +164,25 @@ impl<R: Real> CoupledSystem<R> for NoCoupling {
     #[inline(always)]
     fn acts(&self) -> bool {
         false
+    }
+}
+
+/// Number of one lane for which the equations of a coupled mechanism are compiled in this crate. A generic function is
+/// compiled again by each crate that uses it; one that evaluates the equations through this trait is not.
+pub trait CompiledNumber: Real {
+    /// Writes the derivatives of all unknowns y at time `t` `[s]` into `slope` (same length).
+    fn evaluate(coupled: &mut Coupled<'_, Self, dyn CoupledSystem<Self> + '_>, t: f64, y: &[Self], slope: &mut [Self]);
+}
+
+impl CompiledNumber for f64 {
+    fn evaluate(coupled: &mut Coupled<'_, Self, dyn CoupledSystem<Self> + '_>, t: f64, y: &[Self], slope: &mut [Self]) {
+        coupled.slope(t, y, slope);
+    }
+}
+
+impl CompiledNumber for Dual<1> {
+    fn evaluate(coupled: &mut Coupled<'_, Self, dyn CoupledSystem<Self> + '_>, t: f64, y: &[Self], slope: &mut [Self]) {
+        coupled.slope(t, y, slope);
     }
 }
 

@@ -4,7 +4,7 @@ use sincro_blocks::instance::Number;
 use sincro_dynamics::actuation::MotorMode;
 use sincro_dynamics::actuation::drive::DriveKind;
 use sincro_dynamics::constraint::ActiveSource;
-use sincro_dynamics::coupled::{Coupled, CoupledSystem, MechanismResponse, StateView};
+use sincro_dynamics::coupled::{CompiledNumber, Coupled, CoupledSystem, MechanismResponse, StateView};
 use sincro_dynamics::integrate::System;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::mechanism::Mechanism;
@@ -88,7 +88,7 @@ struct LoopSystem<R: Number> {
     zero: Vec<R>,
 }
 
-impl<R: Number> Lens<R> {
+impl<R: Number + CompiledNumber> Lens<R> {
     /// At the state that `at` is in, its modes settled ([`super::point::settle`]).
     pub fn new(loaded: &Loaded, at: &mut LockStep, names: &Names) -> Self {
         let model = loaded.scene.model.clone();
@@ -225,12 +225,12 @@ impl<R: Number> Lens<R> {
         if let Some((dof, acceleration)) = prescribed {
             self.mechanism.prescribe_acceleration(dof, acceleration);
         }
-        let mut system = Coupled {
+        let mut coupled = Coupled {
             mechanism: &mut self.mechanism,
-            system: &mut self.watch,
+            system: &mut self.watch as &mut dyn CoupledSystem<R>,
             negated_jacobian_diagonal: &mut self.decay,
         };
-        system.slope(self.t, &self.y, &mut self.slope);
+        R::evaluate(&mut coupled, self.t, &self.y, &mut self.slope);
         let of_mechanism = self.mechanism.active_constraints(&self.y[n_v..2 * n_v]);
         let equations = of_mechanism.into_iter().map(|row| Equation {
             source: EquationSource::Constraint(row.source),

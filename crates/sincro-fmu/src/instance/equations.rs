@@ -6,7 +6,7 @@
 //! quaternion.
 
 use sincro_blocks::instance::Number;
-use sincro_dynamics::coupled::{Coupled, CoupledSystem, MechanismResponse, StateView};
+use sincro_dynamics::coupled::{CompiledNumber, Coupled, CoupledSystem, MechanismResponse, StateView};
 use sincro_dynamics::integrate::System;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics;
@@ -35,7 +35,7 @@ pub(super) struct Equations<R: Number> {
     diagonal: Vec<R>,
 }
 
-impl<R: Number> Equations<R> {
+impl<R: Number + CompiledNumber> Equations<R> {
     /// Equations of a model whose modes and memory are those of `at`, with `n_z` states of continuous blocks.
     pub(super) fn new(model: Model<R>, at: &State<f64>, n_z: usize) -> Self {
         let joints = &model.names().joints;
@@ -89,7 +89,8 @@ impl<R: Number> Equations<R> {
         let own = self.mechanism.dim();
         self.y[own..].copy_from_slice(&self.z);
         let (mechanism, negated_jacobian_diagonal) = (&mut self.mechanism, &mut self.diagonal[..]);
-        Coupled { mechanism, system, negated_jacobian_diagonal }.slope(t, &self.y, &mut self.slope);
+        let mut coupled = Coupled { mechanism, system, negated_jacobian_diagonal };
+        R::evaluate(&mut coupled, t, &self.y, &mut self.slope);
     }
 
     /// Writes ẋ, as it was last evaluated, at the states `x` that were placed.
