@@ -313,8 +313,8 @@ impl SceneDraft {
     }
 
     /// Copies an object with all below it, their scripts, and what joins objects of the copy among themselves. The copy
-    /// has the name `name`, hangs on `parent` and stands at `pose` there `[m]`. Returns the paths of the originals, each
-    /// with that of its copy, parents before children.
+    /// has the name `name`, hangs on `parent` and stands at `pose` there `[m]`. Returns the paths of the originals,
+    /// each with that of its copy, parents before children.
     pub fn copy(&mut self, path: &str, name: &str, parent: &str, pose: &Pose<f64>) -> Vec<(String, String)> {
         let originals = self.subtree(path);
         self.copy_some(&originals, path, name, parent, pose)

@@ -13,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use sincro_dynamics::geometry::polyhedron;
+use sincro_dynamics::spatial::Vec3;
 use sincro_scene::scene::mesh_of_file;
 
 use crate::number;
@@ -21,6 +22,8 @@ use crate::number;
 const MAX_BYTES: u64 = 64 << 20;
 /// Corners of a hull that is made; each may touch.
 const HULL_CORNERS: usize = 128;
+/// Points that a hull is made of, before its corners are chosen.
+const CANDIDATES: usize = 500;
 /// Corners of a file beyond which its hull is written in its place.
 const SMALL: usize = 512;
 
@@ -157,13 +160,15 @@ impl Meshes {
             let change = Some("its convex hull touches".into());
             return Ok(Placed { uses: vec![MeshUse { file, scale, color: None }], change });
         }
-        let (part, n) = reduced_hull(&corners).ok_or("its convex hull has no volume")?;
+        let (part, n, outside) = reduced_hull(&corners).ok_or("its convex hull has no volume")?;
         let signs = if mirrored { scale.map(f64::signum) } else { [1.0; 3] };
         let file = self.new_name(path, if mirrored { "-mirrored-hull" } else { "-hull" }, "stl");
         let kept = part.corners.len();
         self.files.insert(file.clone(), Content::Bytes(stl(&part, signs)));
-        let change = if kept < n {
-            format!("its convex hull touches, with {kept} of its {n} corners")
+        let change = if outside > 0.0 {
+            let size = scale.iter().fold(0.0, |size: f64, s| size.max(s.abs()));
+            let outside = number::short(outside * size * 1e3);
+            format!("its convex hull touches, made of {kept} of {n} corners: up to {outside} mm too small")
         } else {
             "its convex hull touches".into()
         };
@@ -305,19 +310,42 @@ fn ball() -> Part {
     Part { corners: mesh.0, triangles: mesh.1, color: None }
 }
 
-/// Convex hull with few corners, those farthest in directions spread evenly; and how many it had.
-fn reduced_hull(corners: &[[f64; 3]]) -> Option<(Part, usize)> {
+/// Convex hull with few corners, those farthest in directions spread evenly; how many points it was made of, and how
+/// far these are outside of it at most `[m]`, 0 if it is exact.
+fn reduced_hull(corners: &[[f64; 3]]) -> Option<(Part, usize, f64)> {
     let distinct: BTreeSet<[u64; 3]> = corners.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
     let points: Vec<[f64; 3]> = distinct.into_iter().map(|p| p.map(f64::from_bits)).collect();
-    // far more points than corners: first those that are extreme in many directions
-    let candidates = if points.len() > 20_000 { support(&points, 2_000) } else { points };
-    let (hull, triangles) = polyhedron::convex_hull(&candidates)?;
-    let n = hull.len();
-    if n <= HULL_CORNERS {
-        return Some((Part { corners: hull, triangles, color: None }, n));
+    // far more points than corners: first those that are extreme in many directions. The time of a hull grows with the
+    // square of the points on one of its faces, as on the rim of a cylinder or a fan.
+    let is_thinned = points.len() > CANDIDATES;
+    let thinned = is_thinned.then(|| support(&points, CANDIDATES));
+    let (hull, triangles) = polyhedron::convex_hull(thinned.as_ref().unwrap_or(&points))?;
+    let part = if hull.len() <= HULL_CORNERS {
+        Part { corners: hull, triangles, color: None }
+    } else {
+        let (corners, triangles) = polyhedron::convex_hull(&support(&hull, HULL_CORNERS))?;
+        Part { corners, triangles, color: None }
+    };
+    let outside = outside(&points, &part);
+    Some((part, points.len(), outside))
+}
+
+/// Largest distance of points from the nearest face plane that they are beyond `[m]`; rounding counts as 0.
+fn outside(points: &[[f64; 3]], hull: &Part) -> f64 {
+    let extent = hull.corners.iter().flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
+    let mut largest = 0.0;
+    for triangle in &hull.triangles {
+        let [a, b, c] = triangle.map(|k| Vec3(hull.corners[k as usize]));
+        let normal = (b - a).cross(c - a);
+        let norm = normal.norm();
+        if norm <= f64::MIN_POSITIVE {
+            continue;
+        }
+        let normal = normal.scale(1.0 / norm);
+        let offset = normal.dot(a);
+        largest = points.iter().fold(largest, |largest: f64, p| largest.max(normal.dot(Vec3(*p)) - offset));
     }
-    let (corners, triangles) = polyhedron::convex_hull(&support(&hull, HULL_CORNERS))?;
-    Some((Part { corners, triangles, color: None }, n))
+    if largest > 1e-9 * extent { largest } else { 0.0 }
 }
 
 /// The points that are farthest in `n` directions of a spiral over the sphere, each once.
@@ -376,10 +404,28 @@ mod tests {
             [r * c, r * s, z]
         };
         let points: Vec<[f64; 3]> = (0..n).map(point).collect();
-        let (hull, before) = reduced_hull(&points).unwrap();
+        let (hull, before, outside) = reduced_hull(&points).unwrap();
         assert_eq!(before, n);
+        assert!(outside > 1e-3 && outside < 0.04, "{outside}");
         assert!(hull.corners.len() <= HULL_CORNERS);
         let volume = polyhedron::mass_properties(&hull.corners, &hull.triangles, 1.0).mass;
         assert!(volume > 0.93 * 4.0 / 3.0 * std::f64::consts::PI, "{volume}");
+    }
+
+    #[test]
+    fn the_hull_of_many_points_on_one_circle_and_of_a_fine_box() {
+        let n = 5_000;
+        let rim = |k: usize| {
+            let (s, c) = sincro_math::elementary::sin_cos(2.0 * std::f64::consts::PI * k as f64 / n as f64);
+            [0.1 * c, 0.1 * s, 0.0]
+        };
+        let fan: Vec<[f64; 3]> = (0..n).map(rim).chain([[0.0, 0.0, 0.1]]).collect();
+        let (hull, _, outside) = reduced_hull(&fan).unwrap();
+        assert_eq!(polyhedron::defects(&hull.corners, &hull.triangles), []);
+        assert!(outside > 0.0 && outside < 1e-3, "{outside}");
+        let grid = |k: usize| [(k % 20) as f64 / 19.0, (k / 20 % 20) as f64 / 19.0, (k / 400) as f64 / 19.0];
+        let cube: Vec<[f64; 3]> = (0..8_000).map(grid).collect();
+        let (hull, _, outside) = reduced_hull(&cube).unwrap();
+        assert_eq!((hull.corners.len(), outside), (8, 0.0));
     }
 }

@@ -11,8 +11,8 @@ use crate::api::{ApiError, SimApi};
 impl SimApi<'_> {
     /// Copies objects to the same places, those whose parents are not copied on the world; with `whole`, and if it is
     /// the base of a model, each with all below it. A copy of a body that moves is free. Copies have the coordinates of
-    /// their originals, are at rest, run scripts of their own, and their names have a number appended. Returns the handles of the copies, in the
-    /// order of `handles`.
+    /// their originals, are at rest, run scripts of their own, and their names have a number appended. Returns the
+    /// handles of the copies, in the order of `handles`.
     ///
     /// # Errors
     ///
