@@ -3,10 +3,9 @@
 //! For users who need the numbers themselves, and for comparison with other programs. The mass matrix is that of the
 //! tree with the armature on its diagonal: loop joints, gears, limits and contacts act as constraints beside it.
 
-use sincro_dynamics::aba::{Input, forward_dynamics};
+use sincro_dynamics::aba::Input;
 use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::model::Model;
-use sincro_dynamics::rnea::inverse_dynamics;
 use sincro_dynamics::scratch::Scratch;
 
 /// Terms of the equations of motion `M(q) v̇ + h(q, v) = τ` at one state, for comparison with other programs; result of
@@ -86,7 +85,7 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     let mut mass = vec![0.0; n_v * n_v];
     mass_matrix(model, &q, &mut scratch, &mut mass);
     let mut inverse = zeros();
-    inverse_dynamics(model, &q, &v, &v_dot, None, &mut scratch, &mut inverse);
+    model.inverse_dynamics(&q, &v, &v_dot, None, &mut scratch, &mut inverse);
     for k in 0..n_v {
         mass[k * n_v + k] += armature[k];
         inverse[k] += armature[k] * v_dot[k];
@@ -94,7 +93,7 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     let input =
         Input { q: &q, v: &v, torque: &torque, diagonal: &armature, prescribed: None, external: None, gravity: true };
     let mut forward = zeros();
-    forward_dynamics(model, &input, &mut scratch, &mut forward);
+    model.forward_dynamics(&input, &mut scratch, &mut forward);
     let mut passive = zeros();
     for joint in &model.names().joints {
         for k in 0..joint.n_v {

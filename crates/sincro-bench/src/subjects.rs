@@ -6,6 +6,7 @@
 
 use std::hint::black_box;
 
+use sincro_dynamics::aba;
 use sincro_dynamics::batch::{BatchSettings, BatchWorld};
 use sincro_dynamics::constraint::SLOT_LEN;
 use sincro_dynamics::integrate::Control;
@@ -13,7 +14,6 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
-use sincro_dynamics::{aba, rnea};
 use sincro_scene::camera::{Lens, NO_PIECE, Optics};
 use sincro_scene::experiment::{ErrorBar, Experiment, Integrator};
 use sincro_scene::scene::{Camera, ObjectKind, Scene};
@@ -223,7 +223,7 @@ pub(super) fn forward(scene: &Scene) -> Subject {
             external: None,
             gravity: true,
         };
-        aba::forward_dynamics(&model, &input, &mut scratch, &mut v_dot);
+        model.forward_dynamics(&input, &mut scratch, &mut v_dot);
         black_box(&v_dot);
     })
 }
@@ -236,7 +236,7 @@ pub(super) fn inverse(scene: &Scene) -> Subject {
     let (mut scratch, mut torque) = (Scratch::new(&model), vec![0.0; model.n_v()]);
     Subject::new(move || {
         let q = black_box(&state.q);
-        rnea::inverse_dynamics(&model, q, &state.v, &v_dot, None, &mut scratch, &mut torque);
+        model.inverse_dynamics(q, &state.v, &v_dot, None, &mut scratch, &mut torque);
         black_box(&torque);
     })
 }

@@ -85,6 +85,17 @@ pub fn forward_dynamics<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch
     R::run_hot(ForwardDynamics { model, input, scratch, v_dot });
 }
 
+impl Model<f64> {
+    /// Computes the accelerations v̇ of plain numbers, as [`forward_dynamics`] does, which every crate compiles again.
+    ///
+    /// # Panics
+    ///
+    /// As [`forward_dynamics`].
+    pub fn forward_dynamics(&self, input: &Input<'_, f64>, scratch: &mut Scratch<f64>, v_dot: &mut [f64]) {
+        forward_dynamics(self, input, scratch, v_dot);
+    }
+}
+
 struct ForwardDynamics<'a, R> {
     model: &'a Model<R>,
     input: &'a Input<'a, R>,

@@ -47,6 +47,25 @@ pub fn inverse_dynamics<R: Real>(
     R::run_hot(InverseDynamics { model, q, v, v_dot, external, scratch, torque });
 }
 
+impl Model<f64> {
+    /// Computes joint torques of plain numbers, as [`inverse_dynamics`] does, which every crate compiles again.
+    ///
+    /// # Panics
+    ///
+    /// As [`inverse_dynamics`].
+    pub fn inverse_dynamics(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        v_dot: &[f64],
+        external: Option<&[Force<f64>]>,
+        scratch: &mut Scratch<f64>,
+        torque: &mut [f64],
+    ) {
+        inverse_dynamics(self, q, v, v_dot, external, scratch, torque);
+    }
+}
+
 struct InverseDynamics<'a, R> {
     model: &'a Model<R>,
     q: &'a [R],
