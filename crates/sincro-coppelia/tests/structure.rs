@@ -397,9 +397,12 @@ expressions = ["-20*x"]
     let folder = SceneFolder::of(&scene, &experiment).with("diagram.toml", diagram);
     let mut session = OpenSession::open(folder, &[], Extensions::default(), None);
     let (arm, body) = (handle(&mut session, "/arm"), handle(&mut session, "/box"));
+    let dummy = call(&mut session, "sim.createDummy", &[0.01.into()])[0].clone();
+    call(&mut session, "sim.setObjectParent", &[dummy.clone(), arm.into(), true.into()]);
     let gone = Value::List(vec![arm.into()]);
     let why = session.call("sim.removeObjects", &[gone]).unwrap_err().to_string();
     assert!(why.contains("the diagram"), "{why}");
+    assert_eq!(call(&mut session, "sim.getObjectParent", &[dummy]), [arm.into()], "it hangs where it did");
     call(&mut session, "sim.removeObjects", &[Value::List(vec![body.into()])]);
     session.start().unwrap();
     steps(&mut session, 10);
@@ -510,4 +513,88 @@ inertia = { xx = 0.01, yy = 0.2, zz = 0.2 }
     steps(&mut session, 10);
     let after = call(&mut session, "sim.getJointVelocity", &[joint.into()])[0].as_real().unwrap();
     assert!((after - expected).abs() < 1e-9, "{after}");
+}
+
+/// A pendulum on a hinge along y that is released where it is horizontal.
+const PENDULUM: &str = r#"
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+[[body]]
+name = "bob"
+parent = "/hinge"
+mass = 1.0
+center_of_mass = [0.5, 0.0, 0.0]
+inertia = { xx = 0.001, yy = 0.001, zz = 0.001 }
+"#;
+
+#[test]
+fn stops_are_made_and_taken_away() {
+    let interval = |lower: f64, upper: f64| [false.into(), Value::reals([lower, upper - lower])];
+    let swing = |session: &mut OpenSession, joint: i64| {
+        let mut largest = 0.0_f64;
+        for _ in 0..200 {
+            steps(session, 1);
+            let q = call(session, "sim.getJointPosition", &[joint.into()])[0].as_real().unwrap();
+            largest = largest.max(q);
+        }
+        largest
+    };
+    for stopped in [true, false] {
+        let mut session = open(&format!("{}{PENDULUM}", box_above_floor(0.05)));
+        let hinge = handle(&mut session, "/hinge");
+        let start = |session: &mut OpenSession| {
+            session.start().unwrap();
+            steps(session, 1);
+        };
+        if !stopped {
+            start(&mut session);
+        }
+        let [is_cyclic, range] = interval(-0.5, 1.0);
+        call(&mut session, "sim.setJointInterval", &[hinge.into(), is_cyclic, range]);
+        if stopped {
+            start(&mut session);
+        }
+        let got = call(&mut session, "sim.getJointInterval", &[hinge.into()]);
+        assert_eq!(got, [false.into(), Value::reals([-0.5, 1.5])]);
+        let reached = swing(&mut session, hinge);
+        assert!((reached - 1.0).abs() < 1e-9, "{reached} rad at a stop of 1 rad");
+        // other ones in their place, then none
+        let [is_cyclic, range] = interval(-0.5, 1.25);
+        call(&mut session, "sim.setJointInterval", &[hinge.into(), is_cyclic, range]);
+        let reached = swing(&mut session, hinge);
+        assert!((reached - 1.25).abs() < 1e-9, "{reached} rad at a stop of 1.25 rad");
+        call(&mut session, "sim.setJointInterval", &[hinge.into(), true.into(), Value::reals([0.0; 2])]);
+        assert_eq!(call(&mut session, "sim.getJointInterval", &[hinge.into()])[0], true.into());
+        let reached = swing(&mut session, hinge);
+        assert!(reached > 1.5, "{reached} rad without stops");
+        session.stop().unwrap();
+        let run = session.take_finished().remove(0).simulated;
+        assert!(run.changes.iter().any(|c| c.quantity == "limits"), "{:?}", run.changes);
+    }
+}
+
+#[test]
+fn a_joint_that_is_made_has_the_stops_that_it_was_given() {
+    let mut session = open(&box_above_floor(0.05));
+    session.start().unwrap();
+    let joint = call(&mut session, "sim.createJoint", &[11_i64.into(), 5_i64.into(), 0_i64.into()])[0].clone();
+    let joint = joint.as_int().unwrap();
+    put(&mut session, joint, [0.0, 2.0, 1.0]);
+    call(&mut session, "sim.setJointInterval", &[joint.into(), false.into(), Value::reals([-0.1, 0.2])]);
+    let got = call(&mut session, "sim.getJointInterval", &[joint.into()]);
+    assert_eq!(got, [false.into(), Value::reals([-0.1, 0.2])]);
+    let refused = [joint.into(), false.into(), Value::reals([0.1, 0.2])];
+    let told = session.call("sim.setJointInterval", &refused).unwrap_err().0;
+    assert!(told.contains("stands at 0"), "{told}");
+    let size = Value::reals([0.1, 0.1, 0.1]);
+    let made = call(&mut session, "sim.createPureShape", &[1_i64.into(), 0_i64.into(), size, 2.0.into()])[0].clone();
+    let ball = made.as_int().unwrap();
+    put(&mut session, ball, [0.0, 2.0, 1.0]);
+    call(&mut session, "sim.setObjectParent", &[ball.into(), joint.into(), true.into()]);
+    // it falls along z onto its lower stop
+    steps(&mut session, 100);
+    let [.., z] = position(&mut session, ball);
+    assert!((z - 0.9).abs() < 1e-9, "{z} m");
 }

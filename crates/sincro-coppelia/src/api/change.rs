@@ -1,6 +1,7 @@
 //! Changes of the model by clients and scripts: masses, joint limits, couplings, whether a body is respondable. Each
 //! change is kept with the run that has it.
 
+use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::Vec3;
 
@@ -101,14 +102,19 @@ impl SimApi<'_> {
         Ok(MassProperties { mass: unit.mass * density, inertia: unit.inertia.map(|i| i * density), ..*unit })
     }
 
-    /// Moves the stops of a joint `[rad]` or `[m]`.
+    /// Moves the stops of a joint `[rad]` or `[m]`, or makes them if it has none: a change of the structure.
     ///
     /// # Errors
     ///
-    /// There is no such joint, it has no stops in the scene, they are not in order, or the joint stands beyond them.
+    /// There is no such joint, the stops are not in order, or the joint stands beyond them.
     pub(crate) fn set_joint_interval(&mut self, handle: Handle, lower: f64, upper: f64) -> Result<(), ApiError> {
-        let joint = self.registry.joint(handle)?;
-        let (dof, q) = (joint.v_idx, self.world.state.q[joint.q_idx]);
+        let is_parked = self.registry.parked.contains_key(&handle);
+        let (dof, q) = match self.registry.joint(handle) {
+            Ok(joint) => (joint.v_idx, self.world.state.q[joint.q_idx]),
+            // it moves nothing yet
+            Err(_) if is_parked => (0, 0.0),
+            Err(error) => return Err(error),
+        };
         let path = self.registry.entry(handle)?.path.clone();
         if !(lower.is_finite() && upper.is_finite() && lower < upper) {
             return Err(ApiError(format!("{lower} to {upper} is no interval for `{path}`")));
@@ -116,11 +122,32 @@ impl SimApi<'_> {
         if !(lower..=upper).contains(&q) {
             return Err(ApiError(format!("`{path}` stands at {q}, beyond {lower} to {upper}: put it there first")));
         }
+        if is_parked {
+            return self.replace_stops(handle, Some([lower, upper]));
+        }
         if !self.world.set_limits(dof, [Some(lower), Some(upper)]) {
-            let help = "stops are moved, not made: give it `limits = { lower = …, upper = … }` in the scene";
-            return Err(ApiError(format!("`{path}` has no stops on both sides: {help}")));
+            self.replace_stops(handle, Some([lower, upper]))?;
         }
         self.change(handle, "limits", vec![lower, upper])
+    }
+
+    /// Takes the stops of a revolute joint away: it turns without end.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint, or it is not revolute.
+    pub(crate) fn remove_joint_stops(&mut self, handle: Handle) -> Result<(), ApiError> {
+        if self.registry.parked.contains_key(&handle) {
+            return self.replace_stops(handle, None);
+        }
+        match self.joint_interval(handle)? {
+            (true, _) => Ok(()),
+            _ if matches!(self.registry.joint(handle)?.kind, JointKind::Revolute { .. }) => {
+                self.replace_stops(handle, None)?;
+                self.change(handle, "no_limits", Vec::new())
+            }
+            _ => Err(ApiError(format!("`{}` is not revolute: it cannot be cyclic", self.registry.entry(handle)?.path))),
+        }
     }
 
     /// Gives the coupling of a joint with its master another offset and factor. While stopped the joint goes to where

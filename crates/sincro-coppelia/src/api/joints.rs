@@ -236,6 +236,9 @@ impl SimApi<'_> {
     ///
     /// `handle` is no object, or no joint with one coordinate.
     pub fn joint_interval(&self, handle: Handle) -> Result<(bool, [f64; 2]), ApiError> {
+        if let Some([lower, upper]) = self.parked_stops(handle) {
+            return Ok((false, [lower, upper - lower]));
+        }
         let joint = self.registry.joint(handle)?;
         let limits = &self.world.model().constraints().limits;
         let bound = |sign: f64| limits.iter().find(|l| l.dof == joint.v_idx && l.sign == sign).map(|l| l.bound);

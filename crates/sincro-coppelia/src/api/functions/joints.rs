@@ -204,10 +204,8 @@ fn interval(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn set_interval(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     if a.bool_or(1, false)? {
-        return match sim.joint_interval(own)? {
-            (true, _) => done(),
-            _ => Err(ApiError::new("stops are moved, not taken away: leave `limits` out in the scene")),
-        };
+        sim.remove_joint_stops(own)?;
+        return done();
     }
     let [lower, range]: [f64; 2] = a.reals(2)?;
     sim.set_joint_interval(own, lower, lower + range)?;

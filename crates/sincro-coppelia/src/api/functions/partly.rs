@@ -35,7 +35,7 @@ const PARTLY: &[(&[&str], &str)] = &[
         "scene files of this program, the robots in `models/`, STL and OBJ files of the scene's folder; scripts of models that clients have sent are left out",
     ),
     (&["saveModel"], "scene files of this program: their text, or a file in the folder for files of clients"),
-    (&["createJoint"], "moves something as soon as a body is hung on it; has no limits"),
+    (&["createJoint"], "moves something as soon as a body is hung on it"),
     (&["scaleObject", "scaleObjects", "groupShapes", "ungroupShape"], "runtime shapes only"),
     (&["loadScene"], "scene folders of this program, beside the one that is served"),
     (&["getObjectSizeFactor"], "always 1: objects are not scaled"),
@@ -46,7 +46,7 @@ const PARTLY: &[(&[&str], &str)] = &[
     (&["getObjectSel", "setObjectSel"], "nothing is ever selected"),
     (&["getExtensionString"], "always empty"),
     (&["getSimulatorMessage"], "there are none: −1"),
-    (&["setJointInterval", "setJointDependency"], "of joints that have limits or a coupling in the scene"),
+    (&["setJointDependency"], "of joints that have a coupling in the scene"),
     (&["getIsRealTimeSimulation"], "always 0: real time is a flag of the server"),
     (
         &["setBoolParam", "setInt32Param"],

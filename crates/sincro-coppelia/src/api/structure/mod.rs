@@ -1,5 +1,5 @@
 //! Structure that clients and scripts change: objects of the model are copied, removed, hung elsewhere, made and
-//! loaded.
+//! loaded; joints get stops.
 //!
 //! Each change takes effect at once, between two steps: the scene is edited ([`SceneDraft`]), compiled, and the world
 //! goes on with it ([`restructure`]). Handles stay. A body that is hung on another one is joined to it, as in a
@@ -12,6 +12,7 @@ mod make;
 mod model;
 mod needed;
 mod remove;
+mod stops;
 
 pub(crate) use make::Role;
 pub(super) use needed::Needed;

@@ -38,10 +38,16 @@ impl SimApi<'_> {
         gone.extend(idle);
         let stays: Vec<(Handle, Option<Handle>)> = self.orphans(&gone, &chosen)?;
         edit.draft.remove(&gone);
+        let mut former = Vec::new();
         for (child, parent) in stays {
+            former.push((child, self.registry.entry(child)?.parent));
             self.set_parent(child, parent, true)?;
         }
-        self.rebuild(edit)?;
+        if let Err(refused) = self.rebuild(edit) {
+            // nothing has been removed: what hung on it does so again
+            former.into_iter().try_for_each(|(child, parent)| self.set_parent(child, parent, true))?;
+            return Err(refused);
+        }
         runtime.into_iter().try_for_each(|handle| self.remove(handle))
     }
 
