@@ -10,6 +10,7 @@
 //! | `source` | documents, and the ledger of what was read of them |
 //! | `robot` | the intermediate description that every reader fills |
 //! | `urdf`, `sdf`, `mjcf` | readers |
+//! | `merge` | links on fixed joints as parts of what carries them, on request |
 //! | `policy` | mass properties that no robot can have |
 //! | `mesh`, `resolve` | meshes, and where they are |
 //! | `writer` | the scene folder |
@@ -37,6 +38,7 @@
 mod color;
 pub mod export;
 mod findings;
+mod merge;
 mod mesh;
 mod mjcf;
 mod number;
@@ -115,6 +117,8 @@ pub struct Options {
     pub motors: Motors,
     /// Repairs of mass properties that may be made; without them such a robot is refused.
     pub repairs: Vec<Repair>,
+    /// True if links on fixed joints become parts of the bodies that carry them; frames of their names stay.
+    pub merge_fixed: bool,
 }
 
 /// Robot as a scene folder in memory with the report of its import: the result of [`import`].
@@ -183,6 +187,7 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
     if findings.0.any_error() {
         return Err(findings.0.sorted());
     }
+    let merged = if options.merge_fixed { merge::merge_fixed(&mut robot, &ledger) } else { Vec::new() };
     let source_robot = robot.clone();
     let repairs = policy::check(&mut robot, options, &mut findings);
     if findings.0.any_error() {
@@ -205,7 +210,7 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
         comparison: Vec::new(),
         links: Vec::new(),
         repairs,
-        choices: written.choices.clone(),
+        choices: choices(&written.choices, &merged),
         warnings: warnings.iter().map(Warning::from).collect(),
         missing_collision_meshes: written.missing_collisions.clone(),
         elements,
@@ -220,6 +225,20 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
     };
     verify::compare(&mut imported, &source_robot, &written.link_paths, options)?;
     Ok(imported)
+}
+
+/// Choices of the writer, and what was merged on request.
+fn choices(of_writer: &[String], merged: &[String]) -> Vec<String> {
+    let of_merging = match merged {
+        [] => None,
+        [one] => Some(format!("link `{one}` is merged into the body that carries it; a frame stays (--merge-fixed)")),
+        many => Some(format!(
+            "{} links are merged into the bodies that carry them; frames stay (--merge-fixed): `{}`",
+            many.len(),
+            many.join("`, `")
+        )),
+    };
+    of_writer.iter().cloned().chain(of_merging).collect()
 }
 
 impl Imported {

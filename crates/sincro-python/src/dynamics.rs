@@ -200,7 +200,8 @@ pub fn import(robot: &Path, folder: &Path, options: &ImportRequest) -> Result<(S
         other => return Err(refuse(format!("`{other}` is no drive of joints; there are: hold, torque, none"))),
     };
     let package_paths = options.package_paths.iter().map(Into::into).collect();
-    let options = Options { package_paths, free_base: options.free_base, motors, repairs };
+    let (free_base, merge_fixed) = (options.free_base, options.merge_fixed);
+    let options = Options { package_paths, free_base, motors, repairs, merge_fixed };
     let imported = sincro_import::import(robot, &options)?;
     let written = imported.write(folder);
     written.map_err(|error| refuse(format!("`{}` cannot be written: {error}", folder.display())))?;
@@ -217,4 +218,6 @@ pub struct ImportRequest {
     pub repairs: Vec<String>,
     /// Folders in which packages are searched.
     pub package_paths: Vec<String>,
+    /// True if links on fixed joints become parts of what carries them.
+    pub merge_fixed: bool,
 }

@@ -46,8 +46,9 @@ fn import_robot(
     motors: String,
     repairs: Vec<String>,
     package_paths: Vec<String>,
+    merge_fixed: bool,
 ) -> PyResult<(String, Vec<String>)> {
-    let request = dynamics::ImportRequest { free_base, motors, repairs, package_paths };
+    let request = dynamics::ImportRequest { free_base, motors, repairs, package_paths, merge_fixed };
     let imported = foreground::contained(py, || dynamics::import(&robot, &folder, &request))?;
     imported.map_err(|found| errors::scene(py, &found))
 }

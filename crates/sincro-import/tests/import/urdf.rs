@@ -167,3 +167,60 @@ fn trees_that_are_none_are_refused_with_all_reasons() {
         assert!(words.contains(part), "{part} in {words}");
     }
 }
+
+/// A chain of six links on revolute and fixed joints with drawn poses, axes and inertias.
+fn drawn(seed: u64) -> String {
+    let mut state = seed;
+    let mut draw = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let mut text = String::from("<robot name=\"chain\"><link name=\"l0\"/>");
+    for k in 1..=6 {
+        let mut triple = || [draw(), draw(), draw()].map(|x| x.to_string()).join(" ");
+        let (center, turned, place, angles, axis) = (triple(), triple(), triple(), triple(), triple());
+        let kind = if k % 2 == 1 { "continuous" } else { "fixed" };
+        text += &format!(
+            "<link name=\"l{k}\"><inertial><origin xyz=\"{center}\" rpy=\"{turned}\"/><mass value=\"{}\"/>\
+             <inertia ixx=\"0.1\" iyy=\"0.12\" izz=\"0.15\" ixy=\"0.01\" ixz=\"-0.02\" iyz=\"0.005\"/></inertial>\
+             <collision><geometry><box size=\"0.1 0.2 0.3\"/></geometry></collision></link>\
+             <joint name=\"j{k}\" type=\"{kind}\"><origin xyz=\"{place}\" rpy=\"{angles}\"/>\
+             <parent link=\"l{}\"/><child link=\"l{k}\"/><axis xyz=\"{axis}\"/></joint>",
+            1.0 + draw(),
+            k - 1
+        );
+    }
+    text + "</robot>"
+}
+
+#[test]
+fn merged_links_leave_the_dynamics_as_it_is() {
+    use sincro_dynamics::{crba::mass_matrix, scratch::Scratch};
+    for seed in 0..20 {
+        let folder = Folder::new();
+        let text = drawn(seed);
+        let plain = folder.import("chain.urdf", &text).unwrap();
+        let options = Options { merge_fixed: true, ..Options::default() };
+        let merged = folder.import_with("chain.urdf", &text, &options).unwrap();
+        assert_eq!(merged.report.differences(), Vec::<String>::new());
+        let bodies = |scene: &sincro_scene::scene::Scene| {
+            scene.objects.iter().filter(|o| matches!(o.kind, ObjectKind::Body { .. })).count()
+        };
+        let scenes = [folder.open(&plain).scene, folder.open(&merged).scene];
+        assert_eq!(scenes.each_ref().map(bodies), [6, 3]);
+        assert!(scenes[1].objects.iter().any(|o| o.path.ends_with("/l6") && o.kind == ObjectKind::Frame));
+        let [a, b] = scenes.each_ref().map(|scene| {
+            let q: Vec<f64> = (0..3).map(|k| 0.7 * (k as f64 + 1.0) - seed as f64).collect();
+            let model = &scene.model;
+            let (mut mass, mut torque) = (vec![0.0; 9], vec![0.0; 3]);
+            let mut scratch = Scratch::new(model);
+            mass_matrix(model, &q, &mut scratch, &mut mass);
+            model.inverse_dynamics(&q, &[1.0, -2.0, 0.5], &[0.0; 3], None, &mut scratch, &mut torque);
+            [mass, torque].concat()
+        });
+        let worst = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-12, "seed {seed}: {worst:e}");
+        assert!(entry(&merged, "joint[j6]").words.contains("link `l6` is merged into `l5`"));
+        assert!(!entry(&plain, "joint[j6]").words.contains("merged"));
+    }
+}

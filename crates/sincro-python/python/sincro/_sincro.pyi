@@ -23,6 +23,7 @@ def import_robot(
     motors: str,
     repairs: list[str],
     package_paths: list[str],
+    merge_fixed: bool,
 ) -> tuple[str, list[str]]: ...
 def lqr(a: _Array, b: _Array, q: _Array, r: _Array) -> _Array: ...
 

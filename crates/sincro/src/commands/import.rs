@@ -28,6 +28,9 @@ pub(crate) struct Arguments {
     /// Repair what no robot can have; may be repeated
     #[arg(long, value_enum, value_name = "NAME")]
     repair: Vec<RepairArgument>,
+    /// Make links on fixed joints parts of the bodies that carry them; frames of their names stay
+    #[arg(long)]
+    merge_fixed: bool,
     /// Print the report as JSON on standard output instead of the summary
     #[arg(long)]
     json: bool,
@@ -83,6 +86,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
                 RepairArgument::PositiveInertia => Repair::PositiveInertia,
             })
             .collect(),
+        merge_fixed: arguments.merge_fixed,
     };
     let imported = match import(&arguments.file, &options) {
         Ok(imported) => imported,
