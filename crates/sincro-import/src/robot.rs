@@ -389,6 +389,19 @@ pub(crate) enum SensorKind {
     Imu,
     /// Contacts of its body.
     Contact,
+    /// Pictures.
+    Camera(Optics),
+}
+
+/// Optics of a camera that looks along z of its frame, with y up in the picture and x to the left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Optics {
+    /// Angle between the upper and the lower edge of the picture `[rad]`.
+    pub field_of_view: f64,
+    /// Columns and rows, if the source gives them.
+    pub resolution: Option<[u32; 2]>,
+    /// Distances at which pictures begin and end, if the source gives them `[m]`.
+    pub range: Option<[f64; 2]>,
 }
 
 /// Positions of joints under a name.

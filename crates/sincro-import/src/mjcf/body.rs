@@ -6,7 +6,7 @@ use sincro_scene::diagnostic::Diagnostic;
 use super::Reader;
 use super::orientation::{placement, rotation};
 use crate::findings::Findings;
-use crate::robot::{Inertial, Joint, JointKind, Link, Placement, Robot, turned_inertia};
+use crate::robot::{Inertial, Joint, JointKind, Link, Optics, Placement, Robot, Sensor, SensorKind, turned_inertia};
 use crate::source::Element;
 
 /// Deepest nesting of bodies.
@@ -33,12 +33,16 @@ impl<'d> Reader<'d> {
                 _ => {}
             }
         }
-        let has_sites = children.iter().any(|(c, ..)| c.name() == "site" && c.peek("name").is_some());
+        let has_sites = children.iter().any(|(c, ..)| match c.name() {
+            "site" => c.peek("name").is_some(),
+            name => name == "camera",
+        });
         if !link.collisions.is_empty() || !link.visuals.is_empty() || has_sites {
             self.tidy(&mut link);
             robot.links.push(link);
             let index = robot.links.len() - 1;
             self.add_sites(&children, index, robot, findings);
+            self.add_cameras(&children, index, robot, findings);
         }
         let parent = Parent { link: None, depth: 0 };
         for (child, frame, class) in children {
@@ -76,7 +80,7 @@ impl<'d> Reader<'d> {
                         findings
                             .error(child.error(message).with_help("save the compiled model from MuJoCo, or remove it"));
                     }
-                    "body" | "geom" | "joint" | "freejoint" | "inertial" | "site" => {
+                    "body" | "geom" | "joint" | "freejoint" | "inertial" | "site" | "camera" => {
                         child.keep();
                         here.push((child, at, class.clone()));
                     }
@@ -142,6 +146,7 @@ impl<'d> Reader<'d> {
         let index = self.chain(element, &joints, (pose, parent.link), link, robot, findings);
         self.bodies.insert(name, index);
         self.add_sites(&children, index, robot, findings);
+        self.add_cameras(&children, index, robot, findings);
         let inner = Parent { link: Some(index), depth: parent.depth + 1 };
         for (child, at, class) in &children {
             if child.name() == "body" {
@@ -360,6 +365,47 @@ impl<'d> Reader<'d> {
             self.references.push(0.0);
             self.sites.insert(name.to_owned(), child);
         }
+    }
+
+    /// Cameras that ride on a link; those that follow something stand as they do at the start.
+    fn add_cameras(
+        &self,
+        children: &[(Element<'d>, Placement, String)],
+        link: usize,
+        robot: &mut Robot,
+        findings: &mut Findings,
+    ) {
+        for (camera, at, class) in children.iter().filter(|(c, ..)| c.name() == "camera") {
+            let name = camera.attribute("name").map_or_else(|| format!("camera{}", robot.sensors.len()), str::to_owned);
+            let Some((own, optics)) = findings.take(self.camera(*camera, class)) else { continue };
+            match self.defaults.text(*camera, class, "mode") {
+                None | Some("fixed") => {}
+                Some(mode) => camera.change(&format!("it does not follow anything (`{mode}`): it rides on its body")),
+            }
+            // MuJoCo's looks along −z, with x to the right
+            let turned = Placement::new([0.0; 3], [0.0, std::f64::consts::PI, 0.0]);
+            let pose = at.then(&own).then(&turned);
+            robot.sensors.push(Sensor { name, at: camera.location(), link, pose, kind: SensorKind::Camera(optics) });
+        }
+    }
+
+    fn camera(&self, camera: Element<'d>, class: &str) -> Result<(Placement, Optics), Diagnostic> {
+        let own = placement(camera, class, &self.defaults, &self.angles)?;
+        let degrees = self.defaults.number(camera, class, "fovy")?.unwrap_or(45.0);
+        if !(degrees > 0.0 && degrees < 180.0) {
+            return Err(camera.error(format!("`fovy` is {degrees}: a field of view is between 0 and 180 degrees")));
+        }
+        let side = |x: f64| (x >= 1.0 && x <= f64::from(u16::MAX) && x.fract() == 0.0).then_some(x as u32);
+        // one pixel is MuJoCo's way of saying nothing
+        let resolution = match self.defaults.numbers(camera, class, "resolution")?.as_deref() {
+            None | Some([1.0, 1.0]) => None,
+            Some([w, h]) => match (side(*w), side(*h)) {
+                (Some(w), Some(h)) => Some([w, h]),
+                _ => return Err(camera.error(format!("`resolution` is {w} × {h}: expected two whole numbers"))),
+            },
+            Some(_) => return Err(camera.error("`resolution` has two numbers")),
+        };
+        Ok((own, Optics { field_of_view: degrees.to_radians(), resolution, range: None }))
     }
 
     fn site_placement(&self, site: Element<'d>, class: &str) -> Result<Placement, Diagnostic> {

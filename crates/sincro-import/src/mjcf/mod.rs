@@ -35,7 +35,7 @@ pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
         _ if path.contains(&"material") => Some("bodies have a colour each"),
         [.., "visual" | "statistic" | "size" | "custom"] => Some("setting of MuJoCo's viewer or memory"),
         [.., "visual" | "statistic" | "size" | "custom", _] => Some("setting of MuJoCo's viewer or memory"),
-        [.., "camera"] => Some("cameras of the viewer are not imported"),
+        [.., "camera", "@ipd"] => Some("pictures are of one eye"),
         _ if path.contains(&"option") => Some("setting of MuJoCo's solver"),
         _ if path.contains(&"sensor") => Some("its quantity can be recorded, or measured by a [[sensor]]"),
         [.., "exclude"] => Some("the bodies of one tree do not touch each other"),

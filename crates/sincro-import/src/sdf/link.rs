@@ -6,7 +6,9 @@ use super::frames::Places;
 use super::{Raw, pose_of};
 use crate::color::rgb;
 use crate::findings::Findings;
-use crate::robot::{Geometry, Inertial, Link, Placement, Robot, Sensor, SensorKind, Shape, SurfaceLaw, turned_inertia};
+use crate::robot::{
+    Geometry, Inertial, Link, Optics, Placement, Robot, Rotation, Sensor, SensorKind, Shape, SurfaceLaw, turned_inertia,
+};
 use crate::source::Element;
 
 /// A link; its place comes later.
@@ -131,6 +133,10 @@ pub(super) fn sensors(robot: &mut Robot, raw: &Raw<'_>, findings: &mut Findings)
             let kind = match sensor.attribute("type") {
                 Some("imu") => SensorKind::Imu,
                 Some("contact") => SensorKind::Contact,
+                Some("camera" | "depth_camera" | "depth" | "rgbd_camera") => match findings.take(optics(sensor)) {
+                    Some(optics) => SensorKind::Camera(optics),
+                    None => continue,
+                },
                 Some(other) => {
                     sensor.drop(&format!("there is no sensor of kind `{other}`"));
                     continue;
@@ -138,8 +144,44 @@ pub(super) fn sensors(robot: &mut Robot, raw: &Raw<'_>, findings: &mut Findings)
                 None => continue,
             };
             let Some(pose) = findings.take(pose_of(sensor)) else { continue };
-            let (pose, at) = (pose.unwrap_or_default(), sensor.location());
+            let (mut pose, at) = (pose.unwrap_or_default(), sensor.location());
+            if matches!(kind, SensorKind::Camera(_)) {
+                let own = sensor.child("camera").and_then(|c| findings.take(pose_of(c)).flatten());
+                // Gazebo's looks along x, with z up and y to the left
+                let turned = Placement { position: [0.0; 3], rotation: Rotation::Quaternion([0.5; 4]) };
+                pose = pose.then(&own.unwrap_or_default()).then(&turned);
+            }
             robot.sensors.push(Sensor { name, at, link: k, pose, kind });
         }
     }
+}
+
+/// Optics of a camera: SDF gives the angle between the left and the right edge.
+fn optics(sensor: Element<'_>) -> Result<Optics, Diagnostic> {
+    let Some(camera) = sensor.child("camera") else {
+        return Ok(Optics { field_of_view: 1.047, resolution: None, range: None });
+    };
+    let number = |element: Option<Element<'_>>, name: &str, default: f64| -> Result<f64, Diagnostic> {
+        let Some(child) = element.and_then(|e| e.child(name)) else { return Ok(default) };
+        let [x] = child.text_numbers()?[..] else { return Err(child.error(format!("`{name}` is one number"))) };
+        Ok(x)
+    };
+    let image = camera.child("image");
+    let (width, height) = (number(image, "width", 320.0)?, number(image, "height", 240.0)?);
+    let horizontal = number(Some(camera), "horizontal_fov", 1.047)?;
+    let is_side = |x: f64| x >= 1.0 && x <= f64::from(u16::MAX) && x.fract() == 0.0;
+    if !(is_side(width) && is_side(height)) {
+        return Err(camera.error(format!("a picture of {width} × {height}: expected whole numbers")));
+    }
+    if !(horizontal > 0.0 && horizontal < std::f64::consts::PI) {
+        return Err(camera.error(format!("`horizontal_fov` is {horizontal} rad: expected more than 0, less than π")));
+    }
+    let clip = camera.child("clip");
+    let range = match clip {
+        None => None,
+        Some(_) => Some([number(clip, "near", 0.1)?, number(clip, "far", 100.0)?]),
+    };
+    let (sine, cosine) = sincro_math::elementary::sin_cos(0.5 * horizontal);
+    let field_of_view = 2.0 * sincro_math::elementary::atan2(sine * height, cosine * width).0;
+    Ok(Optics { field_of_view, resolution: Some([width as u32, height as u32]), range })
 }

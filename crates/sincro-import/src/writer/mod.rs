@@ -13,10 +13,10 @@ use std::path::Path;
 use sincro_scene::diagnostic::Location;
 
 use crate::mesh::{Content, Meshes};
-use crate::number::{list, name, number, quoted};
+use crate::number::{degrees, list, name, number, quoted};
 use crate::policy;
 use crate::resolve::Resolver;
-use crate::robot::{JointKind, Loop, LoopKind, Placement, Robot, Rotation, SensorKind};
+use crate::robot::{JointKind, Loop, LoopKind, Optics, Placement, Robot, Rotation, SensorKind};
 use crate::source::{ElementStatus, Ledger};
 use crate::{Motors, Options};
 
@@ -262,16 +262,29 @@ impl Writer<'_> {
                 continue;
             }
             let path = self.unique(&parent, &sensor.name);
-            self.line("[[sensor]]");
+            self.line(if matches!(sensor.kind, SensorKind::Camera(_)) { "[[camera]]" } else { "[[sensor]]" });
             self.line(&format!("name = {}", quoted(last(&path))));
             self.line(&format!("parent = {}", quoted(&parent)));
             self.placement(&sensor.pose);
-            self.line(match sensor.kind {
-                SensorKind::Imu => "imu = {}",
-                SensorKind::Contact => "contact = {}",
-            });
+            match sensor.kind {
+                SensorKind::Imu => self.line("imu = {}"),
+                SensorKind::Contact => self.line("contact = {}"),
+                SensorKind::Camera(optics) => self.optics(&optics),
+            }
             self.line("");
         }
+    }
+
+    /// Optics of a camera; one with a resolution takes pictures when it is asked for one.
+    fn optics(&mut self, optics: &Optics) {
+        self.line(&format!("field_of_view_deg = {}", number(degrees(optics.field_of_view))));
+        let Some([columns, rows]) = optics.resolution else { return };
+        self.line(&format!("resolution = [{columns}, {rows}]"));
+        if let Some([near, far]) = optics.range {
+            self.line(&format!("near = {}", number(near)));
+            self.line(&format!("far = {}", number(far)));
+        }
+        self.line("explicit_handling = true");
     }
 
     /// Distance and angle (a measure of it) by which a loop joint is open at the start.

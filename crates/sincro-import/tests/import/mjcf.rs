@@ -120,3 +120,33 @@ fn equalities_close_loops_and_couple_joints() {
     assert_eq!(scene.model.constraints().loop_joints.len(), 1);
     assert_eq!(scene.model.constraints().gears[0].ratio, -1.0);
 }
+
+#[test]
+fn cameras_look_where_mujocos_do() {
+    let folder = Folder::new();
+    let text = r#"<mujoco><worldbody>
+      <camera name="overview" pos="0 -2 1" xyaxes="1 0 0 0 0 1" fovy="60"/>
+      <body name="arm" pos="0 0 1"><joint name="j" axis="0 1 0"/><geom type="sphere" size="0.1" mass="1"/>
+        <camera name="eye" pos="0.1 0 0" quat="1 0 0 0" resolution="64 48"/>
+        <camera name="follower" mode="trackcom" pos="1 0 0"/></body>
+    </worldbody></mujoco>"#;
+    let imported = folder.import("eyes.xml", text).unwrap();
+    assert_eq!(dropped(&imported), Vec::<String>::new());
+    assert!(entry(&imported, "camera[follower]").words.contains("trackcom"));
+    let scene = folder.open(&imported).scene;
+    let axes = |ending: &str| {
+        let object = scene.objects.iter().find(|o| o.path.ends_with(ending)).unwrap();
+        let column = |k: usize| [0, 1, 2].map(|i| object.pose.rot.0[i][k]);
+        [0, 1, 2].map(column)
+    };
+    let close = |a: [[f64; 3]; 3], b: [[f64; 3]; 3]| {
+        a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-15)
+    };
+    // x of MuJoCo's picture is right, ours left; it looks along −z, ours along z: here along the world's y
+    assert!(close(axes("/overview"), [[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]), "{:?}", axes("/overview"));
+    assert!(close(axes("/eye"), [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]), "{:?}", axes("/eye"));
+    assert!(imported.scene().contains("field_of_view_deg = 60.0"), "{}", imported.scene());
+    assert!(imported.scene().contains("field_of_view_deg = 45.0\nresolution = [64, 48]"), "{}", imported.scene());
+    let wrong = text.replace("fovy=\"60\"", "fovy=\"200\"");
+    assert!(folder.import("wrong.xml", &wrong).unwrap_err().to_string().contains("`fovy` is 200"));
+}

@@ -66,3 +66,26 @@ fn frames_in_circles_are_refused() {
       <frame name="b"><pose relative_to="a"/></frame><link name="l"><inertial><mass>1</mass></inertial></link></model></sdf>"#;
     assert!(Folder::new().import("m.sdf", text).unwrap_err().to_string().contains("circle"));
 }
+
+#[test]
+fn cameras_look_along_x_and_have_the_height_that_follows_from_the_width() {
+    let folder = Folder::new();
+    let text = r#"<sdf version="1.9"><model name="r"><link name="base"><inertial><mass>1</mass></inertial>
+      <sensor name="eye" type="camera"><pose>0.1 0 0.2 0 0 1.5707963267948966</pose><camera>
+        <horizontal_fov>1.5707963267948966</horizontal_fov><image><width>200</width><height>100</height></image>
+        <clip><near>0.05</near><far>8</far></clip></camera></sensor></link></model></sdf>"#;
+    let imported = folder.import("eye.sdf", text).unwrap();
+    let scene = folder.open(&imported).scene;
+    let eye = scene.objects.iter().find(|o| o.path.ends_with("/eye")).unwrap();
+    // turned by 90° about z it looks along y; up is z, left is −x
+    let expected = [[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]];
+    for (k, axis) in expected.iter().enumerate() {
+        for i in 0..3 {
+            assert!((eye.pose.rot.0[i][k] - axis[i]).abs() < 1e-15, "{:?}", eye.pose.rot);
+        }
+    }
+    let line = imported.scene().lines().find(|line| line.starts_with("field_of_view_deg")).unwrap().to_owned();
+    let degrees: f64 = line.split_once(" = ").unwrap().1.parse().unwrap();
+    assert!((degrees - 2.0 * f64::atan(0.5).to_degrees()).abs() < 1e-12, "{line}");
+    assert!(imported.scene().contains("near = 0.05\nfar = 8.0"), "{}", imported.scene());
+}
