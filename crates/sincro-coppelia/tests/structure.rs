@@ -598,3 +598,36 @@ fn a_joint_that_is_made_has_the_stops_that_it_was_given() {
     let [.., z] = position(&mut session, ball);
     assert!((z - 0.9).abs() < 1e-9, "{z} m");
 }
+
+#[test]
+fn a_force_sensor_that_is_made_measures_what_is_hung_on_it() {
+    let mut session = open(&box_above_floor(0.05));
+    session.start().unwrap();
+    steps(&mut session, 2);
+    let sensor = call(&mut session, "sim.createForceSensor", &[0_i64.into()])[0].as_int().unwrap();
+    assert_eq!(call(&mut session, "sim.getObjectType", &[sensor.into()]), [Value::Int(12)]);
+    put(&mut session, sensor, [0.0, 2.0, 1.0]);
+    let nothing = call(&mut session, "sim.readForceSensor", &[sensor.into()]);
+    assert_eq!(nothing[1..], [Value::reals([0.0; 3]), Value::reals([0.0; 3])]);
+    let size = Value::reals([0.1, 0.1, 0.1]);
+    let made = call(&mut session, "sim.createPureShape", &[0_i64.into(), 0_i64.into(), size, 2.0.into()])[0].clone();
+    let body = made.as_int().unwrap();
+    put(&mut session, body, [0.3, 2.0, 1.0]);
+    call(&mut session, "sim.setObjectParent", &[body.into(), sensor.into(), true.into()]);
+    steps(&mut session, 5);
+    let read = call(&mut session, "sim.readForceSensor", &[sensor.into()]);
+    let (force, torque) = (reals(&read[1]), reals(&read[2]));
+    let weight = 2.0 * G;
+    // what the body exerts on the sensor: its weight, 0.3 m along x
+    for (value, expected) in force.iter().chain(&torque).zip([0.0, 0.0, -weight, 0.0, 0.3 * weight, 0.0]) {
+        assert!((value - expected).abs() < 1e-9, "{force:?} {torque:?}");
+    }
+    let [x, _, z] = position(&mut session, body);
+    assert!((x - 0.3).abs() < 1e-12 && (z - 1.0).abs() < 1e-12, "it stays where it is");
+    let parted = session.call("sim.setObjectParent", &[body.into(), (-1_i64).into(), true.into()]).unwrap_err().0;
+    assert!(parted.contains("would carry nothing"), "{parted}");
+    call(&mut session, "sim.removeObjects", &[Value::List(vec![body.into()])]);
+    steps(&mut session, 1);
+    let breaks = session.call("sim.createForceSensor", &[1_i64.into()]).unwrap_err().0;
+    assert!(breaks.contains("breaks"), "{breaks}");
+}

@@ -53,9 +53,9 @@ impl SimApi<'_> {
         Err(ApiError(format!("`{path}` touches nothing: give the body `contact = {{ … }}` in the scene")))
     }
 
-    /// Load of a force sensor (a fixed joint with `force_sensor = true`): force `[N]`, then torque `[N·m]`, each as x,
-    /// y, z in the axes of the joint. They act from what the joint carries on what carries it, the sign that V-REP
-    /// reports.
+    /// Load of a force sensor (a fixed joint with `force_sensor = true`), zero if it carries nothing yet: force `[N]`,
+    /// then torque `[N·m]`, each as x, y, z in the axes of the joint. They act from what the joint carries on what
+    /// carries it, the sign that V-REP reports.
     ///
     /// # Errors
     ///
@@ -66,6 +66,7 @@ impl SimApi<'_> {
             let help = "give a fixed joint `force_sensor = true` in the scene";
             return Err(ApiError(format!("`{}` is no force sensor: {help}", entry.path)));
         };
+        let Some(first) = first else { return Ok(([0.0; 3], [0.0; 3])) };
         self.observe();
         // the joint's own figure is what carries on what is carried
         let held = |k: usize| -self.world.reaction(first + k);

@@ -65,8 +65,9 @@ pub enum Kind {
     Force,
     /// A rotor, with its index among the model's: to clients and scripts a joint that turns at its commanded speed.
     Rotor(usize),
-    /// A force sensor: a fixed joint of six held degrees of freedom, with the index of the first among the model's.
-    ForceSensor(usize),
+    /// A force sensor: a fixed joint of six held degrees of freedom, with the index of the first among the model's;
+    /// none if it was made at run time and carries nothing yet.
+    ForceSensor(Option<usize>),
     /// A vision sensor: a camera whose pictures are read, with its index among the registry's.
     Vision(usize),
     /// A dummy: a named frame made by a client or script.

@@ -59,7 +59,9 @@ impl ObjectRegistry {
         match &object.kind {
             ObjectKind::Joint { kind, motor } => match names.joint(&object.path) {
                 None => (Kind::Joint(None), beside, beside),
-                Some(joint) if *kind == JointKind::Fixed => (Kind::ForceSensor(joint.v_idx), joint.base, joint.moving),
+                Some(joint) if *kind == JointKind::Fixed => {
+                    (Kind::ForceSensor(Some(joint.v_idx)), joint.base, joint.moving)
+                }
                 Some(joint) => {
                     let turn = axis_of(kind).map_or_else(Mat3::identity, convention::rotation_to);
                     let own = axis_of(kind).is_some().then(|| {

@@ -154,6 +154,7 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "copyPasteObjects" | "removeObjects" => vec![Value::List(vec![point.clone()])],
         "removeObject" | "removeModel" => vec![point.clone()],
         "createJoint" => vec![int(10), int(5), int(0)],
+        "createForceSensor" => vec![int(0)],
         "saveModel" => vec![body.clone()],
         "setObjectQuaternion" => vec![body.clone(), int(-1), turn()],
         "setObjectPose" => vec![body.clone(), pose(), int(-1)],

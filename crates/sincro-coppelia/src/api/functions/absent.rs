@@ -3,8 +3,8 @@
 /// Functions that are not offered: their names, and the reason that callers are given.
 const ABSENT: &[(&[&str], &str)] = &[
     (
-        &["createForceSensor", "createPath", "createScript", "addScript", "createTexture"],
-        "sensors of forces, paths, scripts and textures are made in the scene file, or in a model that is loaded",
+        &["createPath", "createScript", "addScript", "createTexture"],
+        "paths, scripts and textures are made in the scene file, or in a model that is loaded",
     ),
     (&["loadUI", "saveUI"], "there are no windows: values of widgets are kept by simUI"),
     (

@@ -36,6 +36,10 @@ const PARTLY: &[(&[&str], &str)] = &[
     ),
     (&["saveModel"], "scene files of this program: their text, or a file in the folder for files of clients"),
     (&["createJoint"], "moves something as soon as a body is hung on it"),
+    (
+        &["createForceSensor"],
+        "measures as soon as a body is hung on it; its values are not filtered, it does not break",
+    ),
     (&["scaleObject", "scaleObjects", "groupShapes", "ungroupShape"], "runtime shapes only"),
     (&["loadScene"], "scene folders of this program, beside the one that is served"),
     (&["getObjectSizeFactor"], "always 1: objects are not scaled"),

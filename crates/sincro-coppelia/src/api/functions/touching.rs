@@ -1,6 +1,6 @@
 //! Functions: contacts, force sensors.
 
-use super::{Function, Outcome, handle};
+use super::{Function, Outcome, handle, one};
 use crate::api::constants::HANDLE_FLAGS;
 use crate::api::{ApiError, Arguments, ContactPoint, SimApi, Value};
 
@@ -11,11 +11,23 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: contact,
     },
     Function {
+        name: "createForceSensor",
+        tip: "int sensorHandle=sim.createForceSensor(int options,int[5] intParams={},float[5] floatParams={})",
+        run: create_force_sensor,
+    },
+    Function {
         name: "readForceSensor",
         tip: "int result,float[3] forceVector,float[3] torqueVector=sim.readForceSensor(int objectHandle)",
         run: force_sensor,
     },
 ];
+
+fn create_force_sensor(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if a.int_or(0, 0)? & 1 != 0 {
+        return Err(ApiError::new("what a force sensor carries stays on it: it has no threshold at which it breaks"));
+    }
+    one(sim.create_force_sensor()?)
+}
 
 /// All entities.
 const ALL: i32 = -2;

@@ -120,7 +120,7 @@ impl SimApi<'_> {
     fn part_idle(&mut self, edit: &mut Rebuild) -> Result<(), ApiError> {
         let idle = idle_joints(&edit.draft, &std::collections::BTreeSet::new());
         let Some(first) = idle.first() else { return Ok(()) };
-        Err(ApiError(format!("the joint `{first}` would move nothing: remove it, or hang something else on it first")))
+        Err(ApiError(format!("the joint `{first}` would carry nothing: remove it, or hang something else on it first")))
     }
 
     /// Gives an object that clients or scripts have made another name: of one that is part of the model letters,

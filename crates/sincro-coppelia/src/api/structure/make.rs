@@ -64,6 +64,20 @@ impl SimApi<'_> {
         Ok(handle)
     }
 
+    /// Makes a force sensor in the world's origin: a fixed joint that is part of the model as soon as a body is hung on
+    /// it, and measures what it carries from then on.
+    ///
+    /// # Errors
+    ///
+    /// There are too many objects.
+    pub(crate) fn create_force_sensor(&mut self) -> Result<Handle, ApiError> {
+        self.check_room(1)?;
+        let name = self.fresh_name("ForceSensor");
+        let handle = self.registry.create(&name, Kind::ForceSensor(None), WORLD)?;
+        self.registry.parked.insert(handle, table([("kind", "fixed".into()), ("force_sensor", true.into())]));
+        Ok(handle)
+    }
+
     /// A joint that was made and moves nothing yet becomes part of the model by an edit, with those above it.
     pub(super) fn join_parked(&mut self, joint: Option<Handle>, edit: &mut Rebuild) -> Result<(), ApiError> {
         let Some(handle) = joint else { return Ok(()) };

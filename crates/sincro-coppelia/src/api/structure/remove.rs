@@ -102,10 +102,11 @@ pub(super) fn idle_joints(draft: &SceneDraft, gone: &BTreeSet<String>) -> Vec<St
     let mut idle = Vec::new();
     let stays = |path: &String| !gone.contains(path);
     let is = |path: &String, list: &str| draft.table(path).is_some_and(|(kind, _)| kind == list);
-    // a fixed joint needs nothing to move
+    // a fixed joint needs nothing to move, unless it measures what it carries
     let is_fixed = |path: &String| {
-        let kind = draft.table(path).and_then(|(_, keys)| keys.get("kind"));
-        kind.and_then(|kind| kind.as_str()) == Some("fixed")
+        let Some((_, keys)) = draft.table(path) else { return false };
+        let measures = keys.get("force_sensor").and_then(|value| value.as_bool()) == Some(true);
+        keys.get("kind").and_then(|kind| kind.as_str()) == Some("fixed") && !measures
     };
     let can_idle = |path: &String| is(path, "joint") && stays(path) && !is_fixed(path);
     for joint in draft.subtree("").into_iter().filter(can_idle) {
