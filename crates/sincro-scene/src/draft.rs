@@ -365,6 +365,11 @@ impl SceneDraft {
         pairs
     }
 
+    /// Takes the scripts of an object away.
+    pub fn remove_scripts(&mut self, path: &str) {
+        self.scripts.retain(|(object, _)| object != path);
+    }
+
     /// Loads the objects of a scene file, or of the scene of a folder, below a new frame `name` at the world's origin,
     /// with its scripts if `parser` knows their language. Returns the paths of all objects, the frame first.
     ///

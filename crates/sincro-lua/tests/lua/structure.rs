@@ -240,3 +240,17 @@ end";
         assert!((angle - 2.5 * 20.0 * 0.005).abs() < 1e-9, "{angle}");
     }
 }
+
+#[test]
+fn a_copy_of_a_body_does_not_run_the_script_of_the_joint_that_carries_it() {
+    let scene = format!("{}\n[[script]]\nobject = \"/box_joint\"\nfile = \"a.lua\"\n", box_above_floor(0.1));
+    let script = "
+function sysCall_init() print('begins') end
+function sysCall_actuation()
+    if math.abs(sim.getSimulationTime() - 0.1) < 1e-9 then sim.copyPasteObjects({ sim.getObject('/box') }, 0) end
+end";
+    let run = run(&open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", script)]).unwrap());
+    assert_eq!(run.status, Status::Completed);
+    assert_eq!(run.messages.len(), 1, "{:?}", run.messages);
+    assert!(run.changes.iter().any(|c| c.quantity == "added"));
+}

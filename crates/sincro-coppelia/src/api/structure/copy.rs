@@ -112,6 +112,10 @@ impl SimApi<'_> {
             all.append(&mut paths);
             let carrier_name = format!("{name}_free");
             let mut pairs = edit.draft.copy_some(&all, &joint_path, &carrier_name, "/", &pose);
+            if !chosen.contains(&joint) {
+                // in V-REP there is no such joint: its script is not that of the body
+                edit.draft.remove_scripts(&pairs[0].1);
+            }
             let body = pairs.iter().find(|(old, _)| *old == own_path).map(|(_, new)| new.clone()).unwrap_or_default();
             let renamed = edit.draft.set_name(&body, &name);
             for (_, new) in &mut pairs {
