@@ -95,7 +95,7 @@ fn objects_are_found_by_old_names_and_by_paths() {
     }
     let message = arm.sim().registry.find("/joimt2", Search::default()).unwrap_err().0;
     assert!(message.contains("did you mean `joint2`"), "{message}");
-    let search = Search { index: 1, ..Search::default() };
+    let search = Search { index: Some(1), ..Search::default() };
     let second = arm.sim().registry.find("/joint*", search).unwrap();
     assert_eq!(second, joint2);
 }

@@ -33,8 +33,9 @@ pub(crate) const CALL_TYPES: [(&str, Phase, i64); 7] = [
 ];
 
 /// Callbacks of CoppeliaSim that are not called here, and why.
-const NOT_CALLED: [(&str, &str); 2] = [
+const NOT_CALLED: [(&str, &str); 3] = [
     ("sysCall_trigger", "sensors trigger nothing"),
+    ("sysCall_vision", "pictures are read by functions (sim.getVisionSensorImg)"),
     ("sysCall_nonSimulation", "scripts live from the start of a run to its end"),
 ];
 

@@ -2,8 +2,8 @@
 //!
 //! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]`
 //! takes the i-th match among the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for
-//! any run and any character. Copies that the scene language has numbered (`ball1`, `ball2`) are `ball[0]`, `ball[1]`
-//! where no object of the level is called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for
+//! any run and any character. Copies that the scene language has numbered (`ball1`, `ball2`) are `ball[0]`, `ball[1]`,
+//! or `ball{0}`, `ball{1}`, where no object of the level is called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for
 //! the first of that name, `joint#0`, `joint#1` for the second and third.
 
 use super::ApiError;
@@ -24,8 +24,8 @@ struct Element {
 pub struct Search {
     /// Object of the calling script, at which the relative paths `.` and `..` start; none for clients.
     pub from: Option<Handle>,
-    /// Match that is wanted of several, counted from 0; `{i}` in the path wins over it.
-    pub index: usize,
+    /// Match that is wanted of several, counted from 0, none: the first; `{i}` in the path wins over it.
+    pub index: Option<usize>,
     /// Object below which a path without a leading sign is searched; none: such a text is a name of V-REP.
     pub below: Option<Handle>,
 }
@@ -108,20 +108,23 @@ impl ObjectRegistry {
         if rest.is_empty() {
             return Ok(start);
         }
-        let (rest, index) = split_number(rest, '{', '}').unwrap_or((rest, search.index));
+        let (rest, index) = match split_number(rest, '{', '}') {
+            Some((rest, index)) => (rest, Some(index)),
+            None => (rest, search.index),
+        };
         let Some(elements) = rest.split('/').map(element).collect::<Option<Vec<_>>>() else {
             return Err(ApiError(format!("`{text}` is no path of objects")));
         };
-        let mut left = index;
-        Ok(self.search(start, &elements, &mut left))
+        let mut left = index.unwrap_or(0);
+        Ok(self.search(start, &elements, index.is_some(), &mut left))
     }
 
-    /// Looks for the path among the objects of a level, then below them.
-    fn search(&self, level: Option<Handle>, path: &[Element], left: &mut usize) -> Option<Handle> {
+    /// Looks for the path among the objects of a level, then below them; `counts`: a match of several is wanted.
+    fn search(&self, level: Option<Handle>, path: &[Element], counts: bool, left: &mut usize) -> Option<Handle> {
         let objects: Vec<&Entry> = self.children(level).collect();
         let (first, more) = path.split_first()?;
         let (mut n_matches, mut taken) = (0, Vec::new());
-        let is_counted = first.among.is_some() && !objects.iter().any(|o| fits(&first.pattern, &o.name));
+        let is_counted = (first.among.is_some() || counts) && !objects.iter().any(|o| fits(&first.pattern, &o.name));
         for object in &objects {
             let is_copy = || is_counted && copied(&object.name).is_some_and(|name| fits(&first.pattern, name));
             if !fits(&first.pattern, &object.name) && !is_copy() {
@@ -140,12 +143,12 @@ impl ObjectRegistry {
                     return Some(object.handle);
                 }
                 *left -= 1;
-            } else if let Some(found) = self.search(Some(object.handle), more, left) {
+            } else if let Some(found) = self.search(Some(object.handle), more, counts, left) {
                 return Some(found);
             }
         }
         let below = objects.iter().filter(|o| !taken.contains(&o.handle));
-        below.into_iter().find_map(|o| self.search(Some(o.handle), path, left))
+        below.into_iter().find_map(|o| self.search(Some(o.handle), path, counts, left))
     }
 
     fn missing(&self, text: &str) -> ApiError {

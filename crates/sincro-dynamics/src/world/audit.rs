@@ -79,7 +79,7 @@ pub enum LawElement {
     Limit(usize),
     /// Pair of colliders, index in [`ConstraintSet::pairs`](crate::model::ConstraintSet).
     Pair(usize),
-    /// Drive, index in [`Model::drives`].
+    /// Drive of a degree of freedom, index in v: which drives there are changes with the modes of motors.
     Drive(usize),
     /// Degree of freedom, index in v.
     Dof(usize),
@@ -101,8 +101,7 @@ impl LawElement {
                 let pair = &set.pairs[k];
                 format!("{} on {}", set.colliders[pair.a].name, set.colliders[pair.b].name)
             }
-            Self::Drive(k) => names.dof_name(model.drives()[k].dof).to_owned(),
-            Self::Dof(k) => names.dof_name(k).to_owned(),
+            Self::Drive(k) | Self::Dof(k) => names.dof_name(k).to_owned(),
             Self::Mechanism => "/".to_owned(),
         }
     }
@@ -291,7 +290,7 @@ impl Observation<'_> {
         let reaction = |dof: usize| self.mechanism.scratch.reaction[dof];
         let largest = model.params.drives.iter().map(|drive| reaction(drive.dof).abs()).fold(0.0, f64::max);
         for (k, drive) in model.params.drives.iter().enumerate() {
-            let element = LawElement::Drive(k);
+            let element = LawElement::Drive(drive.dof);
             let kind = if model.is_translation(drive.dof) { ResidualKind::Speed } else { ResidualKind::AngularSpeed };
             let missing = self.target_velocities[k] - self.state.v[drive.dof];
             if modes[k] != 0.0 {

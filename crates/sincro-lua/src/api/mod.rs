@@ -35,6 +35,9 @@ pub(crate) struct ApiContext<'a> {
     guard: &'a Arc<Guard>,
 }
 
+/// `sim.handle_self` as a text.
+const SELF: &str = "-4";
+
 /// Fills a Lua state with everything that the script `index` may call.
 pub(crate) fn offer(
     lua: &Lua,
@@ -113,6 +116,10 @@ impl ApiContext<'_> {
     fn replace_some(&self) -> mlua::Result<()> {
         let (shared, own) = (self.shared.clone(), self.own);
         self.add("getObjectHandle", move |_, name: String| {
+            // a number that scripts of V-REP give in place of a name
+            if name == SELF {
+                return Ok(own.0);
+            }
             let found = shared.with_sim(own, |sim| object_of_name(sim, own, &name));
             found.map(|handle| handle.0).map_err(|error| refused("getObjectHandle", &error))
         })?;
@@ -129,6 +136,23 @@ impl ApiContext<'_> {
         // the clock of the wall would make every run another one
         let shared = self.shared.clone();
         self.add("getSystemTime", move |_, ()| Ok(shared.t()))?;
+        for name in ["getSystemTimeInMs", "getSystemTimeInMilliseconds"] {
+            // since an earlier time, for none (-1) the time itself
+            let shared = self.shared.clone();
+            self.add(name, move |_, before: Option<i64>| {
+                let now = (shared.t() * 1e3).round() as i64;
+                Ok(now - before.filter(|before| *before >= 0).unwrap_or(0))
+            })?;
+        }
+        for name in ["getObjectInt32", "getObjectInt", "getObjectFloat"] {
+            // these names are older than the functions, and their first result says that there is a second
+            let present = if name == "getObjectFloat" { "getObjectFloatParam" } else { "getObjectInt32Param" };
+            let of_session: Function = self.sim.get(present)?;
+            self.add(&format!("{name}Parameter"), move |_, arguments: MultiValue| {
+                let value: LuaValue = of_session.call(arguments)?;
+                Ok((1, value))
+            })?;
+        }
         if let Some(inverse) = self.sim.get::<Option<Function>>("getMatrixInverse")? {
             self.add("invertMatrix", move |_, matrix: Table| {
                 let inverted: Table = inverse.call(&matrix)?;

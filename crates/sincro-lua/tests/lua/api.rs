@@ -112,3 +112,68 @@ fn rotations_go_about_their_axis() {
     let expected = ["1.000000 1.000000", "1.000000 2.000000 0.700000", "1.000000 -1.000000 1.770796", "7\tfalse"];
     assert_eq!(said(code), expected);
 }
+
+#[test]
+fn calls_of_old_scripts_are_answered_as_they_were() {
+    let code = "function sysCall_init()
+        local own = sim.getObjectHandle(sim.handle_self)
+        print(own == sim.getObject('.'), simGetObjectHandle(sim_handle_self) == own)
+        local before = sim.getSystemTimeInMs(-1)
+        print(before, simGetSystemTimeInMilliseconds() == before, sim.getSystemTimeInMs(before))
+        local joint = sim.getObject('/hinge')
+        print(sim.getObjectInt32Param(joint, 2000), simGetObjectInt32Parameter(joint, 2000))
+    end
+    function sysCall_cleanup() print(sim.getSystemTimeInMs(-1) > 0, sim.getSystemTimeInMs(1) > 0) end";
+    assert_eq!(said(code), ["true\ttrue", "0\ttrue\t0", "1\t1\t1", "true\ttrue"]);
+}
+
+#[test]
+fn numbered_objects_are_found_by_an_index() {
+    let scene = format!(
+        "{PENDULUM}\n[[frame]]\nname = \"eye1\"\nparent = \"/hinge/arm\"\n[[frame]]\nname = \"eye2\"\n\
+         parent = \"/hinge/arm\"\n[[frame]]\nname = \"eye3\"\nparent = \"/hinge/arm\"\n[[script]]\n\
+         object = \"/hinge/arm\"\nfile = \"a.lua\"\n"
+    );
+    let code = "function sysCall_init()
+        local names = {}
+        for k = 0, 2 do names[#names + 1] = sim.getObjectAlias(sim.getObject('./eye', { index = k })) end
+        names[#names + 1] = sim.getObjectAlias(sim.getObject('/eye{1}'))
+        names[#names + 1] = sim.getObject('/eye', { index = 3, noError = true })
+        print(table.concat(names, ' '))
+    end";
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap();
+    assert_eq!(run(&loaded).messages[0].text, "eye1 eye2 eye3 eye2 -1");
+}
+
+#[test]
+fn a_run_whose_motors_change_their_mode_is_audited_to_its_end() {
+    let scene = r#"
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+motor = { mode = "velocity", max_torque = 3.0 }
+[[body]]
+name = "arm"
+parent = "/hinge"
+mass = 1.0
+center_of_mass = [0.5, 0.0, 0.0]
+inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
+[[script]]
+object = "/hinge/arm"
+file = "a.lua"
+"#;
+    for mode in ["force", "free", "spring"] {
+        let code = format!(
+            "function sysCall_actuation()
+                if math.abs(sim.getSimulationTime() - 0.03) < 1e-9 then
+                    sim.setObjectInt32Param(
+                        sim.getObject('/hinge'), sim.jointintparam_dynctrlmode, sim.jointdynctrl_{mode})
+                end
+            end"
+        );
+        let loaded = open(&[("scene.toml", scene), ("experiment.toml", EXPERIMENT), ("a.lua", &code)]).unwrap();
+        let run = run(&loaded);
+        assert_eq!(run.status, sincro_sim::results::Status::Completed, "{mode}: {:?}", run.messages);
+    }
+}

@@ -231,7 +231,7 @@ fn get_object(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     if let Value::Map(options) = a.get(1) {
         for (key, value) in options {
             match key.as_str() {
-                "index" => search.index = value.as_int().and_then(|k| usize::try_from(k).ok()).unwrap_or(0),
+                "index" => search.index = value.as_int().and_then(|k| usize::try_from(k).ok()),
                 "proxy" => {
                     let proxy = value.as_int().and_then(|h| i32::try_from(h).ok()).filter(|h| *h >= 0);
                     search.from = proxy.map(|h| plain(sim, h)).transpose()?;
