@@ -3,8 +3,8 @@
 //! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]`
 //! takes the i-th match among the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for
 //! any run and any character. Copies that the scene language has numbered (`ball1`, `ball2`) are `ball[0]`, `ball[1]`,
-//! or `ball{0}`, `ball{1}`, where no object of the level is called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for
-//! the first of that name, `joint#0`, `joint#1` for the second and third.
+//! or `ball{0}`, `ball{1}`, where no object of the level is called `ball`. Without a leading sign it is a name of
+//! V-REP: `joint`, `joint#` for the first of that name, `joint#0`, `joint#1` for the second and third.
 
 use super::ApiError;
 use super::registry::{Entry, Handle, ObjectRegistry};
