@@ -71,6 +71,9 @@ pub(crate) struct Arguments {
     /// Run no faster than the clock when no client steps
     #[arg(long)]
     real_time: bool,
+    /// Start the simulation at once, for clients that expect one that is running
+    #[arg(long)]
+    start: bool,
     /// A client that steps and stays silent for so long is let go `[s]`
     #[arg(long, value_name = "S", default_value_t = 600.0)]
     client_timeout: f64,
@@ -135,6 +138,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         evaluation: arguments.grant.contains(&Grant::Scripts),
     });
     diagnostics::print_diagnostics(&session.loaded().warnings);
+    if arguments.start
+        && let Err(error) = session.start()
+    {
+        return diagnostics::refuse(&error.0, None);
+    }
     let title = session.loaded().experiment.title.clone();
     let server = match Server::start(session, &options) {
         Ok(server) => server,
