@@ -3,9 +3,11 @@
 //! A link that is merged stays as a frame under its name, so that everything that refers to it finds it: its mass,
 //! what shows and what touches pass to the nearest link that moves on its own.
 
-use sincro_dynamics::spatial::{Mat3, Vec3};
+use sincro_dynamics::model::MassProperties;
+use sincro_dynamics::spatial::Vec3;
 
-use crate::robot::{Geometry, Inertial, JointKind, Placement, Robot, SensorKind};
+use crate::policy::properties;
+use crate::robot::{Geometry, Inertial, JointKind, Placement, Robot, SensorKind, turned_inertia};
 use crate::source::{ElementStatus, Ledger};
 
 /// Merges all links on fixed joints that hang on another link; returns the names of those that lost mass or geometry.
@@ -62,36 +64,15 @@ fn placed(inertial: &Inertial, place: &Placement) -> Inertial {
         return *inertial;
     }
     let pose = place.pose();
-    let turned = pose.rot.mul(&matrix(&inertial.inertia)).mul(&pose.rot.transpose());
     let center_of_mass = pose.point(Vec3(inertial.center_of_mass)).0;
-    Inertial { mass: inertial.mass, center_of_mass, inertia: entries(&turned) }
+    Inertial { mass: inertial.mass, center_of_mass, inertia: turned_inertia(&pose.rot, inertial.inertia) }
 }
 
 /// Mass properties of two bodies that are one, in the same axes.
 fn sum(a: &Inertial, b: &Inertial) -> Inertial {
-    let mass = a.mass + b.mass;
-    if mass == 0.0 {
+    if a.mass + b.mass == 0.0 {
         return *a;
     }
-    let center = (Vec3(a.center_of_mass).scale(a.mass) + Vec3(b.center_of_mass).scale(b.mass)).scale(1.0 / mass);
-    let mut inertia = [0.0; 6];
-    for part in [a, b] {
-        let d = Vec3(part.center_of_mass) - center;
-        let square = d.dot(d);
-        let pairs = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-        for ((entry, own), (i, j)) in inertia.iter_mut().zip(part.inertia).zip(pairs) {
-            *entry += own + part.mass * (if i == j { square } else { 0.0 } - d[i] * d[j]);
-        }
-    }
-    Inertial { mass, center_of_mass: center.0, inertia }
-}
-
-fn matrix([xx, xy, xz, yy, yz, zz]: &[f64; 6]) -> Mat3<f64> {
-    Mat3([[*xx, *xy, *xz], [*xy, *yy, *yz], [*xz, *yz, *zz]])
-}
-
-fn entries(m: &Mat3<f64>) -> [f64; 6] {
-    // the two halves differ by rounding
-    let mean = |i: usize, j: usize| 0.5 * (m.0[i][j] + m.0[j][i]);
-    [m.0[0][0], mean(0, 1), mean(0, 2), m.0[1][1], mean(1, 2), m.0[2][2]]
+    let MassProperties { mass, center_of_mass, inertia } = MassProperties::sum(&[a, b].map(properties));
+    Inertial { mass, center_of_mass, inertia }
 }
