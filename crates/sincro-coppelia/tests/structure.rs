@@ -628,6 +628,9 @@ fn a_force_sensor_that_is_made_measures_what_is_hung_on_it() {
     assert!(parted.contains("would carry nothing"), "{parted}");
     call(&mut session, "sim.removeObjects", &[Value::List(vec![body.into()])]);
     steps(&mut session, 1);
+    let other = call(&mut session, "sim.createForceSensor", &[0_i64.into()])[0].clone();
+    let stops = session.call("sim.setJointInterval", &[other, false.into(), Value::reals([-0.1, 0.2])]).unwrap_err().0;
+    assert!(stops.contains("only revolute and prismatic joints have stops"), "{stops}");
     let breaks = session.call("sim.createForceSensor", &[1_i64.into()]).unwrap_err().0;
     assert!(breaks.contains("breaks"), "{breaks}");
 }

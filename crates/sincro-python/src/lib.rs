@@ -38,6 +38,7 @@ fn command_line(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
 
 /// Imports a robot file (URDF, SDF, MJCF) as a scene folder; returns the import report as JSON and all warnings.
 #[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "the arguments of one function of Python")]
 fn import_robot(
     py: Python<'_>,
     robot: PathBuf,

@@ -99,8 +99,8 @@ pub struct SceneDraft {
     top: Map<String, Value>,
     folder: Arc<Folder>,
     seed: u64,
-    /// Scripts, compiled, each with the path of its object.
-    scripts: Vec<(String, Script)>,
+    /// Scripts, compiled; their paths are those that their objects have now, their numbers may not be.
+    scripts: Vec<Script>,
 }
 
 impl SceneDraft {
@@ -123,8 +123,7 @@ impl SceneDraft {
                 item.table.insert("free_length".into(), length.into());
             }
         }
-        let path_of = |script: &Script| scene.objects.iter().find(|o| o.id == script.object).map(|o| o.path.clone());
-        draft.scripts = scene.scripts.iter().filter_map(|script| Some((path_of(script)?, script.clone()))).collect();
+        draft.scripts.clone_from(&scene.scripts);
         Some(draft)
     }
 
@@ -237,7 +236,7 @@ impl SceneDraft {
             let names_it = || item.references().iter().any(|(_, text)| is_gone(text));
             if item.is_object() { !is_gone(&item.path()) } else { !names_it() }
         });
-        self.scripts.retain(|(path, _)| !is_gone(path));
+        self.scripts.retain(|script| !is_gone(&script.path));
         for item in self.items.iter_mut().filter(|item| item.is_object()) {
             // lists of what a sensor looks at lose what has gone; other keys that named it are dropped
             for key in ["with", "joint", "look_at_object"] {
@@ -266,11 +265,11 @@ impl SceneDraft {
                 }
             }
         }
-        for (path, _) in &mut self.scripts {
-            if path == old {
-                new.clone_into(path);
-            } else if let Some(rest) = path.strip_prefix(&below) {
-                *path = format!("{new}/{rest}");
+        for script in &mut self.scripts {
+            if script.path == old {
+                new.clone_into(&mut script.path);
+            } else if let Some(rest) = script.path.strip_prefix(&below) {
+                script.path = format!("{new}/{rest}");
             }
         }
     }
@@ -356,8 +355,8 @@ impl SceneDraft {
             copies.push(copy);
         }
         self.items.append(&mut copies);
-        let scripts = self.scripts.iter().filter(|(path, _)| is_copied(path));
-        let scripts: Vec<_> = scripts.map(|(path, script)| (new_path(path), script.clone())).collect();
+        let scripts = self.scripts.iter().filter(|script| is_copied(&script.path));
+        let scripts: Vec<_> = scripts.map(|script| Script { path: new_path(&script.path), ..script.clone() }).collect();
         self.scripts.extend(scripts);
         if let Some(k) = self.place(&new_root) {
             self.set_pose_of(k, pose);
@@ -367,7 +366,7 @@ impl SceneDraft {
 
     /// Takes the scripts of an object away.
     pub fn remove_scripts(&mut self, path: &str) {
-        self.scripts.retain(|(object, _)| object != path);
+        self.scripts.retain(|script| script.path != path);
     }
 
     /// Loads the objects of a scene file, or of the scene of a folder, below a new frame `name` at the world's origin,
@@ -405,7 +404,7 @@ impl SceneDraft {
             if found.any_error() {
                 return Err(found.sorted());
             }
-            self.scripts.extend(scripts.into_iter().map(|script| (script.path.clone(), script)));
+            self.scripts.extend(scripts);
         }
         Ok(loaded)
     }
@@ -528,9 +527,9 @@ impl SceneDraft {
                 next - 1
             })
         });
-        let scripts = self.scripts.iter().filter_map(|(path, script)| {
-            let object = scene.object(path)?.id;
-            Some(Script { object, path: path.clone(), ..script.clone() })
+        let scripts = self.scripts.iter().filter_map(|script| {
+            let object = scene.object(&script.path)?.id;
+            Some(Script { object, ..script.clone() })
         });
         scene.scripts = scripts.collect();
         let (folder, seed) = (self.folder.clone(), self.seed);

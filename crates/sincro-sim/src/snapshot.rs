@@ -15,6 +15,7 @@ use sincro_dynamics::model::ModelParams;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::MethodKind;
 use sincro_scene::draft;
+use sincro_scene::script::Script;
 use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
@@ -223,8 +224,11 @@ fn read_structure(reader: &mut Reader<'_>, loaded: &Loaded) -> Result<Option<Str
     let q = reader.vector()?;
     let source = loaded.scene.source.as_ref().ok_or(SnapshotError::OtherModel)?;
     let mut scene = draft::compile_text(text, source, &ids, parked).map_err(|_| SnapshotError::OtherModel)?;
-    let stays = |script: &&sincro_scene::script::Script| ids.contains(&script.object);
-    scene.scripts = loaded.scene.scripts.iter().filter(stays).cloned().collect();
+    let present = |script: &Script| {
+        let object = scene.objects.iter().find(|object| object.id == script.object)?;
+        Some(Script { path: object.path.clone(), ..script.clone() })
+    };
+    scene.scripts = loaded.scene.scripts.iter().filter_map(present).collect();
     if scene.initial.q.len() != q.len() {
         return Err(damaged);
     }

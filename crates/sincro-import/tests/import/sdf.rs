@@ -86,6 +86,7 @@ fn cameras_look_along_x_and_have_the_height_that_follows_from_the_width() {
     }
     let line = imported.scene().lines().find(|line| line.starts_with("field_of_view_deg")).unwrap().to_owned();
     let degrees: f64 = line.split_once(" = ").unwrap().1.parse().unwrap();
-    assert!((degrees - 2.0 * f64::atan(0.5).to_degrees()).abs() < 1e-12, "{line}");
+    let half = sincro_math::elementary::atan2(0.5, 1.0).0;
+    assert!((degrees - 2.0 * half.to_degrees()).abs() < 1e-12, "{line}");
     assert!(imported.scene().contains("near = 0.05\nfar = 8.0"), "{}", imported.scene());
 }

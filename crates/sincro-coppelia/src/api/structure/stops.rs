@@ -15,6 +15,12 @@ impl SimApi<'_> {
     /// The scene's file is not known, or the joint cannot have stops.
     pub(in crate::api) fn replace_stops(&mut self, handle: Handle, stops: Option<[f64; 2]>) -> Result<(), ApiError> {
         if let Some(keys) = self.registry.parked.get_mut(&handle) {
+            let kind = keys.get("kind").and_then(Value::as_str);
+            if !matches!((kind, stops), (Some("revolute"), _) | (Some("prismatic"), Some(_))) {
+                return Err(ApiError::new(
+                    "only revolute and prismatic joints have stops, and revolute ones can be cyclic",
+                ));
+            }
             put_stops(keys, stops);
             return Ok(());
         }
