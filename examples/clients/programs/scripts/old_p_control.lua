@@ -8,8 +8,8 @@ end
 if (sim_call_type==sim_childscriptcall_actuation) then
     x=simGetJointPosition(rail)
     q=simGetJointPosition(hinge)
-    v=simGetObjectFloatParameter(rail,sim_jointfloatparam_velocity)
-    w=simGetObjectFloatParameter(hinge,sim_jointfloatparam_velocity)
+    _,v=simGetObjectFloatParameter(rail,sim_jointfloatparam_velocity)
+    _,w=simGetObjectFloatParameter(hinge,sim_jointfloatparam_velocity)
     u=1*x+2.1*v+30*q+6*w
     if (u<0) then simSetJointTargetVelocity(rail,-1000) else simSetJointTargetVelocity(rail,1000) end
     simSetJointForce(rail,math.abs(u))
