@@ -239,26 +239,29 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
 
     #[inline(always)]
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
-        if !self.system.acts() {
-            return self.mechanism.slope(t, y, slope);
-        }
+        // one call of the mechanism's slope, which is inlined: large code
+        let acts = self.system.acts();
         let (own, z) = y.split_at(self.mechanism.dim());
         let (own_slope, z_slope) = slope.split_at_mut(own.len());
-        self.mechanism.set_coordinates(own);
-        self.find_commands(t, own, z);
+        if acts {
+            self.mechanism.set_coordinates(own);
+            self.find_commands(t, own, z);
+        }
         self.mechanism.slope(t, own, own_slope);
-        self.rates(t, own, own_slope, z, z_slope);
+        if acts {
+            self.rates(t, own, own_slope, z, z_slope);
+        }
     }
 
     #[inline(always)]
     fn implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
-        if !self.system.acts() {
-            return self.mechanism.implicit_slope(t, h, implicit, y, slope);
-        }
+        let acts = self.system.acts();
         let (own, z) = y.split_at(self.mechanism.dim());
         let (own_slope, z_slope) = slope.split_at_mut(own.len());
-        self.mechanism.set_coordinates(own);
-        self.find_commands(t, own, z);
+        if acts {
+            self.mechanism.set_coordinates(own);
+            self.find_commands(t, own, z);
+        }
         self.mechanism.implicit_slope(t, h, implicit, own, own_slope);
         if z.is_empty() {
             return;

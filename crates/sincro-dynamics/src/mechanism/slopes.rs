@@ -1,10 +1,53 @@
 //! Slopes of positions, velocities, totals and rotor states at a stage, explicit and linearly implicit.
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use super::Mechanism;
 use crate::integrate::Implicit;
 use crate::state::displace;
+
+/// Runs a stage: inlined into the steps of one world, and one compiled copy for the steps of all methods on other
+/// numbers, whose code is large.
+#[inline(always)]
+fn run_stage<R: Real, T: Task>(stage: T) -> T::Output {
+    if const { R::LANES > 1 } { R::run_hot(stage) } else { R::run_part(stage) }
+}
+
+/// Slope of an explicit stage.
+struct ExplicitStage<'a, R> {
+    mechanism: &'a mut Mechanism<R>,
+    t: f64,
+    y: &'a [R],
+    slope: &'a mut [R],
+}
+
+impl<R: Real> Task for ExplicitStage<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.mechanism.find_explicit_slope(self.t, self.y, self.slope);
+    }
+}
+
+/// Slope of a linearly implicit stage of length `h` `[s]`.
+struct LinearlyImplicitStage<'a, R> {
+    mechanism: &'a mut Mechanism<R>,
+    t: f64,
+    h: f64,
+    implicit: Implicit,
+    y: &'a [R],
+    slope: &'a mut [R],
+}
+
+impl<R: Real> Task for LinearlyImplicitStage<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.mechanism.find_linearly_implicit_slope(self.t, self.h, self.implicit, self.y, self.slope);
+    }
+}
 
 impl<R: Real> Mechanism<R> {
     /// Slope at a stage; at a singular position of loops those rows are left out that vanish. Not for hot paths: it is
@@ -20,6 +63,17 @@ impl<R: Real> Mechanism<R> {
     /// Slope of an explicit stage.
     #[inline(always)]
     pub(super) fn explicit_slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        run_stage::<R, _>(ExplicitStage { mechanism: self, t, y, slope });
+    }
+
+    /// Slope of a linearly implicit Euler step of length `h` `[s]`.
+    #[inline(always)]
+    pub(super) fn linearly_implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+        run_stage::<R, _>(LinearlyImplicitStage { mechanism: self, t, h, implicit, y, slope });
+    }
+
+    #[inline(always)]
+    fn find_explicit_slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
         let n = self.model.n_v();
         let (delta, rest) = y.split_at(n);
         let v = &rest[..n];
@@ -40,9 +94,8 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
-    /// Slope of a linearly implicit Euler step of length `h` `[s]`.
     #[inline(always)]
-    pub(super) fn linearly_implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+    fn find_linearly_implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
         let n = self.model.n_v();
         let (delta, rest) = y.split_at(n);
         let v = &rest[..n];
