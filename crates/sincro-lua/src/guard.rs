@@ -5,6 +5,10 @@
 //! second line of defence, against work that neither sees (`..` of large strings, garbage collection): it is read by
 //! the hook and by charges.
 //!
+//! A coroutine that does not give control back is made to after [`SLICE`] instructions, which it has for itself at each
+//! resume: the script's thread, and coroutines that the script has made, wherever they are resumed. In CoppeliaSim a
+//! time on the wall decides; an iterator that computes its next value within the slice is never interrupted.
+//!
 //! Once a limit is reached the call is stopped: the hook then fires at each instruction, and `pcall`, `xpcall` and
 //! `coroutine.resume` of the sandbox fail when they are entered or left, so that no script can catch it and continue.
 
@@ -12,7 +16,7 @@ use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-use mlua::{HookTriggers, Lua, Thread, VmState};
+use mlua::{HookTriggers, Lua, VmState};
 
 use crate::library;
 use crate::sandbox::CHUNK;
@@ -20,11 +24,14 @@ use crate::sandbox::CHUNK;
 /// Instructions between two looks at the count.
 pub(crate) const EVERY: u32 = 1000;
 
-/// Instructions after which a thread that does not wait is made to wait for the next step.
+/// Instructions of a coroutine since it was resumed after which it is made to yield: a thread waits for the next step.
 const SLICE: u64 = 1_000_000;
 
-/// Name under which the registry holds the thread that a script is.
-pub(crate) const THREAD: &str = "script thread";
+/// Instructions of a coroutine's slice that a function of the simulation takes: about its time.
+const CALL_COST: u64 = 100;
+
+/// Instructions of a coroutine's slice that a change of the structure takes, for which the scene is compiled again.
+const RESTRUCTURE_COST: u64 = 50_000;
 
 /// Wall-clock limit of one call `[s]`, for up to [`BUDGET_WITHIN_TIME_LIMIT`] instructions; more instructions have more
 /// time in proportion. A hundred million take about a second: the limit is reached by work that is not counted only.
@@ -66,6 +73,7 @@ impl StopReason {
 pub(crate) struct Guard {
     budget: u64,
     left: AtomicU64,
+    /// Instructions that are left to the coroutine that is running until it is made to yield.
     slice: AtomicU64,
     time_limit: Duration,
     /// End of the present call's time, on the clock of [`now`]; 0 until the call's first check, so that short calls
@@ -74,7 +82,6 @@ pub(crate) struct Guard {
     stop_reason: AtomicU8,
     /// True once a call was stopped and the script continued: see [`Guard::was_stopped`].
     was_stopped: AtomicBool,
-    is_in_thread: AtomicBool,
     switches_by_itself: AtomicBool,
     /// Line of the script that was running when the limit was reached; 0 if none is known.
     line: AtomicUsize,
@@ -106,7 +113,6 @@ impl Guard {
             deadline: AtomicU64::new(0),
             stop_reason: AtomicU8::new(StopReason::None as u8),
             was_stopped: AtomicBool::new(false),
-            is_in_thread: AtomicBool::new(false),
             switches_by_itself: AtomicBool::new(true),
             line: AtomicUsize::new(0),
         })
@@ -123,12 +129,11 @@ impl Guard {
         lua.app_data_ref::<Arc<Self>>().map(|guard| guard.clone())
     }
 
-    /// Before a call; `is_thread` if a thread is resumed.
-    pub fn begin(&self, is_thread: bool) {
+    /// Before a call.
+    pub fn begin(&self) {
         self.left.store(self.budget, Ordering::Relaxed);
         self.slice.store(SLICE, Ordering::Relaxed);
         self.deadline.store(0, Ordering::Relaxed);
-        self.is_in_thread.store(is_thread, Ordering::Relaxed);
     }
 
     fn stop_reason(&self) -> StopReason {
@@ -146,7 +151,32 @@ impl Guard {
         self.is_stopped() || self.was_stopped.load(Ordering::Relaxed)
     }
 
-    /// Sets whether threads that do not wait are made to, and returns what was set before.
+    /// Takes the time of a function of the simulation from the slice of the coroutine that called it.
+    pub fn spend(self: &Arc<Self>, lua: &Lua, has_restructured: bool) -> mlua::Result<()> {
+        let slice = self.slice.load(Ordering::Relaxed);
+        let left = slice.saturating_sub(if has_restructured { RESTRUCTURE_COST } else { CALL_COST });
+        self.slice.store(left, Ordering::Relaxed);
+        // at once, not in a thousand instructions: these may be a hundred calls
+        if slice >= u64::from(EVERY) && left < u64::from(EVERY) && !self.is_stopped() {
+            self.watch(lua, 1)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Gives a coroutine a slice of its own, before it is resumed; returns what is left to the one that resumes it, for
+    /// [`Guard::leave_coroutine`].
+    pub fn enter_coroutine(&self) -> u64 {
+        self.slice.swap(SLICE, Ordering::Relaxed)
+    }
+
+    /// Goes on with the slice of the one that has resumed a coroutine, less what that coroutine took.
+    pub fn leave_coroutine(&self, outer: u64) {
+        let taken = SLICE.saturating_sub(self.slice.load(Ordering::Relaxed));
+        self.slice.store(outer.saturating_sub(taken), Ordering::Relaxed);
+    }
+
+    /// Sets whether coroutines that do not yield are made to, and returns what was set before.
     pub fn set_switching(&self, by_itself: bool) -> bool {
         self.switches_by_itself.swap(by_itself, Ordering::Relaxed)
     }
@@ -248,13 +278,13 @@ impl Guard {
             return Err(error);
         }
         let slice = self.slice.load(Ordering::Relaxed);
-        if slice >= every {
-            self.slice.store(slice - every, Ordering::Relaxed);
-        } else if self.is_in_thread.load(Ordering::Relaxed)
-            && self.switches_by_itself.load(Ordering::Relaxed)
-            && lua.named_registry_value::<Thread>(THREAD).is_ok_and(|thread| thread == lua.current_thread())
-        {
-            self.slice.store(SLICE, Ordering::Relaxed);
+        self.slice.store(slice.saturating_sub(every), Ordering::Relaxed);
+        if slice < every {
+            // the hook may be here early: see `spend`
+            self.watch(lua, EVERY)?;
+        }
+        // asked for again until it is possible: not within a callback of a library function, never outside coroutines
+        if slice < every && self.switches_by_itself.load(Ordering::Relaxed) {
             return Ok(VmState::Yield);
         }
         Ok(VmState::Continue)

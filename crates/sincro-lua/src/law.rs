@@ -42,7 +42,7 @@ impl LuaLaw {
     /// Reads the text.
     pub fn new(spec: &ScriptedLawSpec) -> Result<Self, String> {
         let guard = Guard::new(MAX_INSTRUCTIONS);
-        guard.begin(false);
+        guard.begin();
         Self::read(spec, guard).map_err(|error| told(&spec.code, &error))
     }
 
@@ -93,7 +93,7 @@ impl LuaLaw {
     }
 
     fn evaluate(&mut self, t: f64, inputs: &[Vec<f64>], memory: &[f64], y: &mut [f64]) -> mlua::Result<()> {
-        self.guard.begin(false);
+        self.guard.begin();
         self.fill(inputs, memory)?;
         let values: MultiValue = self.output.call((t, &self.u, &self.memory))?;
         self.guard.check()?;
@@ -125,7 +125,7 @@ impl LuaLaw {
 
     fn advance(&mut self, t: f64, inputs: &[Vec<f64>], memory: &mut [f64]) -> mlua::Result<()> {
         let Some(update) = self.update.clone() else { return Ok(()) };
-        self.guard.begin(false);
+        self.guard.begin();
         self.fill(inputs, memory)?;
         update.call::<()>((t, &self.u, &self.memory))?;
         self.guard.check()?;

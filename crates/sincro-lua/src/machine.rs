@@ -16,7 +16,7 @@ use sincro_coppelia::api::{self as sim_api, ApiError, Handle};
 use sincro_coppelia::host::Phase;
 use sincro_scene::script::{Kind, Script, ScriptError, Style};
 
-use crate::guard::{Guard, THREAD};
+use crate::guard::Guard;
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
 use crate::{api, callback, contact, convert, fault, files, power};
@@ -82,7 +82,7 @@ impl Machine {
 
     fn furnished(shared: &Arc<Shared>, index: usize, guard: Arc<Guard>) -> mlua::Result<Self> {
         let script = &*shared.script(index);
-        guard.begin(false);
+        guard.begin();
         let lua = sandbox::new(&guard, script.max_memory)?;
         let (of_time, of_signals, of_prints) = (shared.clone(), shared.clone(), shared.clone());
         let own = crate::shared::handle_of(script);
@@ -121,7 +121,7 @@ impl Machine {
 
     /// Gives the script all its instructions again: other scripts may call its functions before it is called itself.
     pub fn refill(&self) {
-        self.guard.begin(false);
+        self.guard.begin();
     }
 
     /// Resumes the script after a client's call reached a limit: in this script, or in another one that it called.
@@ -135,7 +135,7 @@ impl Machine {
         let Some(function) = api::function_of(&self.lua, name) else {
             return Err(ApiError(format!("the script of `{path}` has no function `{name}`")));
         };
-        let done = self.within(false, |m| {
+        let done = self.within(|m| {
             let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
             convert::list_from_lua(values)
         });
@@ -144,7 +144,7 @@ impl Machine {
 
     /// Runs a text as if it stood in the script, for a client.
     pub fn evaluate(&mut self, text: &str) -> Result<Vec<sim_api::Value>, ApiError> {
-        let done = self.within(false, |m| {
+        let done = self.within(|m| {
             sandbox::charge_text(&m.lua, &m.guard, text)?;
             let text = power::with_calls(text);
             let values = m.lua.load(text).set_name("=text").set_mode(ChunkMode::Text).call(())?;
@@ -154,8 +154,8 @@ impl Machine {
     }
 
     /// Runs something of the script within its limits.
-    fn within<T>(&mut self, is_thread: bool, run: impl FnOnce(&mut Self) -> mlua::Result<T>) -> Result<T, ScriptError> {
-        self.guard.begin(is_thread);
+    fn within<T>(&mut self, run: impl FnOnce(&mut Self) -> mlua::Result<T>) -> Result<T, ScriptError> {
+        self.guard.begin();
         let done = run(self).and_then(|value| self.guard.check().map(|()| value));
         done.map_err(|error| fault::of(&self.script(), &self.guard, &error))
     }
@@ -163,16 +163,16 @@ impl Machine {
     /// A phase of the step; threads are resumed by [`Machine::resume`].
     pub fn call(&mut self, phase: Phase) -> Result<(), ScriptError> {
         match phase {
-            Phase::Initialization => self.within(false, Self::initialize),
+            Phase::Initialization => self.within(Self::initialize),
             // V-REP's old scripts know of no pauses
             Phase::Suspend | Phase::Suspended | Phase::Resume if self.style == Style::Old => Ok(()),
-            _ if self.style == Style::Old => self.within(false, |m| m.call_whole(phase)),
+            _ if self.style == Style::Old => self.within(|m| m.call_whole(phase)),
             Phase::Suspend => self.call_named("sysCall_suspend"),
             Phase::Suspended => self.call_named("sysCall_suspended"),
             Phase::Resume => self.call_named("sysCall_resume"),
             Phase::Actuation => self.call_entry(|e| &e.actuation),
             Phase::Sensing => self.call_entry(|e| &e.sensing),
-            Phase::Cleanup => self.within(false, Self::clean_up),
+            Phase::Cleanup => self.within(Self::clean_up),
         }
     }
 
@@ -254,7 +254,6 @@ impl Machine {
 
     fn become_thread(&mut self, function: Function) -> mlua::Result<()> {
         let thread = self.lua.create_thread(function)?;
-        self.lua.set_named_registry_value(THREAD, &thread)?;
         self.thread = Some(thread);
         Ok(())
     }
@@ -285,24 +284,24 @@ impl Machine {
 
     fn call_entry(&mut self, which: fn(&Entries) -> &Option<Function>) -> Result<(), ScriptError> {
         let Some(function) = which(&self.entries).clone() else { return Ok(()) };
-        self.within(false, |_| function.call(()))
+        self.within(|_| function.call(()))
     }
 
     /// Calls a function if the script has it.
     fn call_named(&mut self, name: &str) -> Result<(), ScriptError> {
-        self.within(false, |m| m.entry(&[name])?.map_or(Ok(()), |function| function.call(())))
+        self.within(|m| m.entry(&[name])?.map_or(Ok(()), |function| function.call(())))
     }
 
     /// Resumes the script's thread, if it is one and has not ended.
     pub fn resume(&mut self) -> Result<(), ScriptError> {
         let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
-        self.within(true, |_| thread.resume(()))
+        self.within(|_| thread.resume(()))
     }
 
     /// Calls `sysCall_dyn` before or after the world's step.
     pub fn call_dynamics(&mut self, step: f64, is_after: bool) -> Result<(), ScriptError> {
         let Some(function) = self.entries.dynamics.clone() else { return Ok(()) };
-        self.within(false, |m| {
+        self.within(|m| {
             let info = m.lua.create_table()?;
             info.set("passCnt", 1)?;
             info.set("totalPasses", 1)?;
@@ -316,7 +315,7 @@ impl Machine {
     /// holds the step back.
     pub fn call_before_main(&mut self) -> Result<bool, ScriptError> {
         let Some(function) = self.entries.before_main.clone() else { return Ok(false) };
-        let answer: Value = self.within(false, |_| function.call(()))?;
+        let answer: Value = self.within(|_| function.call(()))?;
         let Value::Table(answer) = answer else { return Ok(false) };
         Ok(answer.get::<Option<bool>>("doNotRunMainScript").ok().flatten() == Some(true))
     }
@@ -338,7 +337,7 @@ impl Machine {
     /// Asks the script what a pair of bodies does in the coming step; says whether it decided.
     pub fn call_contact(&mut self, bodies: [Handle; 2]) -> Result<bool, ScriptError> {
         let Some(function) = self.entries.contact.clone() else { return Ok(false) };
-        self.within(false, |m| contact::ask(&m.lua, &m.shared, m.index, &function, bodies))
+        self.within(|m| contact::ask(&m.lua, &m.shared, m.index, &function, bodies))
     }
 
     /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what
@@ -346,7 +345,7 @@ impl Machine {
     pub fn call_joint(&mut self, step: f64) -> Result<(), ScriptError> {
         let Some(function) = self.entries.joint.clone() else { return Ok(()) };
         let is_first = !std::mem::replace(&mut self.is_joint_called, true);
-        self.within(false, |m| callback::joint(&m.lua, &m.shared, m.index, &function, (step, is_first)))
+        self.within(|m| callback::joint(&m.lua, &m.shared, m.index, &function, (step, is_first)))
     }
 }
 

@@ -25,12 +25,21 @@ function xpcall(f, handler, ...)
   end, ...))
 end
 
-function coroutine.resume(co, ...)
-  host.check()
-  return checked(raw_resume(co, ...))
+-- each coroutine has its own count of instructions, after which it yields by itself
+local enter, leave = host.enter, host.leave
+
+local function resumed(outer, ...)
+  leave(outer)
+  return checked(...)
 end
 
-local function passed(co, ok, ...)
+function coroutine.resume(co, ...)
+  host.check()
+  return resumed(enter(), raw_resume(co, ...))
+end
+
+local function passed(outer, ok, ...)
+  leave(outer)
   host.check()
   if ok then return ... end
   raw_error((host.text((...))), 0)
@@ -40,7 +49,7 @@ function coroutine.wrap(f)
   local co = raw_create(f)
   return function(...)
     host.check()
-    return passed(co, raw_resume(co, ...))
+    return passed(enter(), raw_resume(co, ...))
   end
 end
 

@@ -79,6 +79,16 @@ pub(crate) fn furnish(lua: &Lua, guard: &Arc<Guard>, seed: u64, services: Servic
     host.set("check", lua.create_function(move |_, ()| checked.check())?)?;
     let stopped = guard.clone();
     host.set("is_stopped", lua.create_function(move |_, ()| Ok(stopped.is_stopped()))?)?;
+    let entering = guard.clone();
+    host.set("enter", lua.create_function(move |_, ()| Ok(entering.enter_coroutine()))?)?;
+    let leaving = guard.clone();
+    host.set(
+        "leave",
+        lua.create_function(move |_, outer: u64| {
+            leaving.leave_coroutine(outer);
+            Ok(())
+        })?,
+    )?;
     let sorting = guard.clone();
     host.set("sort_keys", lua.create_function(move |lua, keys: Table| library::sort_keys(lua, &sorting, &keys))?)?;
     host.set("text", lua.create_function(|lua, error: Value| text_of(lua, error))?)?;

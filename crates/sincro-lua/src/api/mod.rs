@@ -90,7 +90,7 @@ impl ApiContext<'_> {
 
     /// A function of the session.
     fn of_session(&self, module: &'static str, function: &'static functions::Function) -> mlua::Result<Function> {
-        let (shared, own) = (self.shared.clone(), self.own);
+        let (shared, own, guard) = (self.shared.clone(), self.own, self.guard.clone());
         let is_setter = function.name.starts_with("set") && !functions::is_display_only(function.name);
         self.lua.create_function(move |lua, arguments: MultiValue| {
             let given = convert::list_from_lua(arguments).map_err(|error| named(function.name, error))?;
@@ -103,7 +103,14 @@ impl ApiContext<'_> {
                     function.name
                 )));
             }
-            let result = shared.with_sim(own, |sim| (function.run)(sim, Arguments(&given)));
+            let mut has_restructured = false;
+            let result = shared.with_sim(own, |sim| {
+                let before = sim.registry.scene().clone();
+                let result = (function.run)(sim, Arguments(&given));
+                has_restructured = !Arc::ptr_eq(&before, sim.registry.scene());
+                result
+            });
+            guard.spend(lua, has_restructured)?;
             let named = |ApiError(message): ApiError| {
                 Error::RuntimeError(format!("{message} (in function '{module}.{}')", function.name))
             };

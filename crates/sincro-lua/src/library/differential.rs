@@ -58,7 +58,7 @@ impl Pair {
     fn new() -> Self {
         let plain = Lua::new();
         let guard = Guard::with_time_limit(u64::MAX, Duration::MAX);
-        guard.begin(false);
+        guard.begin();
         let ours = sandbox::new(&guard, 64 << 20).unwrap();
         let of = |lua: &Lua| lua.load(CALLS).set_name("=script").eval::<mlua::Table>().unwrap();
         let [theirs, own] = [of(&plain), of(&ours)];
@@ -79,7 +79,7 @@ impl Pair {
                 return Err(format!("{name} {:?} {init:?}: expected {expected:?}, found {found:?}", &texts[1..]));
             }
         }
-        self.guard.begin(false);
+        self.guard.begin();
         Ok(())
     }
 }

@@ -38,7 +38,7 @@ impl Sandbox {
 
     /// Runs a text as one call; its first result as text, or the message.
     fn call(&self, text: &str) -> Result<String, String> {
-        self.guard.begin(false);
+        self.guard.begin();
         let done = self.lua.load(text).set_name("=script").call::<mlua::Value>(());
         let done = done.and_then(|value| self.guard.check().map(|()| value));
         done.and_then(|value| value.to_string())
@@ -335,8 +335,8 @@ fn a_call_without_time_ends_at_its_first_check() {
 #[test]
 fn time_that_is_lent_is_given_back() {
     let (without, with) = (Sandbox::without_time(), Sandbox::new());
-    without.guard.begin(false);
-    with.guard.begin(false);
+    without.guard.begin();
+    with.guard.begin();
     let late = without.guard.lend_time(&with.guard, || with.guard.check_clock(&with.lua));
     assert!(late.is_err() && with.guard.words().contains(" s"));
     with.guard.resume_script(&with.lua);

@@ -3,6 +3,7 @@
 mod api;
 mod blocks;
 mod callbacks;
+mod coroutines;
 mod graphs;
 mod inverse;
 mod language;
