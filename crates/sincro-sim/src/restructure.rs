@@ -32,6 +32,29 @@ pub struct Restructured {
     pub transferred: Transferred,
 }
 
+impl Restructured {
+    /// Joins a change with one that was made at the same time after it and only put objects elsewhere (all of them are
+    /// there before and after, with the same paths): one change, from before the first to after the second.
+    ///
+    /// # Panics
+    ///
+    /// `next` is of a model with other commands than this change leads to.
+    #[must_use]
+    pub fn then_placed(self, next: Self) -> Self {
+        let (first, second) = (self.transferred, next.transferred);
+        let commands = second.commands.iter().map(|middle| middle.and_then(|k| first.commands[k])).collect();
+        let transferred = Transferred {
+            state: second.state,
+            commands,
+            momentum_change: first.momentum_change + second.momentum_change,
+            angular_momentum_change: first.angular_momentum_change + second.angular_momentum_change,
+            energy_change: first.energy_change + second.energy_change,
+            joining_loss: first.joining_loss + second.joining_loss,
+        };
+        Self { scene: next.scene, former: self.former, renamed: self.renamed, transferred }
+    }
+}
+
 /// Edit of a structure: from which scene to which.
 #[derive(Clone, Copy, Debug)]
 pub struct Edit<'a> {

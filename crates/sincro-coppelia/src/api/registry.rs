@@ -252,6 +252,8 @@ pub struct ObjectRegistry {
     pub(super) needed: Arc<Needed>,
     /// Changes of the structure that the lock-step has not taken yet.
     pub(super) restructured: Vec<Restructured>,
+    /// True if the last of these only put objects elsewhere.
+    pub(super) is_last_placement: bool,
     /// Folder for files of clients, from which models may be loaded; none if they may send none.
     pub(crate) sent_folder: Option<PathBuf>,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
@@ -318,6 +320,7 @@ impl ObjectRegistry {
             parked: BTreeMap::new(),
             needed: Arc::new(Needed::new(loaded)),
             restructured: Vec::new(),
+            is_last_placement: false,
             sent_folder: None,
             script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
         };
@@ -614,6 +617,7 @@ impl ObjectRegistry {
 
     /// Takes the changes of the structure that were made since the last call.
     pub(crate) fn take_restructured(&mut self) -> Vec<Restructured> {
+        self.is_last_placement = false;
         std::mem::take(&mut self.restructured)
     }
 
@@ -687,6 +691,7 @@ impl ObjectRegistry {
     /// A run has ended: the commands of joints are as they were `before` it, the rest stays.
     pub(crate) fn end_run(&mut self, before: Self) {
         self.restructured.clear();
+        self.is_last_placement = false;
         if !Arc::ptr_eq(&self.scene, &before.scene) {
             self.end_restructured_run(before);
             return;

@@ -195,7 +195,7 @@ impl SimApi<'_> {
         let (_, x_wp) = self.model_parent(parent)?;
         let place = x_wo.compose(&shown.inverse()).compose(&own);
         let mut edit = self.draft()?;
-        edit.conserves_momentum = false;
+        (edit.conserves_momentum, edit.is_placement) = (false, true);
         let path = self.model_path(handle)?;
         edit.draft.set_pose(&path, &x_wp.inverse().compose(&place));
         self.rebuild(edit)

@@ -45,6 +45,8 @@ struct Rebuild {
     joined: BTreeMap<String, Handle>,
     /// True if velocities of bodies that are joined or parted follow from their momenta.
     conserves_momentum: bool,
+    /// True if objects are put elsewhere and nothing else is changed.
+    is_placement: bool,
 }
 
 /// Changes of the structure that may wait for the lock-step; each keeps the model before it.
@@ -58,7 +60,7 @@ impl SimApi<'_> {
         let draft = SceneDraft::new(self.registry.scene());
         let draft = draft.ok_or_else(|| ApiError::new("the scene's file is not known: its structure stays"))?;
         let (copies, joined) = (BTreeMap::new(), BTreeMap::new());
-        Ok(Rebuild { draft, copies, joined, conserves_momentum: true })
+        Ok(Rebuild { draft, copies, joined, conserves_momentum: true, is_placement: false })
     }
 
     /// Compiles an edited scene and lets the world go on with it.
@@ -67,11 +69,12 @@ impl SimApi<'_> {
     ///
     /// The scene cannot be: nothing has changed then.
     fn rebuild(&mut self, edit: Rebuild) -> Result<(), ApiError> {
-        if self.registry.restructured.len() >= MAX_CHANGES {
+        let joins_last = edit.is_placement && self.registry.is_last_placement;
+        if self.registry.restructured.len() >= MAX_CHANGES && !joins_last {
             let words = "more than 256 changes of the structure in one call: let the simulation step in between";
             return Err(ApiError::new(words));
         }
-        let Rebuild { mut draft, copies, joined, conserves_momentum } = edit;
+        let Rebuild { mut draft, copies, joined, conserves_momentum, is_placement } = edit;
         for (path, handle) in &joined {
             draft.set_id(path, handle.0 as usize - 1);
         }
@@ -106,7 +109,11 @@ impl SimApi<'_> {
             self.registry.take_parameters(script, ids.get(&script.object).map(|id| handle_of_id(*id)));
         }
         self.note_change(&from, &change);
+        let last = if joins_last { self.registry.restructured.pop() } else { None };
+        // where objects were for no time is nothing that the lock-step has to follow
+        let change = if let Some(last) = last { last.then_placed(change) } else { change };
         self.registry.restructured.push(change);
+        self.registry.is_last_placement = is_placement;
         self.restore_pairs();
         self.moved();
         Ok(())
