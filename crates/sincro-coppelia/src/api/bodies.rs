@@ -43,12 +43,21 @@ impl SimApi<'_> {
         Ok((twist.lin.0, twist.ang.0))
     }
 
+    /// One component of the velocity that a body begins with, as [`SimApi::set_initial_velocity`] has set it in this
+    /// run; of that which it has if none was set.
+    pub(crate) fn initial_velocity(&mut self, handle: Handle, component: usize) -> Result<f64, ApiError> {
+        let set = self.registry.initial_velocities.get(&handle).and_then(|given| given[component]);
+        let (v, w) = self.center_velocity(handle)?;
+        Ok(set.unwrap_or(if component < 3 { v[component] } else { w[component - 3] }))
+    }
+
     /// Sets one component of the velocity that a body begins with: 0–2 of its centre of mass [m/s], 3–5 of its rotation
-    /// [rad/s], world axes. The others stay.
+    /// [rad/s], world axes. While stopped it is that of the start, and the others stay; while a run is on it acts when
+    /// the dynamics of the body are reset in the same step or later ([`SimApi::reset_dynamics`]).
     ///
     /// # Errors
     ///
-    /// There is no such body, a run is on, it is not carried by a free joint of its own, or the number is not finite.
+    /// There is no such body, it is not carried by a free joint of its own, or the number is not finite or too large.
     pub(crate) fn set_initial_velocity(
         &mut self,
         handle: Handle,
@@ -56,35 +65,76 @@ impl SimApi<'_> {
         value: f64,
     ) -> Result<(), ApiError> {
         self.mass(handle)?;
-        let entry = self.registry.entry(handle)?.clone();
-        if self.is_running() {
-            return Err(ApiError(format!(
-                "`{}`: an initial velocity is set while the simulation is stopped",
-                entry.path
-            )));
-        }
         if !value.is_finite() {
             return Err(ApiError(format!("velocity {value} is not finite")));
         }
-        let joints = &self.world.model().names().joints;
-        let carrier = joints.iter().find(|j| j.kind == JointKind::Free && j.moving.link == entry.frame.link);
-        let Some((v_idx, moving)) = carrier.filter(|j| j.base.link.is_none()).map(|j| (j.v_idx, j.moving)) else {
-            let help = "set the velocities of the joints that carry it, `initial` in the scene";
-            return Err(ApiError(format!("`{}` hangs on no free joint of the world: {help}", entry.path)));
-        };
+        let path = self.registry.entry(handle)?.path.clone();
+        if self.own_free_joint(handle)?.is_none() {
+            let is_fixed = self.registry.entry(handle)?.frame.link.is_none();
+            let help = if is_fixed {
+                "it is fixed in the world, and surfaces that carry others, such as conveyor belts, are not modelled"
+            } else {
+                "set the velocities of the joints that carry it, `initial` in the scene"
+            };
+            return Err(ApiError(format!("`{path}` hangs on no free joint of the world: {help}")));
+        }
+        let is_reset = self.registry.resets.get(&handle) == Some(&self.world.state.tick);
+        if self.is_running() && !is_reset {
+            self.registry.initial_velocities.entry(handle).or_default()[component] = Some(value);
+            return Ok(());
+        }
         let (mut v, mut w) = self.center_velocity(handle)?;
         *(if component < 3 { &mut v[component] } else { &mut w[component - 3] }) = value;
+        self.set_free_velocity(handle, v, w)
+    }
+
+    /// Resets the dynamics of a body on a free joint of its own: it goes on with the velocity that was set for it since
+    /// the last reset, components that were not set being zero. The change of its energy counts as work. Nothing if
+    /// none was set, or for any other object: the engine has no copies of objects that could be out of date.
+    ///
+    /// # Errors
+    ///
+    /// The velocity is too large.
+    pub(crate) fn reset_dynamics(&mut self, handle: Handle) -> Result<(), ApiError> {
+        if !self.is_running() {
+            return Ok(());
+        }
+        self.registry.resets.insert(handle, self.world.state.tick);
+        let Some(given) = self.registry.initial_velocities.remove(&handle) else { return Ok(()) };
+        if self.own_free_joint(handle)?.is_none() {
+            return Ok(());
+        }
+        let [vx, vy, vz, wx, wy, wz] = given.map(|x| x.unwrap_or(0.0));
+        self.set_free_velocity(handle, [vx, vy, vz], [wx, wy, wz])
+    }
+
+    /// Velocity index and moving frame of the free joint of the world that carries a body, if there is one.
+    fn own_free_joint(&self, handle: Handle) -> Result<Option<(usize, Attached<f64>)>, ApiError> {
+        let link = self.registry.entry(handle)?.frame.link;
+        let joints = &self.world.model().names().joints;
+        let carrier = joints.iter().find(|j| j.kind == JointKind::Free && j.moving.link == link);
+        Ok(carrier.filter(|j| j.base.link.is_none()).map(|j| (j.v_idx, j.moving)))
+    }
+
+    /// Sets the velocity of the centre of mass [m/s] and the angular velocity [rad/s] of a body on a free joint, world
+    /// axes. In a run the change of its energy counts as work.
+    fn set_free_velocity(&mut self, handle: Handle, v: [f64; 3], w: [f64; 3]) -> Result<(), ApiError> {
+        let Some((v_idx, moving)) = self.own_free_joint(handle)? else { return Ok(()) };
         // twist of the joint's moving frame, in its own axes
         let center = self.center(handle)?;
         let (x_wc, x_wm) = (self.place(&center), self.place(&moving));
         let lin = Vec3(v) + Vec3(w).cross(x_wm.pos - x_wc.pos);
         let (ang, lin) = (x_wm.rot.tr_mul_vec(Vec3(w)), x_wm.rot.tr_mul_vec(lin));
         if !ang.0.iter().chain(&lin.0).all(|x| x.is_finite()) {
-            return Err(ApiError(format!("velocity {value} is too large")));
+            return Err(ApiError(format!("velocity {v:?}, {w:?} is too large")));
         }
+        let before = self.registry.has_begun.then(|| self.world.energy().total());
         self.world.state.v[v_idx..v_idx + 3].copy_from_slice(&ang.0);
         self.world.state.v[v_idx + 3..v_idx + 6].copy_from_slice(&lin.0);
         self.moved();
+        if let Some(before) = before {
+            self.world.state.totals[0] += self.world.energy().total() - before;
+        }
         Ok(())
     }
 

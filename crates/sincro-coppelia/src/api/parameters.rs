@@ -115,15 +115,15 @@ impl SimApi<'_> {
             2018 => Ok(motor(self)?.stiffness),
             2019 => Ok(motor(self)?.damping),
             3005 => Ok(self.mass(handle)?.mass),
-            3000..=3002 => Ok(self.center_velocity(handle)?.0[(id - 3000) as usize]),
-            3020..=3022 => Ok(self.center_velocity(handle)?.1[(id - 3020) as usize]),
+            3000..=3002 => self.initial_velocity(handle, (id - 3000) as usize),
+            3020..=3022 => self.initial_velocity(handle, (id - 3020) as usize + 3),
             _ => Err(unknown("float object", id)),
         }
     }
 
     /// Sets a real parameter of an object by V-REP's number `id`, with the numbers and units of
     /// [`SimApi::object_float`]: gains and limits of a motor (2002, 2017–2019), mass of a body (3005), its initial
-    /// velocity while stopped (3000–3002, 3020–3022), those of vision sensors.
+    /// velocity (3000–3002, 3020–3022; in a run for `resetDynamicObject`), those of vision sensors.
     ///
     /// # Errors
     ///

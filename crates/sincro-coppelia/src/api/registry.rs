@@ -254,6 +254,10 @@ pub struct ObjectRegistry {
     pub(super) restructured: Vec<Restructured>,
     /// True if the last of these only put objects elsewhere.
     pub(super) is_last_placement: bool,
+    /// Velocities that bodies begin with when their dynamics are reset, component by component.
+    pub(super) initial_velocities: BTreeMap<Handle, [Option<f64>; 6]>,
+    /// Tick at which the dynamics of a body were reset last in this run.
+    pub(super) resets: BTreeMap<Handle, u64>,
     /// Folder for files of clients, from which models may be loaded; none if they may send none.
     pub(crate) sent_folder: Option<PathBuf>,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
@@ -321,6 +325,8 @@ impl ObjectRegistry {
             needed: Arc::new(Needed::new(loaded)),
             restructured: Vec::new(),
             is_last_placement: false,
+            initial_velocities: BTreeMap::new(),
+            resets: BTreeMap::new(),
             sent_folder: None,
             script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
         };
@@ -692,6 +698,7 @@ impl ObjectRegistry {
     pub(crate) fn end_run(&mut self, before: Self) {
         self.restructured.clear();
         self.is_last_placement = false;
+        (self.initial_velocities, self.resets) = (BTreeMap::new(), BTreeMap::new());
         if !Arc::ptr_eq(&self.scene, &before.scene) {
             self.end_restructured_run(before);
             return;

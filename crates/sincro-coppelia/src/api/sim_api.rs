@@ -223,7 +223,8 @@ impl<'a> SimApi<'a> {
         if let Some(before) = before {
             self.world.state.totals[0] += self.world.energy().total() - before;
         }
-        Ok(())
+        // it is made anew there
+        self.reset_dynamics(entry.handle)
     }
 
     /// Hangs an object on another object, or on the world for none. With `keep_in_place` its pose in the world stays,

@@ -64,3 +64,48 @@ fn a_busy_thread_that_moves_a_fixed_body_makes_way_for_the_step() {
     let n: i64 = said[0].parse().unwrap();
     assert!((20 * 15..=20 * 25).contains(&n), "about twenty a step, not a thousand: {n}");
 }
+
+#[test]
+fn a_ball_is_thrown_by_an_initial_velocity_and_a_reset() {
+    for order in ["set() sim.resetDynamicObject(box)", "sim.resetDynamicObject(box) set()"] {
+        let code = format!(
+            "function sysCall_actuation()
+                local box = sim.getObject('/box')
+                local function set()
+                    sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_x, 2)
+                    sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_z, 1)
+                    sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_b, 3)
+                end
+                if math.abs(sim.getSimulationTime() - 0.1) < 1e-9 then
+                    {order}
+                    local v, w = sim.getObjectVelocity(box)
+                    print(v[1], v[3] > 0, w[2])
+                end
+            end"
+        );
+        let thrown = placing(&code);
+        let text = &thrown.messages[0].text;
+        assert!(text.starts_with("2.0\t") && text.ends_with("3.0"), "{text}");
+        let x = &thrown.table.column("/box_joint/box.position.x").unwrap().values;
+        assert!((x[10], (x[20] - 0.2).abs() < 1e-9) == (0.0, true), "{x:?}");
+        let balance = &thrown.table.column("energy.balance").unwrap().values;
+        assert!(balance.iter().all(|x| x.abs() < 1e-9), "{balance:?}");
+    }
+}
+
+#[test]
+fn without_a_reset_an_initial_velocity_waits_and_is_used_once() {
+    let code = "function sysCall_actuation()
+            local box, t = sim.getObject('/box'), sim.getSimulationTime()
+            local function speed() return sim.getObjectVelocity(box)[1] end
+            local function at(when) return math.abs(t - when) < 1e-9 end
+            if at(0.05) then
+                sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_x, 2)
+                print(speed(), sim.getObjectFloatParam(box, sim.shapefloatparam_init_velocity_x))
+            end
+            if at(0.1) then print(speed()) sim.setObjectPosition(box, -1, { 0, 0, 2 }) print(speed()) end
+            if at(0.12) then sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_x, 0) end
+            if at(0.15) then sim.resetDynamicObject(box) print(speed()) sim.resetDynamicObject(box) print(speed()) end
+        end";
+    assert_eq!(said(code), ["0.0\t2.0", "0.0", "2.0", "0.0", "0.0"]);
+}

@@ -148,8 +148,9 @@ fn is_dynamic(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(sim.is_running() && sim.registry.entry(own)?.frame.link.is_some())
 }
 
-/// The engine has no copies of objects that could be out of date: there is nothing to do.
+/// The initial velocity that was set for a body takes effect.
 fn reset(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    body(sim, a)?;
+    let own = body(sim, a)?;
+    sim.reset_dynamics(own)?;
     one(1_i64)
 }

@@ -59,7 +59,7 @@ const PARTLY: &[(&[&str], &str)] = &[
     (&["tubeRead"], "never waits"),
     (&["getPathInterpolatedConfig"], "linear interpolation"),
     (&["saveImage"], "gives PNG bytes, writes no file"),
-    (&["resetDynamicObject"], "taken: there is nothing to reset"),
+    (&["resetDynamicObject"], "an initial velocity that was set takes effect; there is nothing else to reset"),
     (
         &["simIK.findConfig", "simIK.findConfigs"],
         "seconds stand for a number of attempts; validation functions in Lua only",
