@@ -7,7 +7,7 @@ use crate::api::{self, ApiError, Handle, ObjectRegistry, Request, SimApi, Value}
 use crate::host::{Host, Phase, Scripts, Setting};
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::{Kind, ScriptError};
-use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message};
+use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message, SavedImage};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
 use sincro_sim::restructure::Restructured;
@@ -248,6 +248,12 @@ impl Controller for ApiController {
         let mut all = [printed, logged].concat();
         all.sort_by(|a, b| a.t.total_cmp(&b.t));
         (all, more_prints + more_logs)
+    }
+
+    fn take_images(&mut self) -> Vec<SavedImage> {
+        let images =
+            self.registry.as_mut().map_or_else(Default::default, |registry| std::mem::take(&mut registry.images));
+        images.into_iter().map(|(name, bytes)| SavedImage { name, bytes }).collect()
     }
 
     fn changes(&self) -> &[Change] {

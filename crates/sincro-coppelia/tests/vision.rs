@@ -1,7 +1,7 @@
 //! Vision sensors in a session: whose pictures they are, of what instant, and that looking changes nothing.
 
 use sincro_coppelia::api::{Handle, Search, Value};
-use sincro_coppelia::session::Session;
+use sincro_coppelia::session::{Files, Grants, Session};
 use sincro_sim::Extensions;
 use sincro_testing::{OpenSession, SceneFolder, repository_scene, with_scripts};
 
@@ -418,7 +418,7 @@ fn pictures_are_turned_scaled_and_packed() {
     let png = bytes(call(&mut session, "sim.saveImage", &save(".png")));
     assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
     let words = refused(&mut session, "sim.saveImage", &save("/tmp/x.png"));
-    assert!(words.contains("no files are written here"), "{words}");
+    assert!(words.contains("`sincro serve --grant files`"), "{words}");
     let floats: Vec<u8> = [0.5_f32, 1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
     let changed = [Value::Bytes(floats), Value::Int(6), Value::Real(100.0), Value::Real(1.0), Value::Int(0)];
     assert_eq!(bytes(call(&mut session, "sim.transformBuffer", &changed)), [51, 101]);
@@ -428,6 +428,20 @@ fn pictures_are_turned_scaled_and_packed() {
         refused(&mut session, "sim.getScaledImage", &[picture, two(2, 2), two(1, 1 << 40), Value::Int(0)])
             .contains("cannot be")
     );
+}
+
+#[test]
+fn a_client_saves_pictures_where_files_are_granted() {
+    let around = SceneFolder::new();
+    let mut session = open();
+    session.grant(Grants { files: Some(Files::new(around.join("received"))), evaluation: false });
+    let picture = Value::Bytes(vec![7; 12]);
+    let save =
+        |name: &str| [picture.clone(), Value::reals([2.0, 2.0]), Value::Int(0), Value::from(name), Value::Int(-1)];
+    assert_eq!(call(&mut session, "sim.saveImage", &save("/tmp/seen.png")), [Value::Int(1)]);
+    let file = std::fs::read(around.join("received").join("seen.png")).unwrap();
+    assert!(file.starts_with(b"\x89PNG"));
+    assert!(refused(&mut session, "sim.saveImage", &save("a/..")).contains("not written as"));
 }
 
 #[test]

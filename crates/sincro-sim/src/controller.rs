@@ -58,6 +58,15 @@ pub struct Message {
     pub text: String,
 }
 
+/// Picture that a script has saved, kept with the results of the run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SavedImage {
+    /// Name of the file: letters, digits, `.`, `_`, `-` and spaces.
+    pub name: String,
+    /// Content of the file, in the format that the end of the name says.
+    pub bytes: Vec<u8>,
+}
+
 /// Change of a number of the model by a controller or client during a run, recorded with the results so that they can
 /// be interpreted.
 #[derive(Clone, Debug, PartialEq)]
@@ -360,6 +369,11 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Returns the messages so far in the order of time, and the number of those that were too many to keep.
     fn messages(&self) -> (Vec<Message>, usize) {
         (Vec::new(), 0)
+    }
+
+    /// Takes the pictures that scripts have saved since the start, each name once; none by default.
+    fn take_images(&mut self) -> Vec<SavedImage> {
+        Vec::new()
     }
 
     /// Returns the changes of the model that the controller has made, in the order of time, for the results.

@@ -38,7 +38,8 @@ const FILES: [&str; 14] = [
 ];
 
 /// Folders of a result, with the extensions of the files in them; an empty list: folders of results.
-const FOLDERS: [(&str, &[&str]); 3] = [("figures", &["svg"]), ("frames", &["svg", "png"]), ("variants", &[])];
+const FOLDERS: [(&str, &[&str]); 4] =
+    [("figures", &["svg"]), ("frames", &["svg", "png"]), ("images", &["png", "bmp"]), ("variants", &[])];
 
 /// Files that file managers leave anywhere.
 const IGNORED: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];

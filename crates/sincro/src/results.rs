@@ -8,6 +8,7 @@ use sincro_figures::report::{self, Card, Page};
 use sincro_scene::camera::png;
 use sincro_scene::scene::Camera;
 use sincro_sim::campaign::{Campaign, CompletedRun};
+use sincro_sim::controller::SavedImage;
 use sincro_sim::file::{FileError, prepare};
 use sincro_sim::replay::Trajectory;
 use sincro_sim::{Loaded, file};
@@ -74,11 +75,22 @@ fn write_with(
         let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
         write_text(&folder.join(name), &svg(figure, Size::wide(figure)))?;
     }
+    write_images(&campaign.main.simulated.images, out)?;
     let replay = replay(loaded, campaign).to_json();
     write_text(&out.join("replay.json"), &replay)?;
     let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
     let page = with_mechanism(Page { replay: embed(&replay), up, ..page }, campaign);
     write_text(&out.join("report.html"), &report::html(&page))
+}
+
+/// Writes the pictures that scripts have saved into the folder `images` of a result.
+pub(crate) fn write_images(images: &[SavedImage], out: &Path) -> Result<(), FileError> {
+    if images.is_empty() {
+        return Ok(());
+    }
+    let folder = out.join("images");
+    prepare(&folder)?;
+    images.iter().try_for_each(|image| file::write_atomically(&folder.join(&image.name), &image.bytes))
 }
 
 /// Report of an experiment that was run as one HTML text that needs no other file, with its replay and the program that

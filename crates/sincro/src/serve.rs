@@ -142,5 +142,9 @@ fn write_run(finished: &Finished, folder: &ResultFolder, record: ArchiveLevel) -
     finished.simulated.table.write_csv(&out.join("signals.csv"))?;
     let campaign = judge(scene, loaded, finished.simulated.clone());
     campaign.report.write(out)?;
-    if record == ArchiveLevel::Full { results::write_one_of_many(loaded, &campaign, out) } else { Ok(()) }
+    if record == ArchiveLevel::Full {
+        results::write_one_of_many(loaded, &campaign, out)
+    } else {
+        results::write_images(&campaign.main.simulated.images, out)
+    }
 }

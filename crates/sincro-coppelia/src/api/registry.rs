@@ -49,6 +49,8 @@ const MAX_BYTES: usize = 256 << 20;
 const MAX_LINES: usize = 1_000;
 /// Files of models that may wait to be written.
 const MAX_SAVES: usize = 16;
+/// Pictures of scripts that are kept with a run, and bytes of all of them.
+const MAX_IMAGES: (usize, usize) = (1_000, 64 << 20);
 
 /// Type of an object of the registry, with what its functions need to know of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,6 +151,8 @@ pub(crate) enum Request {
     Close,
     /// Write a model into the folder for files of clients: name and text.
     Save(String, String),
+    /// Write a picture into the folder for files of clients: name and bytes.
+    SaveImage(String, Vec<u8>),
 }
 
 /// Objects of a scene and runtime objects by handle, with signals, setpoints and everything else that clients and
@@ -254,6 +258,8 @@ pub struct ObjectRegistry {
     pub(super) restructured: Vec<Restructured>,
     /// True if the last of these only put objects elsewhere.
     pub(super) is_last_placement: bool,
+    /// Pictures that scripts have saved in this run, by the names of their files.
+    pub(crate) images: BTreeMap<String, Vec<u8>>,
     /// Velocities that bodies begin with when their dynamics are reset, component by component.
     pub(super) initial_velocities: BTreeMap<Handle, [Option<f64>; 6]>,
     /// Tick at which the dynamics of a body were reset last in this run.
@@ -325,6 +331,7 @@ impl ObjectRegistry {
             needed: Arc::new(Needed::new(loaded)),
             restructured: Vec::new(),
             is_last_placement: false,
+            images: BTreeMap::new(),
             initial_velocities: BTreeMap::new(),
             resets: BTreeMap::new(),
             sent_folder: None,
@@ -621,6 +628,37 @@ impl ObjectRegistry {
         Ok(())
     }
 
+    /// Asks for the file of a picture to be written into the folder for files of clients.
+    ///
+    /// # Errors
+    ///
+    /// Many files wait to be written.
+    pub(crate) fn ask_to_save_image(&mut self, name: String, bytes: Vec<u8>) -> Result<(), ApiError> {
+        let waiting = self.requests.iter().filter(|request| matches!(request, Request::SaveImage(..))).count();
+        if waiting >= MAX_SAVES {
+            return Err(ApiError::new("16 pictures wait to be written: let the simulation step in between"));
+        }
+        self.requests.push(Request::SaveImage(name, bytes));
+        Ok(())
+    }
+
+    /// Keeps a picture of a script with the run; the last one of a name counts.
+    ///
+    /// # Errors
+    ///
+    /// There are many already, or they are large.
+    pub(crate) fn keep_image(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ApiError> {
+        let others = self.images.iter().filter(|(known, _)| *known != name);
+        let (n, total) = others.fold((1, bytes.len()), |(n, total), (_, other)| (n + 1, total + other.len()));
+        let (max_n, max_total) = MAX_IMAGES;
+        if n > max_n || total > max_total {
+            let mib = max_total >> 20;
+            return Err(ApiError(format!("scripts save {max_n} pictures of {mib} MiB together in a run, no more")));
+        }
+        self.images.insert(name.to_owned(), bytes);
+        Ok(())
+    }
+
     /// Takes the changes of the structure that were made since the last call.
     pub(crate) fn take_restructured(&mut self) -> Vec<Restructured> {
         self.is_last_placement = false;
@@ -683,6 +721,7 @@ impl ObjectRegistry {
         self.strings.forget_run();
         self.graphs.forget_run();
         self.tubes = Tubes::default();
+        self.images.clear();
         self.notes = Notes::default();
         (self.has_stepped, self.has_begun) = (false, false);
         self.vision.forget();

@@ -9,13 +9,12 @@ use std::path::{Path, PathBuf};
 use sincro_scene::script::Script;
 
 use super::ApiError;
+use crate::api::functions;
 
 /// Files that may be there at once.
 const MAX_FILES: usize = 200;
 /// Bytes of all of them.
 const MAX_BYTES: u64 = 64 << 20;
-/// Longest name.
-const MAX_NAME_LEN: usize = 200;
 
 /// Instructions that one call of a script of a sent scene may take.
 const MAX_INSTRUCTIONS: u64 = 1_000_000_000;
@@ -75,17 +74,8 @@ impl Files {
     ///
     /// It is no plain name.
     pub(crate) fn place(&self, name: &str) -> Result<PathBuf, ApiError> {
-        let is_plain = !name.is_empty()
-            && name.len() <= MAX_NAME_LEN
-            && !name.starts_with('.')
-            && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | ' '));
-        if is_plain {
-            return Ok(self.folder.join(name));
-        }
-        let short: String = name.chars().take(100).collect();
-        Err(ApiError(format!(
-            "`{short}` is no name of a file here: letters, digits, `.`, `_`, `-` and spaces, no folders"
-        )))
+        functions::check_file_name(name)?;
+        Ok(self.folder.join(name))
     }
 
     /// Returns true if a client has sent the file of a place.

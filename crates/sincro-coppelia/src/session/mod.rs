@@ -350,6 +350,7 @@ impl Session {
                 Request::Load(path) => self.load(&path),
                 Request::Close => self.stop(),
                 Request::Save(name, text) => self.save(&name, &text),
+                Request::SaveImage(name, bytes) => self.files().and_then(|files| files.put(&name, &bytes)),
             };
             if first.is_ok() {
                 first = done;

@@ -12,6 +12,7 @@ mod modules;
 mod motion;
 mod names;
 mod parity;
+mod pictures;
 mod placing;
 mod propeller;
 mod senses;

@@ -11,7 +11,7 @@ use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
 use super::method_choice::{MethodChanges, MethodChoice};
 use super::world_with_room;
-use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, Source};
+use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, SavedImage, Source};
 use crate::diagram_controller::DiagramController;
 use crate::load::Loaded;
 use crate::restructure::{Edit, Renamed, Restructured, restructure};
@@ -391,6 +391,11 @@ impl LockStep {
     /// [`Halt::Controller`]: a controller fails.
     pub fn end(&mut self) -> Result<(), Halt> {
         if self.is_started { self.call(false, |controller, at| controller.finish(at)) } else { Ok(()) }
+    }
+
+    /// Takes the pictures that scripts have saved since the start.
+    pub(crate) fn take_images(&mut self) -> Vec<SavedImage> {
+        self.controllers.iter_mut().flat_map(|controller| controller.take_images()).collect()
     }
 
     /// Returns the changes of the model by controllers, controller by controller.

@@ -27,7 +27,7 @@ use crate::validity::ValidityViolation;
 pub use lockstep::{Followed, Halt, LockStep};
 pub use recording::Recording;
 
-use crate::controller::{Change, Message};
+use crate::controller::{Change, Message, SavedImage};
 use crate::file::FileError;
 use crate::load::Loaded;
 use crate::replay::Trajectory;
@@ -96,6 +96,8 @@ pub struct Simulated {
     pub messages: Vec<Message>,
     /// Changes of the model by clients and scripts.
     pub changes: Vec<Change>,
+    /// Pictures that scripts have saved.
+    pub images: Vec<SavedImage>,
     /// Number of the table's last columns that come from data streams of controllers.
     pub n_streams: usize,
     /// Wall time `[s]`, recording included.

@@ -225,7 +225,7 @@ impl Recording {
         if n_more > 0 {
             warnings.push(format!("scripts and clients said {n_more} more things than are kept"));
         }
-        let changes = lockstep.changes();
+        let (changes, images) = (lockstep.changes(), lockstep.take_images());
         Ok(Simulated {
             table,
             status,
@@ -241,6 +241,7 @@ impl Recording {
             warnings,
             messages,
             changes,
+            images,
             n_streams,
             wall_time,
         })

@@ -1,6 +1,6 @@
 //! Functions: pictures as bytes, wherever they come from.
 
-use super::{Function, Outcome};
+use super::{Function, Outcome, one};
 use crate::api::{ApiError, Arguments, SimApi, Value};
 use sincro_scene::camera::{MAX_PIXELS, png};
 
@@ -26,6 +26,9 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: transform_buffer,
     },
 ];
+
+/// Longest name of a file.
+const MAX_NAME_LEN: usize = 200;
 
 /// Columns and rows in argument `k`.
 fn resolution(a: Arguments<'_>, k: usize) -> Result<[usize; 2], ApiError> {
@@ -128,8 +131,12 @@ fn sample(
     (low * (1.0 - t) + high * t + 0.5) as u8
 }
 
-/// A picture as PNG, given back as bytes; the caller writes files if it has permission.
-fn save(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+/// Extensions of pictures that V-REP writes and sincro does not: their content is PNG here.
+const OTHER_EXTENSIONS: [&str; 9] = ["jpg", "jpeg", "tga", "tif", "tiff", "gif", "ppm", "xbm", "xpm"];
+
+/// A picture as a file: its bytes for a name that is an extension alone, such as `.png`; else it is kept with the run
+/// that a script makes it in, or, of a client, written into the folder for files of clients.
+fn save(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (size, options, name) = (resolution(a, 1)?, a.int_or(2, 0)?, a.text(3)?);
     let channels = match options & 3 {
         0 => png::Channels::Rgb,
@@ -137,17 +144,84 @@ fn save(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         2 => png::Channels::Grey,
         _ => return Err(ApiError::new("the format of the picture is none of rgb 0, rgba 1, grey 2")),
     };
-    if name != ".png" {
-        let name: String = name.chars().take(100).collect();
-        return Err(ApiError(format!(
-            "`{name}` is not written: no files are written here; `.png` gives the picture back as bytes"
-        )));
+    let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let Some((stem, extension)) = last.rsplit_once('.').map(|(stem, e)| (stem, e.to_ascii_lowercase())) else {
+        return Err(ApiError(format!("`{last}` has no extension: `.png` and `.bmp` are written")));
+    };
+    let is_other = OTHER_EXTENSIONS.contains(&&*extension);
+    if !(is_other && !stem.is_empty() || matches!(&*extension, "png" | "bmp")) {
+        let extension: String = extension.chars().take(20).collect();
+        return Err(ApiError(format!("pictures are not written as `.{extension}`: `.png` and `.bmp` are")));
     }
     let bytes = pixels(a, size, channels.width())?;
     // pictures here are V-REP's, from the bottom; it saves the first row as the upper one
     let width = size[0] * channels.width();
     let turned: Vec<u8> = bytes.chunks_exact(width).rev().flatten().copied().collect();
-    Ok(vec![Value::Bytes(png::encode(&turned, size, channels))])
+    let file = if extension == "bmp" { bitmap(&turned, size, channels) } else { png::encode(&turned, size, channels) };
+    if stem.is_empty() {
+        return Ok(vec![Value::Bytes(file)]);
+    }
+    let name = if is_other { format!("{last}.png") } else { format!("{stem}.{extension}") };
+    check_file_name(&name)?;
+    if is_other {
+        sim.log(300, &format!("the picture `{last}` is saved as `{name}`: pictures are not written as `.{extension}`"));
+    }
+    keep(sim, name, file)?;
+    one(1_i64)
+}
+
+/// Checks that a name is one of a file in a folder that is given, and leads to no other.
+///
+/// # Errors
+///
+/// It is no plain name.
+pub(crate) fn check_file_name(name: &str) -> Result<(), ApiError> {
+    let is_plain = !name.is_empty()
+        && name.len() <= MAX_NAME_LEN
+        && !name.starts_with('.')
+        && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | ' '));
+    if is_plain {
+        return Ok(());
+    }
+    let short: String = name.chars().take(100).collect();
+    Err(ApiError(format!("`{short}` is no name of a file here: letters, digits, `.`, `_`, `-` and spaces, no folders")))
+}
+
+/// Keeps the file of a picture.
+fn keep(sim: &mut SimApi<'_>, name: String, file: Vec<u8>) -> Result<(), ApiError> {
+    if sim.own.is_some() && sim.is_running() {
+        return sim.registry.keep_image(&name, file);
+    }
+    if sim.registry.sent_folder.is_none() {
+        return Err(ApiError(format!(
+            "`{name}` is not written: in a run scripts save pictures, clients with `sincro serve --grant files`; `.png` gives the picture back as bytes"
+        )));
+    }
+    sim.registry.ask_to_save_image(name, file)
+}
+
+/// A picture as a bitmap of Windows, 24 bits a pixel without compression; rows from the bottom, as here.
+fn bitmap(pixels: &[u8], [columns, rows]: [usize; 2], channels: png::Channels) -> Vec<u8> {
+    let (width, line) = (channels.width(), (3 * columns).next_multiple_of(4));
+    let size = 54 + line * rows;
+    let mut file = Vec::with_capacity(size);
+    file.extend(b"BM");
+    for number in [size, 0, 54, 40, columns, rows] {
+        file.extend((number as u32).to_le_bytes());
+    }
+    // one plane of 24 bits, no compression, 72 dots an inch
+    file.extend([1, 0, 24, 0]);
+    for number in [0, (line * rows) as u32, 2835, 2835, 0, 0] {
+        file.extend(number.to_le_bytes());
+    }
+    for row in pixels.chunks_exact(width * columns) {
+        for pixel in row.chunks_exact(width) {
+            let [red, green, blue] = if width == 1 { [pixel[0]; 3] } else { [pixel[0], pixel[1], pixel[2]] };
+            file.extend([blue, green, red]);
+        }
+        file.extend(std::iter::repeat_n(0, line - 3 * columns));
+    }
+    file
 }
 
 /// Type of a number in a buffer: V-REP's number for it, its size in bytes.

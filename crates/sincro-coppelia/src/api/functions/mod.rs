@@ -45,6 +45,7 @@ use super::constants::{HANDLE_FLAGS, HANDLE_JOINT_BASE};
 use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 pub use absent::{absent, why_absent};
+pub(crate) use images::check_file_name;
 pub use names::{old_names, present_name};
 pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
 pub use waiting::{MOVES, Move};

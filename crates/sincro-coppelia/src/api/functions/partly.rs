@@ -58,7 +58,7 @@ const PARTLY: &[(&[&str], &str)] = &[
     ),
     (&["tubeRead"], "never waits"),
     (&["getPathInterpolatedConfig"], "linear interpolation"),
-    (&["saveImage"], "gives PNG bytes, writes no file"),
+    (&["saveImage"], "PNG and BMP; a script's files are kept with the run, a client's need `--grant files`"),
     (&["resetDynamicObject"], "an initial velocity that was set takes effect; there is nothing else to reset"),
     (
         &["simIK.findConfig", "simIK.findConfigs"],
