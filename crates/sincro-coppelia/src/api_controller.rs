@@ -84,6 +84,35 @@ impl ApiController {
         done.map_err(|fault| Halt::Controller { tick, t, is_after_step: false, fault: Box::new(fault) })
     }
 
+    /// Calls the customization scripts of a session that is stopped, for [`Phase::Open`], [`Phase::NonSimulation`] or
+    /// [`Phase::Close`].
+    ///
+    /// # Errors
+    ///
+    /// The first script that fails.
+    pub(crate) fn call_stopped(lockstep: &mut LockStep, phase: Phase) -> Result<(), ScriptError> {
+        let Some((api, world)) = Self::of(lockstep) else { return Ok(()) };
+        api.call_scripts(phase, Instant { world, tick: 0, t: 0.0 })
+    }
+
+    /// Returns true if customization scripts live in a lock-step through all runs of a session.
+    pub(crate) fn is_open(lockstep: &mut LockStep) -> bool {
+        Self::of(lockstep).is_some_and(|(api, _)| api.scripts.as_ref().is_some_and(Scripts::is_open))
+    }
+
+    /// Takes scripts that live through all runs of a session away from the lock-step of one that is over.
+    pub(crate) fn take_open_scripts(lockstep: &mut LockStep) -> Option<Scripts> {
+        let (api, _) = Self::of(lockstep)?;
+        api.scripts.take_if(|scripts| scripts.is_open()).map(Scripts::between_runs)
+    }
+
+    /// Lets scripts go on in the lock-step of the next run.
+    pub(crate) fn set_scripts(lockstep: &mut LockStep, scripts: Option<Scripts>) {
+        if let (Some(scripts), Some((api, _))) = (scripts, Self::of(lockstep)) {
+            api.scripts = Some(scripts);
+        }
+    }
+
     /// Calls a function of the script on an object, as another script or a client asks for it.
     ///
     /// # Errors

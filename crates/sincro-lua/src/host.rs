@@ -45,7 +45,14 @@ impl ScriptEngine for Lua54 {
     fn controller(&self, loaded: &Loaded) -> Box<dyn Controller> {
         Box::new(ApiController::with_scripts(loaded, |setting| {
             let shared = Arc::new(Shared::new(setting, nothing()));
-            Box::new(Scripts { shared, machines: Vec::new(), scene: None, holder: 0 })
+            Box::new(Scripts {
+                shared,
+                machines: Vec::new(),
+                scene: None,
+                holder: 0,
+                is_running: false,
+                is_open: false,
+            })
         }))
     }
 }
@@ -66,6 +73,10 @@ struct Scripts {
     scene: Option<Arc<Scene>>,
     /// The last one that has held back a step.
     holder: usize,
+    /// True between the initialization and the cleanup of a run: child scripts live.
+    is_running: bool,
+    /// True if customization scripts live through all runs of a session.
+    is_open: bool,
 }
 
 impl Host for Scripts {
@@ -121,28 +132,64 @@ impl Scripts {
 
     fn run(&mut self, phase: Phase) -> Result<(), ScriptError> {
         let step = self.shared.setting.step;
+        let is_first = matches!(phase, Phase::Initialization | Phase::Open);
+        if phase == Phase::Initialization {
+            // child scripts come to life
+            (self.is_running, self.scene) = (true, None);
+        }
         let new = self.follow_scene()?;
-        if phase != Phase::Initialization {
-            // those that are started while the simulation runs
+        if !is_first {
+            // those that are started while the simulation runs, or is stopped
+            let first = if self.is_running { Phase::Initialization } else { Phase::Open };
             let is_new = |m: &&mut Machine| new.contains(&m.place());
-            self.machines.iter_mut().filter(is_new).try_for_each(|m| m.call(Phase::Initialization))?;
+            self.machines.iter_mut().filter(is_new).try_for_each(|m| m.call(first))?;
         }
         let n = self.machines.len();
         self.machines.iter().for_each(Machine::refill);
         if phase == Phase::Actuation {
             self.wait_for_main()?;
+        }
+        if matches!(phase, Phase::Actuation | Phase::NonSimulation) {
             (0..n).try_for_each(|k| self.with_machine(k, Machine::resume))?;
         }
         if phase == Phase::Sensing {
             (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_dynamics(step, true)))?;
         }
-        (0..n).try_for_each(|k| self.with_machine(k, |m| m.call(phase)))?;
+        let called = (0..n).try_for_each(|k| self.with_machine(k, |m| m.call(phase)));
+        match phase {
+            Phase::Open => self.is_open = called.is_ok(),
+            Phase::Cleanup => return called.and(self.end_run()),
+            Phase::Close => {
+                self.is_open = false;
+                self.machines.clear();
+            }
+            _ => {}
+        }
+        called?;
         if phase == Phase::Actuation {
             (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_dynamics(step, false)))?;
             (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_joint(step)))?;
             self.decide_contacts()?;
         }
         Ok(())
+    }
+
+    /// Ends the child scripts; customization scripts stay if they live through all runs of a session.
+    fn end_run(&mut self) -> Result<(), ScriptError> {
+        (self.is_running, self.scene) = (false, None);
+        let is_open = self.is_open;
+        let stays = |m: &Machine| is_open && m.is_customization();
+        let (staying, gone): (Vec<Machine>, Vec<Machine>) = self.machines.drain(..).partition(stays);
+        self.machines = staying;
+        self.machines.iter_mut().for_each(Machine::forget_run);
+        let mut first = Ok(());
+        for mut machine in gone {
+            if machine.is_customization() {
+                first = first.and(machine.call(Phase::Close));
+            }
+            self.shared.end(machine.place());
+        }
+        first
     }
 
     /// Calls a script, unless another one has removed its object in this phase.
@@ -206,7 +253,9 @@ impl Scripts {
         if self.scene.as_ref().is_some_and(|known| Arc::ptr_eq(known, &scene)) {
             return Ok(new);
         }
-        let scripts = in_order(&scene);
+        let is_running = self.is_running;
+        let mut scripts = in_order(&scene);
+        scripts.retain(|script| is_running || script.kind == Kind::Customization);
         let stays = |m: &Machine| {
             let own = self.shared.script(m.place());
             scripts.iter().any(|script| (script.object, script.kind) == (own.object, own.kind))
@@ -214,7 +263,9 @@ impl Scripts {
         let (staying, gone): (Vec<Machine>, Vec<Machine>) = self.machines.drain(..).partition(stays);
         self.machines = staying;
         for mut machine in gone {
-            if let Err(fault) = machine.call(Phase::Cleanup) {
+            let told = if is_running { machine.call(Phase::Cleanup) } else { Ok(()) };
+            let ended = if machine.is_customization() { machine.call(Phase::Close) } else { Ok(()) };
+            if let Err(fault) = told.and(ended) {
                 // its object is not there any more
                 self.shared.say(machine.place(), fault.to_string());
             }

@@ -21,22 +21,25 @@ use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
 use crate::{api, callback, contact, convert, fault, files, power};
 
-/// Names of phases in `sim_call_type`; any numbers will do, scripts compare names.
-pub(crate) const CALL_TYPES: [(&str, Phase, i64); 7] = [
-    ("init", Phase::Initialization, 0),
-    ("actuation", Phase::Actuation, 1),
-    ("sensing", Phase::Sensing, 2),
-    ("cleanup", Phase::Cleanup, 3),
-    ("suspend", Phase::Suspend, 4),
-    ("suspended", Phase::Suspended, 5),
-    ("resume", Phase::Resume, 6),
+/// Values of `sim_call_type`; any numbers will do, scripts compare names.
+pub(crate) const CALL_TYPES: [(&str, i64); 10] = [
+    ("init", 0),
+    ("actuation", 1),
+    ("sensing", 2),
+    ("cleanup", 3),
+    ("suspend", 4),
+    ("suspended", 5),
+    ("resume", 6),
+    ("nonsimulation", 7),
+    ("lastbeforesimulation", 8),
+    ("firstaftersimulation", 9),
 ];
 
 /// Callbacks of CoppeliaSim that are not called here, and why.
 const NOT_CALLED: [(&str, &str); 3] = [
     ("sysCall_trigger", "sensors trigger nothing"),
     ("sysCall_vision", "pictures are read by functions (sim.getVisionSensorImg)"),
-    ("sysCall_nonSimulation", "scripts live from the start of a run to its end"),
+    ("sysCall_nonSimulation", "it is for customization scripts, while `sincro serve` is stopped"),
 ];
 
 /// Lua state of one script, with its limits and entry points.
@@ -53,6 +56,8 @@ pub(crate) struct Machine {
     thread: Option<Thread>,
     /// True if `sysCall_joint` has been called.
     is_joint_called: bool,
+    /// True once `sysCall_init` has been called.
+    is_initialized: bool,
 }
 
 /// Functions of a new script that are there.
@@ -107,6 +112,7 @@ impl Machine {
             entries,
             thread: None,
             is_joint_called: false,
+            is_initialized: false,
         })
     }
 
@@ -160,23 +166,52 @@ impl Machine {
         done.map_err(|error| fault::of(&self.script(), &self.guard, &error))
     }
 
-    /// A phase of the step; threads are resumed by [`Machine::resume`].
+    /// A phase of the step, or of the time between runs; threads are resumed by [`Machine::resume`].
     pub fn call(&mut self, phase: Phase) -> Result<(), ScriptError> {
+        let is_old = self.style == Style::Old;
         match phase {
-            Phase::Initialization => self.within(Self::initialize),
+            Phase::Initialization | Phase::Open => self.begin(phase),
             // V-REP's old scripts know of no pauses
-            Phase::Suspend | Phase::Suspended | Phase::Resume if self.style == Style::Old => Ok(()),
-            _ if self.style == Style::Old => self.within(|m| m.call_whole(phase)),
+            Phase::Suspend | Phase::Suspended | Phase::Resume if is_old => Ok(()),
             Phase::Suspend => self.call_named("sysCall_suspend"),
             Phase::Suspended => self.call_named("sysCall_suspended"),
             Phase::Resume => self.call_named("sysCall_resume"),
+            Phase::Actuation if is_old => self.within(|m| m.call_whole("actuation")),
+            Phase::Sensing if is_old => self.within(|m| m.call_whole("sensing")),
             Phase::Actuation => self.call_entry(|e| &e.actuation),
             Phase::Sensing => self.call_entry(|e| &e.sensing),
-            Phase::Cleanup => self.within(Self::clean_up),
+            Phase::NonSimulation => self.call_either("nonsimulation", "sysCall_nonSimulation"),
+            Phase::Cleanup if self.is_customization() => {
+                self.call_either("firstaftersimulation", "sysCall_afterSimulation")
+            }
+            Phase::Cleanup | Phase::Close => self.call_either("cleanup", "sysCall_cleanup"),
         }
     }
 
-    fn initialize(&mut self) -> mlua::Result<()> {
+    /// Returns true if it is a customization script.
+    pub fn is_customization(&self) -> bool {
+        self.script().kind == Kind::Customization
+    }
+
+    /// The initialization, unless it has been; before a run a customization script is told of that, too.
+    fn begin(&mut self, phase: Phase) -> Result<(), ScriptError> {
+        if !self.is_initialized {
+            self.within(|m| m.initialize(phase))?;
+            self.is_initialized = true;
+        }
+        if phase == Phase::Open || !self.is_customization() {
+            return Ok(());
+        }
+        self.call_either("lastbeforesimulation", "sysCall_beforeSimulation")?;
+        self.within(Self::update_entries)
+    }
+
+    /// Calls an old script as a whole, a new one by a function.
+    fn call_either(&mut self, call_type: &str, name: &str) -> Result<(), ScriptError> {
+        if self.style == Style::Old { self.within(|m| m.call_whole(call_type)) } else { self.call_named(name) }
+    }
+
+    fn initialize(&mut self, phase: Phase) -> mlua::Result<()> {
         if self.script().is_threaded {
             self.style = Style::Old;
             return self.become_thread(self.chunk.clone());
@@ -184,7 +219,7 @@ impl Machine {
         if self.style == Style::New {
             self.chunk.call::<()>(())?;
         } else {
-            self.call_whole(Phase::Initialization)?;
+            self.call_whole("init")?;
             if self.style == Style::Old || !self.has_entries()? {
                 self.style = Style::Old;
                 return Ok(());
@@ -192,7 +227,7 @@ impl Machine {
             self.style = Style::New;
             self.lua.globals().set("sim_call_type", Value::Nil)?;
         }
-        self.begin_new()
+        self.begin_new(phase)
     }
 
     /// Returns true if any function `sysCall_…` is there.
@@ -218,7 +253,7 @@ impl Machine {
         Ok(None)
     }
 
-    fn begin_new(&mut self) -> mlua::Result<()> {
+    fn begin_new(&mut self, phase: Phase) -> mlua::Result<()> {
         self.entries = Entries {
             actuation: self.entry(&["sysCall_actuation"])?,
             sensing: self.entry(&["sysCall_sensing"])?,
@@ -230,26 +265,29 @@ impl Machine {
                 .filter(|_| self.script().kind == Kind::Customization),
         };
         for (name, why) in NOT_CALLED {
-            if self.entry(&[name])?.is_some() {
+            // those of a session are
+            let is_called = name == "sysCall_nonSimulation" && phase == Phase::Open;
+            if !is_called && self.entry(&[name])?.is_some() {
                 self.shared.say(self.index, format!("{name} is not called: {why}"));
             }
         }
-        let mut first = vec!["sysCall_init"];
-        if self.script().kind == Kind::Customization {
-            first.push("sysCall_beforeSimulation");
+        if let Some(function) = self.entry(&["sysCall_init"])? {
+            function.call::<()>(())?;
         }
-        for name in first {
-            if let Some(function) = self.entry(&[name])? {
-                function.call::<()>(())?;
-            }
-        }
-        // the functions may have been made by sysCall_init
-        self.entries.actuation = self.entry(&["sysCall_actuation"])?;
-        self.entries.sensing = self.entry(&["sysCall_sensing"])?;
+        self.update_entries()?;
         match self.entry(&["sysCall_thread", "sysCall_threadmain"])? {
             Some(function) => self.become_thread(function),
             None => Ok(()),
         }
+    }
+
+    /// Finds the functions again: others may have been made by the one that was called.
+    fn update_entries(&mut self) -> mlua::Result<()> {
+        if self.style == Style::New {
+            self.entries.actuation = self.entry(&["sysCall_actuation"])?;
+            self.entries.sensing = self.entry(&["sysCall_sensing"])?;
+        }
+        Ok(())
     }
 
     fn become_thread(&mut self, function: Function) -> mlua::Result<()> {
@@ -258,26 +296,12 @@ impl Machine {
         Ok(())
     }
 
-    fn clean_up(&mut self) -> mlua::Result<()> {
-        let mut last = Vec::new();
-        if self.script().kind == Kind::Customization {
-            last.push("sysCall_afterSimulation");
-        }
-        last.push("sysCall_cleanup");
-        for name in last {
-            if let Some(function) = self.entry(&[name])? {
-                function.call::<()>(())?;
-            }
-        }
-        Ok(())
-    }
-
     /// The text of an old script; one that is a thread is not called.
-    fn call_whole(&mut self, phase: Phase) -> mlua::Result<()> {
+    fn call_whole(&mut self, call_type: &str) -> mlua::Result<()> {
         if self.thread.is_some() {
             return Ok(());
         }
-        let call_type = CALL_TYPES.iter().find(|(_, p, _)| *p == phase).map(|(_, _, number)| *number);
+        let call_type = CALL_TYPES.iter().find(|(name, _)| *name == call_type).map(|(_, number)| *number);
         self.lua.globals().set("sim_call_type", call_type)?;
         self.chunk.call(())
     }
@@ -285,6 +309,11 @@ impl Machine {
     fn call_entry(&mut self, which: fn(&Entries) -> &Option<Function>) -> Result<(), ScriptError> {
         let Some(function) = which(&self.entries).clone() else { return Ok(()) };
         self.within(|_| function.call(()))
+    }
+
+    /// Prepares for the next run of a session.
+    pub fn forget_run(&mut self) {
+        self.is_joint_called = false;
     }
 
     /// Calls a function if the script has it.

@@ -63,10 +63,18 @@ impl Shared {
         Self { stage, messages: Mutex::default(), scripts: Mutex::default(), setting }
     }
 
-    /// Adds a script; returns its place, which it keeps.
+    /// Adds a script; returns its place, which it keeps: that of an earlier run of a session, if it was there.
     pub fn add(&self, script: Arc<Script>) -> usize {
         let mut scripts = open(&self.scripts);
-        scripts.push(Known { script, state: None, has_ended: false });
+        let is_same =
+            |known: &Known| known.has_ended && (known.script.object, known.script.kind) == (script.object, script.kind);
+        let earlier = scripts.iter().position(is_same);
+        let new = Known { script, state: None, has_ended: false };
+        if let Some(place) = earlier {
+            scripts[place] = new;
+            return place;
+        }
+        scripts.push(new);
         scripts.len() - 1
     }
 

@@ -226,7 +226,7 @@ impl Hub {
                 self.release_silent_clients(&mut guard);
             }
             if !guard.runs_free() {
-                if guard.session.phase() == Phase::Paused {
+                if guard.session.phase() != Phase::Running {
                     // the session's log has the reason if the run stops
                     let _ = guard.act(Session::idle);
                 }

@@ -21,12 +21,14 @@ pub(crate) struct Scripts {
     messages: Vec<Message>,
     n_dropped: usize,
     is_started: bool,
+    /// True if customization scripts live through all runs of a session.
+    is_open: bool,
 }
 
 impl Scripts {
     /// Scripts that a host calls.
     pub(crate) fn new(host: Box<dyn Host>) -> Self {
-        Self { host, messages: Vec::new(), n_dropped: 0, is_started: false }
+        Self { host, messages: Vec::new(), n_dropped: 0, is_started: false, is_open: false }
     }
 
     /// Calls the functions of all scripts for a phase of the step at tick `tick`, at time `t` `[s]`.
@@ -43,6 +45,12 @@ impl Scripts {
     ) -> Result<(), ScriptError> {
         self.is_started |= phase == Phase::Initialization;
         let done = self.host.call(Call { world, registry, tick, t }, phase);
+        match phase {
+            // a script that fails at its start is started again
+            Phase::Open => self.is_open = done.is_ok(),
+            Phase::Close => self.is_open = false,
+            _ => {}
+        }
         self.keep_messages(registry);
         done
     }
@@ -61,9 +69,7 @@ impl Scripts {
         registry: &mut Option<Box<ObjectRegistry>>,
         (tick, t): (u64, f64),
     ) -> Result<Vec<Value>, ApiError> {
-        if !self.is_started {
-            return Err(ApiError::new("scripts can be called once the simulation is started"));
-        }
+        self.check_alive((object, kind), registry)?;
         let done = self.host.call_function(Call { world, registry, tick, t }, (object, kind), function, arguments);
         self.keep_messages(registry);
         done
@@ -82,12 +88,29 @@ impl Scripts {
         registry: &mut Option<Box<ObjectRegistry>>,
         (tick, t): (u64, f64),
     ) -> Result<Vec<Value>, ApiError> {
-        if !self.is_started {
-            return Err(ApiError::new("scripts can be called once the simulation is started"));
-        }
+        self.check_alive(script, registry)?;
         let done = self.host.evaluate(Call { world, registry, tick, t }, script, text);
         self.keep_messages(registry);
         done
+    }
+
+    /// Refuses calls of a script that does not live yet: while stopped, customization scripts of a session do.
+    fn check_alive(
+        &self,
+        (object, kind): (Handle, Option<Kind>),
+        registry: &Option<Box<ObjectRegistry>>,
+    ) -> Result<(), ApiError> {
+        let is_customization = |script: &Script| {
+            script.object as i32 + 1 == object.0
+                && script.kind == Kind::Customization
+                && kind.is_none_or(|k| k == script.kind)
+        };
+        let lives = self.is_open
+            && registry.as_ref().is_some_and(|registry| registry.scene().scripts.iter().any(is_customization));
+        if self.is_started || lives {
+            return Ok(());
+        }
+        Err(ApiError::new("scripts can be called once the simulation is started; customization scripts before, too"))
     }
 
     fn keep_messages(&mut self, registry: &mut Option<Box<ObjectRegistry>>) {
@@ -101,6 +124,18 @@ impl Scripts {
                 self.n_dropped += 1;
             }
         }
+    }
+
+    /// Prepares for the next run of a session: what was said in the last one is forgotten.
+    pub(crate) fn between_runs(mut self) -> Self {
+        (self.messages, self.n_dropped, self.is_started) = (Vec::new(), 0, false);
+        self
+    }
+
+    /// Returns true if they live through all runs of a session.
+    #[must_use]
+    pub(crate) fn is_open(&self) -> bool {
+        self.is_open
     }
 
     /// Returns true if their initialisation has been called.

@@ -35,6 +35,13 @@ pub enum Phase {
     Resume,
     /// Once, when the run is over.
     Cleanup,
+    /// Once, before the first run of a session (`sysCall_init` of customization scripts alone): they live from here to
+    /// [`Phase::Close`], through all runs.
+    Open,
+    /// Now and then while a session is stopped (`sysCall_nonSimulation` of customization scripts).
+    NonSimulation,
+    /// Once, when a session lets its scene go (`sysCall_cleanup` of customization scripts).
+    Close,
 }
 
 /// Context of a call of scripts by the lock-step: world, objects and time, which a [`Host`] hands to the functions of
@@ -51,8 +58,8 @@ pub struct Call<'a> {
     pub t: f64,
 }
 
-/// Scripts of one run in memory, in the language of an adapter (`sincro-lua`); the lock-step calls them in each
-/// [`Phase`].
+/// Scripts in memory, in the language of an adapter (`sincro-lua`); the lock-step calls them in each [`Phase`]. A host
+/// is that of one run, or, after [`Phase::Open`], of all runs of a session, between which customization scripts stay.
 pub trait Host: Send + fmt::Debug {
     /// Calls the callback of a phase in all scripts that have it, in their order ([`in_order`]). Scripts that are new
     /// in the registry's scene are started before, those that it has no longer are ended.

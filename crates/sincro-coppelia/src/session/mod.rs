@@ -24,6 +24,7 @@ use crate::host;
 use sincro_scene::diagnostic::Diagnostics;
 use sincro_scene::overrides::Override;
 use sincro_scene::scene::{ObjectKind, Scene};
+use sincro_scene::script::Kind as ScriptKind;
 use sincro_sim::load::{Extensions, Loaded, load};
 use sincro_sim::results::Status;
 use sincro_sim::run::{LockStep, Recording, RunError, RunOptions, Simulated, method_for};
@@ -74,6 +75,8 @@ pub struct Session {
     legacy_ports: Option<LegacyPorts>,
     /// Structure that runs start with, if clients have changed it while stopped.
     structure: Option<Structure>,
+    /// True after a customization script has failed while stopped: it is not called there again.
+    has_failed: bool,
 }
 
 /// Permissions of clients beyond the simulation, given with [`Session::grant`]; none by default.
@@ -154,6 +157,7 @@ impl Session {
             grants: Grants::default(),
             legacy_ports: None,
             structure: None,
+            has_failed: false,
         })
     }
 
@@ -255,10 +259,11 @@ impl Session {
     pub fn call_script(
         &mut self,
         object: Handle,
-        kind: Option<sincro_scene::script::Kind>,
+        kind: Option<ScriptKind>,
         function: &str,
         arguments: &[Value],
     ) -> Result<Vec<Value>, ApiError> {
+        self.open_scripts()?;
         let results = ApiController::call_script(&mut self.lockstep, (object, kind), function, arguments)?;
         self.follow_structure()?;
         self.do_requests()?;
@@ -307,16 +312,12 @@ impl Session {
     /// # Errors
     ///
     /// [`Grants::evaluation`] is false, there is no such script, the scripts have not been started, or the text failed.
-    pub fn evaluate(
-        &mut self,
-        object: Handle,
-        kind: Option<sincro_scene::script::Kind>,
-        text: &str,
-    ) -> Result<Vec<Value>, ApiError> {
+    pub fn evaluate(&mut self, object: Handle, kind: Option<ScriptKind>, text: &str) -> Result<Vec<Value>, ApiError> {
         if !self.grants.evaluation {
             let refused = "texts of clients are not run here: `sincro serve --grant scripts` lets them";
             return Err(ApiError::new(refused));
         }
+        self.open_scripts()?;
         let results = ApiController::evaluate(&mut self.lockstep, (object, kind), text)?;
         self.follow_structure()?;
         self.do_requests()?;
@@ -376,6 +377,7 @@ impl Session {
             }
             Phase::Stopped => {}
         }
+        self.open_scripts()?;
         if std::mem::take(&mut self.registry().is_model_changed) {
             self.adopt();
         }
@@ -438,7 +440,9 @@ impl Session {
             registry.set_scene(&self.loaded.scene);
         }
         (self.method, self.warnings) = self.method();
+        let scripts = ApiController::take_open_scripts(&mut self.lockstep);
         self.lockstep = fresh(&self.loaded, self.structure.as_ref(), self.method, *registry);
+        ApiController::set_scripts(&mut self.lockstep, scripts);
         let initial = &self.scene().initial;
         if q != initial.q || v != initial.v {
             // nothing of what was settled for other numbers is kept
@@ -477,18 +481,53 @@ impl Session {
         Ok(())
     }
 
-    /// Calls `sysCall_suspended` of the scripts and carries out what they request; to be called now and then while the
-    /// run is paused. Nothing in any other phase.
+    /// Calls `sysCall_suspended` of the scripts of a run that is paused, or `sysCall_nonSimulation` of customization
+    /// scripts while there is no run, and carries out what they request; to be called now and then. Nothing while the
+    /// simulation runs.
     ///
     /// # Errors
     ///
-    /// A script fails: the run has then ended.
+    /// A script fails: the run has then ended; one that fails while there is none is not called there again.
     pub fn idle(&mut self) -> Result<(), ApiError> {
-        if self.phase() != Phase::Paused {
+        match self.phase() {
+            Phase::Running => return Ok(()),
+            Phase::Paused => self.notify_scripts(host::Phase::Suspended)?,
+            Phase::Stopped if self.has_failed => return Ok(()),
+            Phase::Stopped => {
+                self.open_scripts()?;
+                if !ApiController::is_open(&mut self.lockstep) {
+                    return Ok(());
+                }
+                self.call_stopped(host::Phase::NonSimulation)?;
+                self.follow_structure()?;
+            }
+        }
+        self.do_requests()
+    }
+
+    /// Lets the customization scripts live, if there are any and they do not yet: from here through all runs.
+    ///
+    /// # Errors
+    ///
+    /// A script fails at its start.
+    fn open_scripts(&mut self) -> Result<(), ApiError> {
+        let has_some = |scene: &Scene| scene.scripts.iter().any(|script| script.kind == ScriptKind::Customization);
+        if self.phase() != Phase::Stopped || ApiController::is_open(&mut self.lockstep) || !has_some(self.scene()) {
             return Ok(());
         }
-        self.notify_scripts(host::Phase::Suspended)?;
-        self.do_requests()
+        self.call_stopped(host::Phase::Open)?;
+        self.has_failed = false;
+        self.follow_structure()
+    }
+
+    /// Calls the customization scripts while there is no run; a failure is logged.
+    fn call_stopped(&mut self, phase: host::Phase) -> Result<(), ApiError> {
+        ApiController::call_stopped(&mut self.lockstep, phase).map_err(|fault| {
+            self.has_failed = true;
+            let message = fault.to_string();
+            self.registry().log(200, message.clone());
+            ApiError(message)
+        })
     }
 
     /// Tells the scripts of the run of a pause.
@@ -509,6 +548,19 @@ impl Session {
         let (tick, time) = (self.lockstep.tick(), self.lockstep.t());
         let lasted = tick >= self.loaded.experiment.n_steps;
         self.end(if lasted { Status::Completed } else { Status::Interrupted { tick, time } });
+        Ok(())
+    }
+
+    /// Ends the run as [`Session::stop`] does, then the customization scripts (`sysCall_cleanup`): the scene is let go.
+    ///
+    /// # Errors
+    ///
+    /// None at present: a script that fails is logged.
+    pub fn close(&mut self) -> Result<(), ApiError> {
+        self.stop()?;
+        if ApiController::is_open(&mut self.lockstep) {
+            let _ = self.call_stopped(host::Phase::Close);
+        }
         Ok(())
     }
 
@@ -571,7 +623,7 @@ impl Session {
             }
             files::check_limits(&loaded.scene.scripts)?;
         }
-        self.stop()?;
+        self.close()?;
         let mut other =
             Self::new(&folder, &[], loaded, None).map_err(|_| ApiError::new("the scene cannot be loaded"))?;
         other.finished = std::mem::take(&mut self.finished);
@@ -647,7 +699,9 @@ impl Session {
             *ApiController::take_registry(&mut self.lockstep).expect("a session's lock-step has a registry");
         registry.end_run(run.before);
         registry.phase = Phase::Stopped;
+        let scripts = ApiController::take_open_scripts(&mut self.lockstep);
         self.lockstep = fresh(&self.loaded, self.structure.as_ref(), self.method, registry);
+        ApiController::set_scripts(&mut self.lockstep, scripts);
         self.lockstep.set_state(run.start, &[]);
         self.restore();
         self.steps = 0;

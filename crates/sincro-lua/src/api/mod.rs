@@ -220,13 +220,18 @@ fn constants_of(context: &ApiContext<'_>) -> mlua::Result<()> {
         context.sim.set(name, value)?;
         globals.set(format!("sim_{name}"), value)?;
     }
-    for (name, _, number) in CALL_TYPES {
+    for (name, number) in CALL_TYPES {
         let old = if name == "init" { "initialization" } else { name };
         context.sim.set(format!("syscb_{name}"), number)?;
         globals.set(format!("sim_syscb_{name}"), number)?;
         for kind in ["child", "main", "customization"] {
             context.sim.set(format!("{kind}scriptcall_{old}"), number)?;
             globals.set(format!("sim_{kind}scriptcall_{old}"), number)?;
+        }
+        // V-REP had these names for customization scripts
+        if matches!(name, "actuation" | "sensing") {
+            context.sim.set(format!("customizationscriptcall_simulation{name}"), number)?;
+            globals.set(format!("sim_customizationscriptcall_simulation{name}"), number)?;
         }
     }
     Ok(())

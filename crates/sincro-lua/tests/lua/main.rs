@@ -4,6 +4,7 @@ mod api;
 mod blocks;
 mod callbacks;
 mod coroutines;
+mod customization;
 mod graphs;
 mod inverse;
 mod language;

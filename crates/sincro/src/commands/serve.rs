@@ -162,7 +162,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     // a run that is on is ended and kept, unless a script that does not return holds it
     sincro::abort_running_scripts();
     match server.hub().try_enter(LAST_CALL) {
-        Some(mut guard) => drop(guard.act(Session::stop)),
+        Some(mut guard) => drop(guard.act(Session::close)),
         None => {
             eprintln!("error: the simulation does not answer; the run that is on is lost");
             std::process::exit(3);
