@@ -115,6 +115,72 @@ function next(t, k)
   end
 end
 
+-- tables as texts: lists as {1, 2, 3}, maps as {a=1}, what is deeper or longer than a line can show as ...
+local tostring, print_texts, concat = tostring, print, table.concat
+local MAX_DEPTH, MAX_ITEMS = 16, 5000
+
+local as_text
+
+local function table_as_text(t, state, depth)
+  if depth > MAX_DEPTH or state[t] then return '{...}' end
+  state[t] = true
+  local out, n = {}, rawlen(t)
+  local function add(text)
+    state.n = state.n + 1
+    if state.n > MAX_ITEMS then return false end
+    out[#out + 1] = text
+    return true
+  end
+  for i = 1, n do
+    if not add(as_text(rawget(t, i), state, depth + 1)) then break end
+  end
+  local keys, has_others = {}, false
+  for k in raw_next, t do
+    local kind = type(k)
+    if not is_ordered[kind] then
+      has_others = true
+    elseif not (math.type(k) == 'integer' and k >= 1 and k <= n) then
+      keys[#keys + 1] = k
+    end
+  end
+  host.sort_keys(keys)
+  for i = 1, #keys do
+    local k = keys[i]
+    local name = type(k) == 'string' and k:find('^[%a_][%w_]*$') and k or '[' .. as_text(k, state, depth + 1) .. ']'
+    if not add(name .. '=' .. as_text(rawget(t, k), state, depth + 1)) then break end
+  end
+  -- keys that are tables or functions have no order
+  if has_others or state.n > MAX_ITEMS then out[#out + 1] = '...' end
+  state[t] = nil
+  return '{' .. concat(out, ', ') .. '}'
+end
+
+function as_text(value, state, depth)
+  local kind = type(value)
+  if kind == 'string' then return '"' .. value .. '"' end
+  if kind ~= 'table' then return tostring(value) end
+  local meta = getmetatable(value)
+  if type(meta) == 'table' and (meta.__tostring or meta.__name) then return tostring(value) end
+  return table_as_text(value, state, depth)
+end
+
+local function printed(value)
+  if type(value) ~= 'table' then return value end
+  return as_text(value, { n = 0 }, 1)
+end
+
+function print(...)
+  local values, n = { ... }, select('#', ...)
+  for i = 1, n do values[i] = printed(values[i]) end
+  print_texts(table.unpack(values, 1, n))
+end
+
+function getAsString(...)
+  local values, n = { ... }, select('#', ...)
+  for i = 1, n do values[i] = tostring(printed(values[i])) end
+  return concat(values, ', ', 1, n)
+end
+
 -- threads: where the script is one, it goes on at the next tick
 local function switch()
   if yieldable() then

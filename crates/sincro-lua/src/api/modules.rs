@@ -1,4 +1,5 @@
-//! Modules beside `sim`: `simIK`, `simUI`, `simRemoteApi` and `messagePack`, by `require` and as globals.
+//! Modules beside `sim`: `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, by `require` and, but
+//! for `dkjson`, as globals.
 
 use mlua::{Error, Function, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::functions;
@@ -15,6 +16,15 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let pack: Table = lua.load(include_str!("../message_pack.lua")).set_name("=sincro").call(())?;
     modules.set("messagePack", &pack)?;
     modules.set("MessagePack", pack)?;
+    let json: Table = lua.load(include_str!("../json.lua")).set_name("=sincro").call(())?;
+    modules.set("dkjson", &json)?;
+    modules.set("json", json)?;
+    let matrix: Table = lua.load(include_str!("../matrix.lua")).set_name("=sincro").call(&context.sim)?;
+    for pair in matrix.pairs::<String, Table>() {
+        let (name, class) = pair?;
+        lua.globals().set(name, class)?;
+    }
+    modules.set("matrix", matrix)?;
     let require = lua.create_function(move |_, name: String| {
         let (plain, version) = name.split_once('-').unwrap_or((&name, "1"));
         if version.parse::<u32>().is_ok()
@@ -23,7 +33,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
             return Ok(module);
         }
         Err(Error::RuntimeError(format!(
-            "there is no module '{name}': scripts have `sim`, `simIK`, `simUI`, `simRemoteApi` and `messagePack`, and load no files"
+            "there is no module '{name}': scripts have `sim`, `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, and load no files"
         )))
     })?;
     lua.globals().set("require", require)

@@ -127,3 +127,100 @@ fn packets_of_tubes_go_from_end_to_end() {
     assert_eq!(said[..2], ["1\t0\t0", "1\t1\tone\ttwo\tnil"]);
     assert!(said[2].starts_with("0\tfalse\t"), "{said:?}");
 }
+
+#[test]
+fn json_is_written_and_read_as_by_dkjson() {
+    let code = r#"
+        function sysCall_init()
+            local json = require 'dkjson'
+            print(json.encode({ 1, 2, { x = 'a"\n', y = { true, false } }, 1.5 }))
+            print(json.encode({}), json.encode(setmetatable({}, { __jsontype = 'object' })), json.encode({ 1, nil, 3 }))
+            print(json.encode({ b = 1, a = 2, c = 3 }, { keyorder = { 'c', 'a' } }))
+            print(json.encode({ a = { 1 }, b = json.null, c = 0 / 0 }, { indent = true }))
+            local value, after, why = json.decode([=[ { "a": [1, -2.5e3, "\u00e4\ud83d\ude00\n"], /* c */ "b": {}, "n": null } rest]=])
+            print(value.a[1], value.a[2], value.a[3] == 'ä😀\n', value.n, json.encode(value), after, why)
+            print(json.decode('[null, 1]', 1, json.null)[1] == json.null)
+            for _, text in ipairs { '', '[1, 2', '{"a" 1}', '{"a": nope}', '[1 2]', '"abc' } do
+                print(select(2, json.decode(text)), select(3, json.decode(text)))
+            end
+            print(pcall(json.encode, { f = print }))
+            local t = {} t.t = t
+            print(pcall(json.encode, t))
+            print(require 'json' == json)
+        end"#;
+    assert_eq!(
+        said(code),
+        [
+            r#"[1,2,{"x":"a\"\n","y":[true,false]},1.5]"#,
+            "[]\t{}\t[1,null,3]",
+            r#"{"c":3,"a":2,"b":1}"#,
+            "{\n  \"a\": [\n    1\n  ],\n  \"b\": null,\n  \"c\": null\n}",
+            "1\t-2500.0\ttrue\tnil\t{\"a\":[1,-2500.0,\"ä😀\\n\"],\"b\":{}}\t74\tnil",
+            "true",
+            "1\tno valid JSON value (reached the end)",
+            "1\tunterminated array at line 1, column 1",
+            "5\t':' expected at line 1, column 5",
+            "7\tno valid JSON value at line 1, column 7",
+            "4\t',' or ']' expected at line 1, column 4",
+            "1\tunterminated string at line 1, column 1",
+            "false\ttype 'function' is not supported by JSON.",
+            "false\treference cycle",
+            "true",
+        ]
+    );
+}
+
+#[test]
+fn matrices_and_vectors_are_there_without_require() {
+    let code = r#"
+        function sysCall_init()
+            local m = Matrix(2, 2, { 1, 2, 3, 4 })
+            print(m * m, m:t(), m[2][1], m:get(1, 2), m:det(), (m * m:inv() - Matrix:eye(2)):abs():max() < 1e-12)
+            print(m + m, 2 * m - m / 2, -m, Matrix { { 1, 2 }, { 3, 4 } } == m, m:data())
+            local a, b = Vector3 { 1, 2, 3 }, Vector3 { 4, 5, 6 }
+            print(a + b, a:dot(b), a:cross(b), Vector3({ 3, 4, 0 }):norm(), a[2], #a, a:t() * b)
+            a[1] = 7
+            m[1][2] = 9
+            print(a, m, Vector(2, 5), Vector { 1, 2 }:data(), m:row(2), m:col(1))
+            local x = Matrix4x4:fromposition({ 1, 2, 3 }) * Matrix4x4:rotz(math.pi / 2)
+            local p = x * Vector4 { 1, 0, 0, 1 }
+            print(math.abs(p[1] - 1) < 1e-12, math.abs(p[2] - 3) < 1e-12, p[3])
+            local pose = x:topose()
+            print(#pose, (Matrix4x4:frompose(pose) - x):abs():max() < 1e-12, (Matrix3x3:fromeuler(x:toeuler()) - x:torotation()):abs():max() < 1e-12)
+            print(pcall(function() return m * a end))
+            print(require('matrix').Matrix == Matrix)
+        end"#;
+    assert_eq!(
+        said(code),
+        [
+            "Matrix{{7, 10}, {15, 22}}\tMatrix{{1, 3}, {2, 4}}\t3\t2\t-2.0\ttrue",
+            "Matrix{{2, 4}, {6, 8}}\tMatrix{{1.5, 3.0}, {4.5, 6.0}}\tMatrix{{-1, -2}, {-3, -4}}\ttrue\t{1, 2, 3, 4}",
+            "Vector{5, 7, 9}\t32\tVector{-3, 6, -3}\t5.0\t2\t3\tVector{32}",
+            "Vector{7, 2, 3}\tMatrix{{1, 9}, {3, 4}}\tVector{5, 5}\t{1, 2}\tMatrix{{3, 4}}\tVector{1, 3}",
+            "true\ttrue\t3.0",
+            "7\ttrue\ttrue",
+            "false\tscript:16: the product of 2×2 and 3×1: expected as many rows as columns",
+            "true",
+        ]
+    );
+}
+
+#[test]
+fn tables_are_printed_with_their_values() {
+    let code = r#"
+        function sysCall_init()
+            print({ 1, 2, 3 }, { a = 1 }, 'text', { b = 'x', a = { true, 1.5 }, [10] = 2, 7 })
+            local t = { 1 }
+            t.me = t
+            print(t, {}, { [print] = 1 }, setmetatable({}, { __tostring = function() return 'own' end }))
+            print(getAsString({ 1, 2 }, 'x', 3), getAsString('plain'))
+            local long = {}
+            for k = 1, 100000 do long[k] = k end
+            print(long)
+        end"#;
+    let said = said(code);
+    assert_eq!(said[0], "{1, 2, 3}\t{a=1}\ttext\t{7, [10]=2, a={true, 1.5}, b=\"x\"}");
+    assert_eq!(said[1], "{1, me={...}}\t{}\t{...}\town");
+    assert_eq!(said[2], "{1, 2}, x, 3\tplain");
+    assert!(said[3].starts_with("{1, 2, 3, ") && said[3].len() <= 10_000, "{}", said[3].len());
+}
