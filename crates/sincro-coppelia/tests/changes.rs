@@ -165,6 +165,19 @@ fn a_mass_that_changes_in_a_run_is_work_and_is_gone_after_it() {
 }
 
 #[test]
+fn a_mass_or_gravity_that_changes_before_the_first_step_is_work() {
+    let mut session = session(&[]);
+    session.start().unwrap();
+    call(&mut session, "sim.setShapeMass", "/arm", &[Value::Real(3.0)]).unwrap();
+    session.call("sim.setArrayParam", &[Value::Int(0), Value::reals([0.0, 0.0, -1.62])]).unwrap();
+    (0..20).for_each(|_| session.step().unwrap());
+    session.stop().unwrap();
+    let run = session.take_finished().remove(0).simulated;
+    assert!(run.energy.residual < 1e-6, "{:?}", run.energy);
+    assert!(run.energy.work.abs() > 1.0, "{:?}", run.energy);
+}
+
+#[test]
 fn stops_and_couplings_are_moved_as_in_a_scene_that_has_them_there() {
     let mut changed = session(&[]);
     let interval = |low: f64, range: f64| [Value::Bool(false), Value::reals([low, range])];

@@ -4,6 +4,7 @@
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::Vec3;
+use sincro_dynamics::world::World;
 
 use super::registry::{Handle, Kind, ObjectRegistry};
 use super::{ApiError, Phase, SimApi};
@@ -49,6 +50,17 @@ impl SimApi<'_> {
         self.registry.keep_change(Change { t, object, quantity, value })
     }
 
+    /// Changes the world; the energy that this adds before the first step of a run that has begun counts as work, as it
+    /// does after it.
+    fn counted(&mut self, change: impl FnOnce(&mut World)) {
+        let is_first = self.registry.has_begun && self.world.state.tick == 0;
+        let before = is_first.then(|| self.world.energy().total());
+        change(self.world);
+        if let Some(before) = before {
+            self.world.state.totals[0] += self.world.energy().total() - before;
+        }
+    }
+
     /// Gives a body another mass `[kg]`, centre of mass `[m]` and inertia about it `[kg·m²]`, in the axes of the body's
     /// frame. While a run is on the body keeps its velocity, and the energy that this adds or removes counts as work.
     ///
@@ -69,7 +81,7 @@ impl SimApi<'_> {
         self.change(handle, "inertia", mass.inertia.to_vec())?;
         self.registry.entry_mut(handle).kind = Kind::Body(mass);
         let body = self.world.model().names().body_id(&path).expect("a body of the scene is one of the model");
-        self.world.set_mass_properties(body, mass);
+        self.counted(|world| world.set_mass_properties(body, mass));
         self.moved();
         Ok(())
     }
@@ -208,7 +220,7 @@ impl SimApi<'_> {
         let t = self.acts_at();
         let change = Change { t, object: "/".into(), quantity: "gravity", value: gravity.to_vec() };
         self.registry.keep_change(change)?;
-        self.world.set_gravity(Vec3(gravity));
+        self.counted(|world| world.set_gravity(Vec3(gravity)));
         self.moved();
         Ok(())
     }
