@@ -126,9 +126,11 @@ impl ObjectRegistry {
             let named: Vec<Handle> = match *item {
                 Item::All => self.entries().map(|e| e.handle).collect(),
                 Item::Single(one) => vec![one],
-                Item::Tree(base, but_base) => self.tree(base).into_iter().filter(|h| !but_base || *h != base).collect(),
+                Item::Tree(base, but_base) => {
+                    self.visible_tree(base).into_iter().filter(|h| !but_base || *h != base).collect()
+                }
                 Item::Chain(base, but_base) => {
-                    let up = std::iter::successors(Some(base), |h| self.entry(*h).ok()?.parent);
+                    let up = std::iter::successors(Some(base), |h| self.visible_parent(*h));
                     up.filter(|h| !but_base || *h != base).collect()
                 }
             };

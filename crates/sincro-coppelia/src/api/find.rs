@@ -2,9 +2,10 @@
 //!
 //! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]`
 //! takes the i-th match among the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for
-//! any run and any character. Copies that the scene language has numbered (`ball1`, `ball2`) are `ball[0]`, `ball[1]`,
-//! or `ball{0}`, `ball{1}`, where no object of the level is called `ball`. Without a leading sign it is a name of
-//! V-REP: `joint`, `joint#` for the first of that name, `joint#0`, `joint#1` for the second and third.
+//! any run and any character. Free joints may be left out ([`super::tree`]). Copies that the scene language has
+//! numbered (`ball1`, `ball2`) are `ball[0]`, `ball[1]`, or `ball{0}`, `ball{1}`, where no object of the level is
+//! called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for the first of that name,
+//! `joint#0`, `joint#1` for the second and third.
 
 use super::ApiError;
 use super::registry::{Entry, Handle, ObjectRegistry};
@@ -91,7 +92,7 @@ impl ObjectRegistry {
         if let Some(tail) = rest.strip_prefix("::").or_else(|| rest.strip_prefix(':')) {
             // models are not marked here: the outermost object of the tree is the model
             let mut at = own()?;
-            while let Some(parent) = at.and_then(|h| self.entry(h).ok()).and_then(|e| e.parent) {
+            while let Some(parent) = at.and_then(|h| self.visible_parent(h)) {
                 at = Some(parent);
             }
             (start, rest) = (at, tail);
@@ -99,7 +100,7 @@ impl ObjectRegistry {
             let mut at = own()?;
             rest = rest.strip_prefix("./").unwrap_or_else(|| if rest == "." { "" } else { rest });
             while let Some(tail) = rest.strip_prefix("..") {
-                at = at.and_then(|h| self.entry(h).ok()).and_then(|e| e.parent);
+                at = at.and_then(|h| self.visible_parent(h));
                 rest = tail.strip_prefix('/').unwrap_or(tail);
             }
             start = at;
@@ -121,7 +122,7 @@ impl ObjectRegistry {
 
     /// Looks for the path among the objects of a level, then below them; `counts`: a match of several is wanted.
     fn search(&self, level: Option<Handle>, path: &[Element], counts: bool, left: &mut usize) -> Option<Handle> {
-        let objects: Vec<&Entry> = self.children(level).collect();
+        let objects: Vec<&Entry> = self.level(level);
         let (first, more) = path.split_first()?;
         let (mut n_matches, mut taken) = (0, Vec::new());
         let is_counted = (first.among.is_some() || counts) && !objects.iter().any(|o| fits(&first.pattern, &o.name));
@@ -147,7 +148,8 @@ impl ObjectRegistry {
                 return Some(found);
             }
         }
-        let below = objects.iter().filter(|o| !taken.contains(&o.handle));
+        // what a free joint carries is among the objects already
+        let below = objects.iter().filter(|o| !taken.contains(&o.handle) && !self.is_left_out(o.handle));
         below.into_iter().find_map(|o| self.search(Some(o.handle), path, counts, left))
     }
 

@@ -396,8 +396,7 @@ impl SimApi<'_> {
         for element in elements {
             let mut at = Some(element.tip);
             while let Some(handle) = at.filter(|handle| Some(*handle) != element.base) {
-                let entry = self.registry.entry(handle)?;
-                at = entry.parent;
+                at = self.registry.parent_below(handle, element.base)?;
                 let Ok(joint) = self.registry.joint(handle) else { continue };
                 let is_sliding = matches!(joint.kind, JointKind::Prismatic { .. });
                 let is_turning = matches!(joint.kind, JointKind::Revolute { .. });

@@ -42,6 +42,7 @@ mod signals;
 mod sim_api;
 mod stored;
 mod structure;
+mod tree;
 mod tubes;
 mod unpack;
 mod value;

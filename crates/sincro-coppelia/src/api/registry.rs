@@ -242,6 +242,8 @@ pub struct ObjectRegistry {
     pub(super) n_interfaces: usize,
     /// Frames of the scene that recorded signals are about.
     pub(super) recorded_frames: BTreeSet<Handle>,
+    /// Free joints, and frames that were free joints: clients do not see them as parents.
+    pub(super) left_out: BTreeSet<Handle>,
     /// TCP ports of the legacy remote API; none if no clients are served.
     pub legacy_ports: Option<LegacyPorts>,
     /// Ports of the legacy API that scripts want to be open.
@@ -323,6 +325,7 @@ impl ObjectRegistry {
             interfaces: BTreeSet::new(),
             n_interfaces: 0,
             recorded_frames: BTreeSet::new(),
+            left_out: BTreeSet::new(),
             legacy_ports: None,
             port_requests: Vec::new(),
             scene: Arc::clone(scene),

@@ -34,6 +34,7 @@ impl ObjectRegistry {
     pub(super) fn take_objects(&mut self, scene: &Scene, model: &Model<f64>) {
         let former = std::mem::take(&mut self.joints);
         self.joint_of.clear();
+        self.left_out = super::tree::left_out(scene);
         for object in &scene.objects {
             let handle = handle_of_object(object);
             let parent = object.parent.map(|k| handle_of_object(&scene.objects[k]));

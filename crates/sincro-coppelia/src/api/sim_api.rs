@@ -42,7 +42,8 @@ pub struct SimApi<'a> {
 pub enum Reference {
     /// The world frame.
     World,
-    /// The frame of the object's parent, of a joint the one that moves; the world if it has none.
+    /// The frame of the object's parent as clients see it ([`ObjectRegistry::visible_parent`]), of a joint the one that
+    /// moves; the world if it has none.
     Parent,
     /// The frame of another object; of a joint, the one that moves.
     Object(Handle),
@@ -102,7 +103,7 @@ impl<'a> SimApi<'a> {
     fn reference(&mut self, handle: Handle, reference: Reference) -> Result<Pose<f64>, ApiError> {
         let frame = match reference {
             Reference::World => return Ok(Pose::identity()),
-            Reference::Parent => match self.registry.entry(handle)?.parent {
+            Reference::Parent => match self.registry.entry(handle).map(|e| self.registry.visible_parent(e.handle))? {
                 None => return Ok(Pose::identity()),
                 Some(parent) => self.registry.entry(parent)?.moving,
             },
@@ -138,8 +139,8 @@ impl<'a> SimApi<'a> {
     }
 
     /// Moves an object to a pose in a reference frame, position in `[m]`: a runtime object, a vision sensor, a frame
-    /// below which the model moves nothing, or a body on a free joint, whose joint is set and whose velocity
-    /// coordinates stay. Runtime objects below move with it.
+    /// below which the model moves nothing, a body that is joined to another one, or a body on a free joint, whose
+    /// joint is set and whose velocity coordinates stay. Runtime objects below move with it.
     ///
     /// # Errors
     ///
@@ -173,9 +174,13 @@ impl<'a> SimApi<'a> {
         let entry = entry.clone();
         // what is fixed in the world, and what carries others, is put elsewhere with all that it carries
         let is_base = matches!(entry.kind, Kind::Frame | Kind::Joint(_) | Kind::Sensor | Kind::ForceSensor(_));
-        let is_fixed = matches!(entry.kind, Kind::Body(_)) && entry.frame.link.is_none();
+        let is_body = matches!(entry.kind, Kind::Body(_));
+        let is_fixed = is_body && entry.frame.link.is_none();
         if (is_fixed || is_base && !self.is_free_joint(handle)) && self.is_of_model(handle) {
             return self.place_in_model(handle, &x_wo);
+        }
+        if is_body && self.is_joined(handle) {
+            return self.place_joined(handle, &x_wo);
         }
         self.set_free(&entry, &x_wo)
     }
@@ -235,7 +240,8 @@ impl<'a> SimApi<'a> {
     ///
     /// `handle` or `parent` is no object, the object would hang on itself, or the model cannot be so.
     pub fn set_parent(&mut self, handle: Handle, parent: Option<Handle>, keep_in_place: bool) -> Result<(), ApiError> {
-        if keep_in_place && self.registry.entry(handle)?.parent == parent {
+        let present = [self.registry.entry(handle)?.parent, self.registry.visible_parent(handle)];
+        if keep_in_place && present.contains(&parent) {
             return Ok(());
         }
         if !self.registry.is_loose(handle) {

@@ -42,9 +42,9 @@ fn add(sim: &mut SimApi<'_>, handle: Handle, what: i32, all: &mut Gathered) -> R
     let against = if what % 2 == 1 { Reference::World } else { Reference::Parent };
     match what {
         0 | 20 => all.texts.push(entry.name),
-        21 => all.texts.push(entry.path),
+        21 => all.texts.push(sim.registry.visible_path(handle)),
         1 => all.ints.push(sim.type_of(&entry) as i32),
-        2 => all.ints.push(entry.parent.map_or(-1, |h| h.0)),
+        2 => all.ints.push(sim.registry.visible_parent(handle).map_or(-1, |h| h.0)),
         3..=12 => {
             let pose = sim.pose(handle, against)?;
             if matches!(what, 3 | 4 | 9..=12) {

@@ -54,7 +54,8 @@ pub(super) fn remove_model(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
 }
 
 pub(super) fn parent(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    ints([sim.registry.entry(call.handle()?)?.parent.map_or(-1, |h| h.0)])
+    let own = sim.registry.entry(call.handle()?)?.handle;
+    ints([sim.registry.visible_parent(own).map_or(-1, |h| h.0)])
 }
 
 pub(super) fn set_parent(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
@@ -67,7 +68,7 @@ pub(super) fn child(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let (parent, index) = (call.handle()?, call.ident_int(1)?);
     sim.registry.entry(parent)?;
     let index = usize::try_from(index).map_err(|_| ApiError::new("the index is negative"))?;
-    ints([sim.registry.children(Some(parent)).nth(index).map_or(-1, |e| e.handle.0)])
+    ints([sim.registry.visible_children(Some(parent)).nth(index).map_or(-1, |e| e.handle.0)])
 }
 
 /// No object has one.

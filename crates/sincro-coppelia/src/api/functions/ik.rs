@@ -500,10 +500,10 @@ fn add(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (tip, target) = (super::handle(sim, a, 3)?, super::handle(sim, a, 4)?);
     let element = sim.add_element(a.int(0)?, a.int(1)?, Element::new(base, tip, target, a.int(5)?))?;
     let mut chain = base.map_or_else(|| Ok(vec![tip]), |base| sim.registry.entry(base).map(|_| vec![base, tip]))?;
-    let mut at = sim.registry.entry(tip)?.parent;
+    let mut at = sim.registry.parent_below(tip, base)?;
     while let Some(handle) = at.filter(|handle| Some(*handle) != base) {
         chain.push(handle);
-        at = sim.registry.entry(handle)?.parent;
+        at = sim.registry.parent_below(handle, base)?;
     }
     chain.push(target);
     chain.sort_unstable();

@@ -209,11 +209,13 @@ impl SimApi<'_> {
     }
 
     /// Handles of the objects with a type number of [`SimApi::type_of`]; −2 and 109 stand for all types. Parents come
-    /// before children, runtime objects last; empty if there are none.
+    /// before children, runtime objects last, free joints not at all; empty if there are
+    /// none.
     #[must_use]
     pub fn objects_of_type(&self, wanted: i64) -> Vec<Handle> {
         let fits = |e: &&Entry| matches!(wanted, -2 | 109) || self.type_of(e) == wanted;
-        self.registry.entries().filter(fits).map(|e| e.handle).collect()
+        let is_listed = |e: &&Entry| !self.registry.is_left_out(e.handle);
+        self.registry.entries().filter(is_listed).filter(fits).map(|e| e.handle).collect()
     }
 }
 
@@ -256,7 +258,7 @@ fn is_handle(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn alias(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let entry = named(sim, a)?;
     one(match a.int_or(1, -1)? {
-        1 | 2 => entry.path.clone(),
+        1 | 2 => sim.registry.visible_path(entry.handle),
         4 => format!("{}__{}__", entry.name, entry.handle.0),
         5 | 6 => format!("/{}{{{}}}", entry.name, order(sim, entry)),
         0 => format!("{}[{}]", entry.name, order(sim, entry)),
@@ -280,13 +282,14 @@ fn joint_type(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn parent(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    one(named(sim, a)?.parent.unwrap_or(Handle(-1)))
+    let own = named(sim, a)?.handle;
+    one(sim.registry.visible_parent(own).unwrap_or(Handle(-1)))
 }
 
 fn child(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let entry = named(sim, a)?;
     let nth = usize::try_from(a.int(1)?).map_err(|_| ApiError::new("the index is negative"))?;
-    one(sim.registry.children(Some(entry.handle)).nth(nth).map_or(Handle(-1), |e| e.handle))
+    one(sim.registry.visible_children(Some(entry.handle)).nth(nth).map_or(Handle(-1), |e| e.handle))
 }
 
 fn set_parent(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
@@ -311,8 +314,8 @@ fn in_tree(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         -12 => return Ok(vec![Value::handles(all)]),
         other => plain(sim, other)?,
     };
-    let children: Vec<Handle> = sim.registry.children(Some(base)).map(|e| e.handle).collect();
-    let tree = if options & 2 != 0 { [vec![base], children].concat() } else { sim.registry.tree(base) };
+    let children: Vec<Handle> = sim.registry.visible_children(Some(base)).map(|e| e.handle).collect();
+    let tree = if options & 2 != 0 { [vec![base], children].concat() } else { sim.registry.visible_tree(base) };
     let tree = tree.into_iter().filter(|h| all.contains(h) && (options & 1 == 0 || *h != base));
     Ok(vec![Value::handles(tree)])
 }
@@ -331,7 +334,7 @@ fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 /// An object with all below it; returns their number.
 fn remove_model(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
-    let n = sim.registry.tree(own).len();
+    let n = sim.registry.visible_tree(own).len();
     sim.remove_objects(&[own], true)?;
     one(n as i64)
 }

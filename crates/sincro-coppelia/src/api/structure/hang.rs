@@ -183,8 +183,43 @@ impl SimApi<'_> {
         self.rebuild(edit)
     }
 
-    /// Puts an object of the model that is fixed in the world, or a frame or joint with all that it carries, at a place
-    /// in the world. All joints keep their coordinates and velocities.
+    /// Returns true if a body of the model is joined to another one, or to a force sensor, without a joint that moves
+    /// in between.
+    pub(crate) fn is_joined(&self, body: Handle) -> bool {
+        if self.free_carrier(body).is_some_and(|carrier| self.was_joint(carrier)) {
+            return true;
+        }
+        let parent = |handle: Handle| self.registry.entry(handle).ok()?.parent;
+        let mut at = parent(body);
+        while let Some(entry) = at.and_then(|parent| self.registry.entry(parent).ok()) {
+            match entry.kind {
+                Kind::Body(_) | Kind::ForceSensor(_) => return self.is_of_model(body),
+                Kind::Frame => at = parent(entry.handle),
+                // beside the body that takes the joint's place
+                _ if self.is_free_joint(entry.handle) => {
+                    return self.registry.body_on(entry.handle).is_some_and(|first| first != body);
+                }
+                _ => return false,
+            }
+        }
+        false
+    }
+
+    /// Puts a body that is joined to another one at a place in the world, with the frame that lets it be parted.
+    ///
+    /// # Errors
+    ///
+    /// The model cannot be so.
+    pub(crate) fn place_joined(&mut self, body: Handle, x_wb: &Pose<f64>) -> Result<(), ApiError> {
+        let Some(carrier) = self.free_carrier(body).filter(|carrier| self.was_joint(*carrier)) else {
+            return self.place_in_model(body, x_wb);
+        };
+        let (shown, frame) = (self.pose(body, Reference::World)?, self.pose(carrier, Reference::World)?);
+        self.place_in_model(carrier, &x_wb.compose(&shown.inverse()).compose(&frame))
+    }
+
+    /// Puts an object of the model that is fixed in the world or joined to a body, or a frame or joint with all that it
+    /// carries, at a place in the world. All joints keep their coordinates and velocities.
     ///
     /// # Errors
     ///

@@ -26,6 +26,7 @@ use sincro_dynamics::spatial::Pose;
 
 use super::registry::{Handle, Kind};
 use super::scene_objects::{handle_of_id, handle_of_object};
+use super::tree::is_force_sensor;
 use super::{ApiError, Phase, SimApi};
 use sincro_scene::diagnostic::{Diagnostics, Severity};
 use sincro_scene::draft::SceneDraft;
@@ -226,10 +227,14 @@ impl SimApi<'_> {
         ((is_free || was_free) && is_alone).then(|| handle_of_object(carrier))
     }
 
-    /// Returns true if an object of the model is a frame that was a joint.
+    /// Returns true if an object of the model is a frame that was a free joint.
     fn was_joint(&self, handle: Handle) -> bool {
-        let source = self.registry.scene().source.as_ref();
-        source.is_some_and(|source| source.parked.contains_key(&(handle.0 as usize - 1)))
+        self.parked_keys(handle).is_some_and(|keys| !is_force_sensor(keys))
+    }
+
+    /// Keys of the joint that an object of the model was before it became a frame.
+    fn parked_keys(&self, handle: Handle) -> Option<&Map<String, Value>> {
+        self.registry.scene().source.as_ref()?.parked.get(&(handle.0 as usize - 1))
     }
 
     /// Returns true if an object of the model is a free joint.

@@ -20,7 +20,16 @@ impl SimApi<'_> {
         let mut chosen: BTreeSet<Handle> = BTreeSet::new();
         for handle in handles {
             self.registry.entry(*handle)?;
-            chosen.extend(if whole { self.registry.tree(*handle) } else { vec![*handle] });
+            chosen.insert(*handle);
+            if whole {
+                chosen.extend(self.registry.tree(*handle));
+                chosen.extend(self.registry.visible_tree(*handle));
+            }
+        }
+        // a frame that was the free joint of a body goes with it
+        let carriers: Vec<Handle> = chosen.iter().filter_map(|handle| self.free_carrier(*handle)).collect();
+        for carrier in carriers.into_iter().filter(|carrier| self.was_joint(*carrier)) {
+            chosen.insert(carrier);
         }
         let (of_model, runtime): (Vec<Handle>, Vec<Handle>) =
             chosen.iter().copied().partition(|handle| self.is_of_model(*handle));
