@@ -624,8 +624,20 @@ fn a_force_sensor_that_is_made_measures_what_is_hung_on_it() {
     }
     let [x, _, z] = position(&mut session, body);
     assert!((x - 0.3).abs() < 1e-12 && (z - 1.0).abs() < 1e-12, "it stays where it is");
-    let parted = session.call("sim.setObjectParent", &[body.into(), (-1_i64).into(), true.into()]).unwrap_err().0;
-    assert!(parted.contains("would carry nothing"), "{parted}");
+    let hang = |session: &mut Session, on: i64| {
+        call(session, "sim.setObjectParent", &[body.into(), on.into(), true.into()]);
+        steps(session, 5);
+        reals(&call(session, "sim.readForceSensor", &[sensor.into()])[1])
+    };
+    // parted it falls, and the sensor carries nothing, stays where it is and takes it again
+    assert_eq!(hang(&mut session, -1), [0.0; 3]);
+    assert_eq!(call(&mut session, "sim.getObjectType", &[sensor.into()]), [Value::Int(12)]);
+    assert!(position(&mut session, body)[2] < 1.0 - 1e-4);
+    assert_eq!(position(&mut session, sensor), [0.0, 2.0, 1.0]);
+    put(&mut session, sensor, [0.0, 2.0, 2.0]);
+    let force = hang(&mut session, sensor);
+    assert!((force[2] + weight).abs() < 1e-9, "{force:?}");
+    assert_eq!(call(&mut session, "sim.getObjectParent", &[body.into()]), [sensor.into()]);
     call(&mut session, "sim.removeObjects", &[Value::List(vec![body.into()])]);
     steps(&mut session, 1);
     let other = call(&mut session, "sim.createForceSensor", &[0_i64.into()])[0].clone();

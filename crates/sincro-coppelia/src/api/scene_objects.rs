@@ -93,6 +93,8 @@ impl ObjectRegistry {
                 };
                 (Kind::Body(set), at, at)
             }
+            // it carries nothing now
+            ObjectKind::Frame if self.is_parked_sensor(scene, object) => (Kind::ForceSensor(None), at, at),
             ObjectKind::Frame | ObjectKind::Sensor => {
                 let other = if object.kind == ObjectKind::Frame { Kind::Frame } else { Kind::Sensor };
                 let is_proximity = self.senses.proximity.contains_key(&handle);
@@ -113,6 +115,12 @@ impl ObjectRegistry {
                 (Kind::Rotor(index.expect("every rotor has a name")), beside, beside)
             }
         }
+    }
+
+    /// Returns true if an object is a force sensor that carries nothing, which is a frame in the scene.
+    fn is_parked_sensor(&self, scene: &Scene, object: &Object) -> bool {
+        let keys = scene.source.as_ref().and_then(|source| source.parked.get(&object.id));
+        keys.is_some_and(super::tree::is_force_sensor)
     }
 
     /// Puts an object of the scene at its place: a new one, or one that is known.

@@ -5,8 +5,12 @@ use sincro_dynamics::spatial::Pose;
 use super::remove::idle_joints;
 use super::{Rebuild, free_joint, table};
 use crate::api::registry::{Handle, Kind};
+use crate::api::tree::is_force_sensor;
 use crate::api::{ApiError, Reference, SimApi};
-use sincro_scene::draft::pose_keys;
+use sincro_scene::draft::{SceneDraft, pose_keys};
+
+/// Keys of an object that say where it is.
+const PLACE: [&str; 5] = ["name", "parent", "position", "rotation_deg", "quaternion_wxyz"];
 
 impl SimApi<'_> {
     /// Hangs an object of the model on another object, or on the world for none. Hung on something else than the world
@@ -116,9 +120,15 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Joints that carry nothing that moves any more are no part of the model until something is hung on them.
+    /// Joints have to carry something; force sensors that carry nothing become frames until something is hung on them.
     fn part_idle(&mut self, edit: &mut Rebuild) -> Result<(), ApiError> {
-        let idle = idle_joints(&edit.draft, &std::collections::BTreeSet::new());
+        let mut idle = idle_joints(&edit.draft, &std::collections::BTreeSet::new());
+        for path in &idle {
+            park_sensor(&mut edit.draft, path);
+        }
+        if !idle.is_empty() {
+            idle = idle_joints(&edit.draft, &std::collections::BTreeSet::new());
+        }
         let Some(first) = idle.first() else { return Ok(()) };
         Err(ApiError(format!("the joint `{first}` would carry nothing: remove it, or hang something else on it first")))
     }
@@ -235,4 +245,15 @@ impl SimApi<'_> {
         edit.draft.set_pose(&path, &x_wp.inverse().compose(&place));
         self.rebuild(edit)
     }
+}
+
+/// A force sensor becomes a frame with the same place, which remembers it.
+fn park_sensor(draft: &mut SceneDraft, path: &str) {
+    let Some(("joint", keys)) = draft.table(path) else { return };
+    if !is_force_sensor(keys) {
+        return;
+    }
+    let mut frame = keys.clone();
+    frame.retain(|key, _| PLACE.contains(&key.as_str()));
+    draft.park(path, frame);
 }

@@ -8,6 +8,7 @@ use sincro_dynamics::spatial::Pose;
 use super::{Rebuild, free_joint, table};
 use crate::api::registry::{Handle, Kind, WORLD};
 use crate::api::runtime_objects::MAX_CREATED;
+use crate::api::tree::is_force_sensor;
 use crate::api::{ApiError, Reference, SimApi};
 use sincro_scene::draft::pose_keys;
 
@@ -81,7 +82,10 @@ impl SimApi<'_> {
     /// A joint that was made and moves nothing yet becomes part of the model by an edit, with those above it.
     pub(super) fn join_parked(&mut self, joint: Option<Handle>, edit: &mut Rebuild) -> Result<(), ApiError> {
         let Some(handle) = joint else { return Ok(()) };
-        if self.is_of_model(handle) || edit.joined.values().any(|known| *known == handle) {
+        if self.is_of_model(handle) {
+            return self.restore_sensors(handle, edit);
+        }
+        if edit.joined.values().any(|known| *known == handle) {
             return Ok(());
         }
         let entry = self.registry.entry(handle)?.clone();
@@ -98,6 +102,22 @@ impl SimApi<'_> {
         all.extend(pose_keys(&pose));
         let path = edit.draft.add("joint", all);
         edit.joined.insert(path, handle);
+        Ok(())
+    }
+
+    /// Force sensors that carried nothing are joints again by an edit that hangs something on an object.
+    fn restore_sensors(&self, handle: Handle, edit: &mut Rebuild) -> Result<(), ApiError> {
+        let mut at = Some(handle);
+        while let Some(own) = at {
+            let path = self.model_path(own)?;
+            if self.parked_keys(own).is_some_and(is_force_sensor)
+                && let Some(("frame", place)) = edit.draft.table(&path)
+            {
+                let place = place.clone();
+                edit.draft.unpark(&path, place);
+            }
+            at = self.registry.entry(own)?.parent.filter(|parent| self.is_of_model(*parent));
+        }
         Ok(())
     }
 
