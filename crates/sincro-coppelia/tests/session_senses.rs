@@ -337,8 +337,8 @@ fn what_cannot_be_made_is_refused_in_words() {
         ("loadModel", vec![Value::from("robot.ttm")], "there is no model"),
         ("createJoint", vec![i(13), i(5), i(0)], "no type of joint"),
         ("groupShapes", vec![Value::List(vec![wall.clone()])], "two shapes"),
-        ("groupShapes", vec![Value::List(vec![wall.clone(), i(1)])], "made at run time"),
-        ("scaleObject", vec![wall.clone(), r(2.0), r(2.0), r(2.0)], "change it in the scene"),
+        ("groupShapes", vec![Value::List(vec![wall.clone(), i(1)])], "is a body of the scene"),
+        ("scaleObject", vec![wall.clone(), r(2.0), r(2.0), r(2.0)], "changed there"),
         ("getShapeGeomInfo", vec![i(1)], "has no shape"),
     ];
     for (name, arguments, expected) in cases {

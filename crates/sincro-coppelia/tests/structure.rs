@@ -646,3 +646,53 @@ fn a_force_sensor_that_is_made_measures_what_is_hung_on_it() {
     let breaks = session.call("sim.createForceSensor", &[1_i64.into()]).unwrap_err().0;
     assert!(breaks.contains("breaks"), "{breaks}");
 }
+
+#[test]
+fn bodies_that_were_made_are_grouped_to_one() {
+    let mut session = open(&box_above_floor(0.05));
+    let make = |session: &mut Session, place: [f64; 3], mass: f64, options: i64| {
+        let size = Value::reals([0.1, 0.1, 0.1]);
+        let made = call(session, "sim.createPureShape", &[0_i64.into(), options.into(), size, mass.into()])[0].clone();
+        put(session, made.as_int().unwrap(), place);
+        made.as_int().unwrap()
+    };
+    let first = make(&mut session, [2.0, 0.0, 0.5], 1.0, 8);
+    let others = [([2.2, 0.0, 0.5], 1.0), ([2.0, 0.3, 0.5], 2.0)].map(|(at, mass)| make(&mut session, at, mass, 0));
+    let dummy = call(&mut session, "sim.createDummy", &[0.01.into()])[0].as_int().unwrap();
+    put(&mut session, dummy, [2.3, 0.0, 0.5]);
+    call(&mut session, "sim.setObjectParent", &[dummy.into(), others[0].into(), true.into()]);
+    let n_before = session.sim().world.state.v.len();
+    let list = |all: &[i64]| Value::List(all.iter().map(|h| Value::from(*h)).collect());
+    let grouped = call(&mut session, "sim.groupShapes", &[list(&[first, others[0], others[1]]), false.into()]);
+    assert_eq!(grouped, [first.into()]);
+    assert_eq!(session.sim().world.state.v.len(), n_before - 12, "one body is loose in place of three");
+    assert_eq!(call(&mut session, "sim.isHandle", &[others[0].into()]), [false.into()]);
+    assert_eq!(call(&mut session, "sim.getObjectParent", &[dummy.into()]), [first.into()]);
+    let place = position(&mut session, dummy);
+    assert!(place.iter().zip([2.3, 0.0, 0.5]).all(|(x, y)| (x - y).abs() < 1e-12), "{place:?}");
+    let mass = call(&mut session, "sim.getShapeMass", &[first.into()])[0].as_real().unwrap();
+    assert!((mass - 4.0).abs() < 1e-12);
+    let told = call(&mut session, "sim.getShapeInertia", &[first.into()]);
+    let (inertia, place) = (reals(&told[0]), reals(&told[1]));
+    let own = 0.1 * 0.1 / 6.0;
+    // about the common centre of mass (0.05, 0.15) m from the first
+    let ix = 2.0 * 0.15 * 0.15 + 2.0 * 0.15 * 0.15 + 4.0 * own;
+    let iy = 2.0 * 0.05 * 0.05 + 0.15 * 0.15 + 2.0 * 0.05 * 0.05 - 0.05 * 0.05 + 4.0 * own;
+    let xy = -(0.05 * 0.15 - 0.15 * 0.15 - 2.0 * 0.05 * 0.15);
+    assert!((place[3] - 0.05).abs() < 1e-12 && (place[7] - 0.15).abs() < 1e-12, "{place:?}");
+    for (found, expected) in [(inertia[0], ix), (inertia[4], iy), (inertia[8], ix + iy - 4.0 * own), (inertia[1], xy)] {
+        assert!((found - expected).abs() < 1e-12, "{inertia:?}: {expected}");
+    }
+    session.start().unwrap();
+    steps(&mut session, 20);
+    let z = position(&mut session, first)[2];
+    assert!((z - (0.5 - 0.5 * G * 0.1 * 0.1)).abs() < 1e-6, "it falls: {z} m");
+    let moving = make(&mut session, [5.0, 0.0, 1.0], 1.0, 0);
+    let why = session.call("sim.groupShapes", &[list(&[first, moving])]).unwrap_err().0;
+    assert!(why.contains("move against each other") && why.contains("setObjectParent"), "{why}");
+    let shape = call(&mut session, "sim.createPrimitiveShape", &[3_i64.into(), Value::reals([0.1; 3])])[0].clone();
+    let why = session.call("sim.groupShapes", &[Value::List(vec![first.into(), shape])]).unwrap_err().0;
+    assert!(why.contains("or none"), "{why}");
+    let run = finished(&mut session);
+    assert!(run.energy.residual < 1e-6, "{:?}", run.energy);
+}

@@ -125,18 +125,32 @@ impl SimApi<'_> {
         if entry.kind == Kind::Shape {
             return Ok(entry.handle);
         }
-        Err(ApiError(format!("`{}` is no shape that was made at run time: change it in the scene", entry.path)))
+        let path = &entry.path;
+        Err(ApiError(match entry.kind {
+            Kind::Body(_) if self.registry.added.contains(&handle) => {
+                format!("`{path}` was made dynamic or respondable, it is a body now: scale it and take it apart before")
+            }
+            Kind::Body(_) => format!("`{path}` is a body of the scene: its shapes are changed there"),
+            _ => format!("`{path}` is no shape"),
+        }))
     }
 
-    /// One shape of several: the first one keeps its frame and name, the others are removed.
+    /// One shape of several: the first one keeps its frame and name, the others are removed. Bodies that were made at
+    /// run time become one body.
     ///
     /// # Errors
     ///
-    /// There are fewer than two, or one belongs to the scene.
+    /// There are fewer than two, one belongs to the scene, or bodies move against each other.
     pub(crate) fn group_shapes(&mut self, shapes: &[Handle]) -> Result<Handle, ApiError> {
         let [first, others @ ..] = shapes else { return Err(ApiError::new("give two shapes at least")) };
         if others.is_empty() || (1..shapes.len()).any(|k| shapes[..k].contains(&shapes[k])) {
             return Err(ApiError::new("give two shapes at least, each once"));
+        }
+        let is_body = |sim: &Self, shape: &Handle| {
+            sim.registry.entry(*shape).is_ok_and(|entry| matches!(entry.kind, Kind::Body(_)))
+        };
+        if shapes.iter().any(|shape| is_body(self, shape)) {
+            return self.group_bodies(*first, others);
         }
         for shape in shapes {
             self.runtime_shape(*shape)?;

@@ -40,7 +40,8 @@ const PARTLY: &[(&[&str], &str)] = &[
         &["createForceSensor"],
         "measures as soon as a body is hung on it; its values are not filtered, it does not break",
     ),
-    (&["scaleObject", "scaleObjects", "groupShapes", "ungroupShape"], "runtime shapes only"),
+    (&["scaleObject", "scaleObjects", "ungroupShape"], "runtime shapes only"),
+    (&["groupShapes"], "runtime shapes, and bodies that were made at run time and stand still against each other"),
     (&["loadScene"], "scene folders of this program, beside the one that is served"),
     (&["getObjectSizeFactor"], "always 1: objects are not scaled"),
     (

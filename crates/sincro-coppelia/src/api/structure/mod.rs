@@ -7,6 +7,7 @@
 //! free body, becomes a frame while the body is joined, and a joint again when it is parted.
 
 mod copy;
+mod group;
 mod hang;
 mod make;
 mod model;
