@@ -205,6 +205,27 @@ fn stored_properties_keep_their_kind_and_share_their_names_with_data_blocks_and_
 }
 
 #[test]
+fn string_signals_are_text_unless_they_were_set_as_buffers() {
+    let mut session = scene();
+    let mut set = |name: &str, value: Value| {
+        call(&mut session, name, &["s".into(), value]);
+        let read = ["getStringSignal", "getBufferSignal"].map(|get| call(&mut session, get, &["s".into()]).remove(0));
+        let typed = call(&mut session, "getStringProperty", &[Value::Int(-12), "signal.s".into()]).remove(0);
+        assert!(typed.as_bytes() == read[1].as_bytes());
+        read
+    };
+    let text = |text: &str| [Value::from(text), Value::Bytes(text.into())];
+    assert_eq!(set("setStringSignal", "forward\tπ".into()), text("forward\tπ"));
+    assert_eq!(set("setStringSignal", Value::Bytes(b"abc".to_vec())), [(); 2].map(|()| Value::Bytes(b"abc".to_vec())));
+    assert_eq!(set("setBufferSignal", "abc".into()), [(); 2].map(|()| Value::Bytes(b"abc".to_vec())));
+    // packed numbers that happen to be UTF-8
+    let packed = "\0\0\0\0";
+    assert_eq!(set("setStringSignal", packed.into()), [(); 2].map(|()| Value::Bytes(packed.into())));
+    call(&mut session, "clearBufferSignal", &["s".into()]);
+    assert_eq!(call(&mut session, "getStringSignal", &["s".into()]), [Value::Nil]);
+}
+
+#[test]
 fn settings_that_would_change_the_physics_are_refused_and_others_taken() {
     let mut session = scene();
     let ball = object(&mut session, "/ball");

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::ApiError;
 use super::stored::check_name;
+use super::value::Value;
 
 /// Names of one kind that may exist at once.
 const MAX_NAMES: usize = 10_000;
@@ -32,6 +33,8 @@ struct Held<T> {
     value: T,
     /// Made during a run: removed when the next one starts.
     of_run: bool,
+    /// True if it was set as a buffer, which is no text even if its bytes are one.
+    is_buffer: bool,
 }
 
 impl<T> Default for Signals<T> {
@@ -57,7 +60,7 @@ impl<T> Signals<T> {
         if self.by_name.len() >= MAX_NAMES && !self.by_name.contains_key(name) {
             return Err(ApiError(format!("there are {MAX_NAMES} signals already: clear some")));
         }
-        self.by_name.insert(name.to_owned(), Held { value, of_run });
+        self.by_name.insert(name.to_owned(), Held { value, of_run, is_buffer: false });
         Ok(())
     }
 
@@ -94,6 +97,29 @@ impl Signals<Vec<u8>> {
     #[must_use]
     pub(crate) fn total(&self) -> usize {
         self.by_name.values().map(|held| held.value.len()).sum()
+    }
+
+    /// Sets a string signal as a buffer: it is read as bytes, whatever these are; see [`Signals::set`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Signals::set`].
+    pub fn set_buffer(&mut self, name: &str, bytes: Vec<u8>, of_run: bool) -> Result<(), ApiError> {
+        self.set(name, bytes, of_run)?;
+        if let Some(held) = self.by_name.get_mut(name) {
+            held.is_buffer = true;
+        }
+        Ok(())
+    }
+
+    /// Value of a string signal: text, unless it was set as a buffer or its bytes are not UTF-8 or have control
+    /// characters other than tabs and ends of lines, as packed numbers do; then bytes. None if there is no such signal.
+    #[must_use]
+    pub fn value(&self, name: &str) -> Option<Value> {
+        let held = self.by_name.get(name)?;
+        let is_plain = |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r');
+        let text = std::str::from_utf8(&held.value).ok().filter(|text| !held.is_buffer && text.chars().all(is_plain));
+        Some(text.map_or_else(|| Value::Bytes(held.value.clone()), Value::from))
     }
 
     /// Appends bytes to a string signal, which is created if it does not exist; `of_run` counts only then, see

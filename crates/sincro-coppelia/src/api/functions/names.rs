@@ -57,8 +57,6 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("getObjectStringParameter", "getObjectStringParam"),
     ("setObjectStringParameter", "setObjectStringParam"),
     ("setStringParameter", "setStringParam"),
-    ("getBufferSignal", "getStringSignal"),
-    ("setBufferSignal", "setStringSignal"),
     ("clearBufferSignal", "clearStringSignal"),
     ("setStringNamedParam", "setNamedStringParam"),
     ("getStringNamedParam", "getNamedStringParam"),

@@ -216,7 +216,7 @@ fn value(sim: &mut SimApi<'_>, target: Handle, name: &str) -> Result<Option<Valu
         let registry = &sim.registry;
         let integer = registry.integers.get(signal).map(|x| Value::Int(*x));
         let float = || registry.floats.get(signal).map(|x| Value::Real(*x));
-        let text = || registry.strings.get(signal).map(|x| Value::Bytes(x.clone()));
+        let text = || registry.strings.value(signal);
         return Ok(integer.or_else(float).or_else(text));
     }
     if let Some(tag) = name.strip_prefix("customData.") {
@@ -299,7 +299,10 @@ fn set_signal(sim: &mut SimApi<'_>, signal: &str, value: Value) -> Outcome {
                 ApiError::new("signals are numbers, texts and bytes here: pack tables with sim.packTable")
             })?;
             registry.check_stored_size(signal.len() + bytes.len())?;
-            registry.strings.set(signal, bytes.to_vec(), of_run)?;
+            match other {
+                Value::Bytes(_) => registry.strings.set_buffer(signal, bytes.to_vec(), of_run)?,
+                _ => registry.strings.set(signal, bytes.to_vec(), of_run)?,
+            }
             2
         }
     };

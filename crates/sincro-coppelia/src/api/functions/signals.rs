@@ -20,15 +20,21 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
     Function {
         name: "setStringSignal",
-        tip: "sim.setStringSignal(string signalName,buffer signalValue)",
+        tip: "sim.setStringSignal(string signalName,string signalValue)",
         run: set_string,
     },
-    Function { name: "getStringSignal", tip: "buffer signalValue=sim.getStringSignal(string signalName)", run: string },
+    Function { name: "getStringSignal", tip: "string signalValue=sim.getStringSignal(string signalName)", run: string },
     Function {
         name: "clearStringSignal",
         tip: "sim.clearStringSignal(string signalName)",
         run: |d, a| one(d.registry.strings.clear(text(a)?) as i64),
     },
+    Function {
+        name: "setBufferSignal",
+        tip: "sim.setBufferSignal(string signalName,buffer signalValue)",
+        run: set_buffer,
+    },
+    Function { name: "getBufferSignal", tip: "buffer signalValue=sim.getBufferSignal(string signalName)", run: buffer },
     Function {
         name: "getSignalName",
         tip: "string signalName=sim.getSignalName(int signalIndex,int signalType)",
@@ -59,13 +65,27 @@ fn float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(sim.registry.floats.get(a.text(0)?).map_or(Value::Nil, |x| Value::Real(*x)))
 }
 
+/// Sets a text, or a buffer: bytes that a client gives as such.
 fn set_string(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if let Value::Bytes(_) = a.get(1) {
+        return set_buffer(sim, a);
+    }
     sim.registry.check_stored_size(a.bytes(1)?.len())?;
     sim.registry.strings.set(a.text(0)?, a.bytes(1)?.to_vec(), sim.registry.phase.is_on())?;
     done()
 }
 
 fn string(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    one(sim.registry.strings.value(a.text(0)?).unwrap_or(Value::Nil))
+}
+
+fn set_buffer(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    sim.registry.check_stored_size(a.bytes(1)?.len())?;
+    sim.registry.strings.set_buffer(a.text(0)?, a.bytes(1)?.to_vec(), sim.registry.phase.is_on())?;
+    done()
+}
+
+fn buffer(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(sim.registry.strings.get(a.text(0)?).map_or(Value::Nil, |x| Value::Bytes(x.clone())))
 }
 
