@@ -245,6 +245,14 @@ impl Controller for ApiController {
         self.registry.as_deref().map_or(&[], ObjectRegistry::runtime_pieces)
     }
 
+    fn detected_objects(&self, sensor: usize) -> Option<Vec<usize>> {
+        self.registry.as_ref()?.detected_objects(sensor)
+    }
+
+    fn is_undetectable(&self, object: usize) -> bool {
+        self.registry.as_ref().is_some_and(|registry| registry.is_undetectable(Handle(object as i32 + 1)))
+    }
+
     fn runtime_objects(&self, visit: &mut dyn FnMut(&RuntimeObject<'_>)) {
         if let Some(registry) = &self.registry {
             registry.visit_runtime_objects(visit);

@@ -369,3 +369,96 @@ fn meshes_without_area_or_in_one_plane_do_no_harm() {
         call(&mut s, "sim.removeObject", &[made[0].clone()]);
     }
 }
+
+/// Distance that a sensor reads in the last step; none if it detects nothing.
+fn reading(session: &mut Session, eye: &Value) -> Option<f64> {
+    session.step().unwrap();
+    let read = call(session, "sim.readProximitySensor", std::slice::from_ref(eye));
+    (read[0] == Value::Int(1)).then(|| real(&read[1]))
+}
+
+#[test]
+fn a_sensor_detects_the_entity_that_a_client_gives_it() {
+    let mut session = session();
+    let [eye, wall] = ["/eye", "/wall"].map(|path| object(&mut session, path));
+    let id = Value::Int(4002);
+    let near_box = call(&mut session, "sim.createPrimitiveShape", &[Value::Int(3), Value::reals([0.1; 3])]).remove(0);
+    put(&mut session, &near_box, [0.6, 0.0, 1.0]);
+    session.start().unwrap();
+    assert!((reading(&mut session, &eye).unwrap() - 0.35).abs() < 1e-9, "the nearest");
+    let chosen = |session: &mut Session| call(session, "sim.getObjectInt32Param", &[eye.clone(), id.clone()]).remove(0);
+    assert_eq!(chosen(&mut session), Value::Int(-1));
+    let set = |session: &mut Session, entity: &Value| {
+        call(session, "sim.setObjectInt32Param", &[eye.clone(), id.clone(), entity.clone()]);
+        assert_eq!(call(session, "sim.getObjectInt32Param", &[eye.clone(), id.clone()]), std::slice::from_ref(entity));
+    };
+    set(&mut session, &wall);
+    assert!((reading(&mut session, &eye).unwrap() - 1.0).abs() < 1e-9);
+    // a collection of all but the wall
+    let collection = call(&mut session, "simCreateCollection", &["seen".into(), Value::Int(0)]).remove(0);
+    let add = |session: &mut Session, what: i64, own: &Value, options: i64| {
+        call(session, "simAddObjectToCollection", &[collection.clone(), own.clone(), what.into(), options.into()]);
+    };
+    add(&mut session, -2, &wall, 0);
+    add(&mut session, -8, &wall, 1);
+    set(&mut session, &collection);
+    assert!((reading(&mut session, &eye).unwrap() - 0.35).abs() < 1e-9, "the box before the wall");
+    call(&mut session, "sim.removeObject", std::slice::from_ref(&near_box));
+    assert_eq!(reading(&mut session, &eye), None);
+    call(&mut session, "sim.destroyCollection", std::slice::from_ref(&collection));
+    assert_eq!(chosen(&mut session), Value::Int(-1), "the collection has gone");
+    set(&mut session, &wall);
+    assert!((reading(&mut session, &eye).unwrap() - 1.0).abs() < 1e-9);
+    session.stop().unwrap();
+    let run = session.take_finished().remove(0).simulated;
+    let distance = &run.table.column("/rail/cart/eye.distance").unwrap().values;
+    assert!((distance.last().unwrap() - 1.0).abs() < 1e-9, "recorded is what is read: {distance:?}");
+    assert!(run.changes.iter().any(|change| change.quantity == "detects"));
+    assert_eq!(chosen(&mut session), Value::Int(-1), "as before the run");
+    let why = refused(&mut session, "sim.setObjectInt32Param", &[eye, id, Value::Int(77_777)]);
+    assert!(why.contains("no object or collection"), "{why}");
+}
+
+#[test]
+fn objects_take_part_in_what_their_flags_say() {
+    let mut session = session();
+    let [eye, wall, cart] = ["/eye", "/wall", "/rail/cart"].map(|path| object(&mut session, path));
+    let property = |session: &mut Session, own: &Value| {
+        call(session, "sim.getObjectSpecialProperty", std::slice::from_ref(own))[0].as_int().unwrap()
+    };
+    let all = property(&mut session, &wall);
+    assert_eq!(all, 1 | 2 | 0x1f0 | 0x200);
+    let set = |session: &mut Session, name: &str, value: i64| {
+        assert_eq!(call(session, name, &[wall.clone(), value.into()]), [Value::Int(1)]);
+    };
+    session.start().unwrap();
+    assert!(reading(&mut session, &eye).is_some());
+    let apart = [cart.clone(), wall.clone()];
+    set(&mut session, "sim.setObjectSpecialProperty", all & !0x1f0);
+    assert_eq!(reading(&mut session, &eye), None, "not detectable");
+    assert_eq!(call(&mut session, "sim.checkDistance", &apart)[0], Value::Int(1));
+    call(&mut session, "sim.setBoolProperty", &[wall.clone(), "measurable".into(), false.into()]);
+    assert_eq!(call(&mut session, "sim.checkDistance", &apart)[0], Value::Int(0));
+    call(&mut session, "sim.setBoolProperty", &[wall.clone(), "detectable".into(), true.into()]);
+    assert!(reading(&mut session, &eye).is_some());
+    assert_eq!(call(&mut session, "sim.getBoolProperty", &[wall.clone(), "collidable".into()]), [true.into()]);
+    let meets = call(&mut session, "sim.createPrimitiveShape", &[Value::Int(3), Value::reals([0.3; 3])]).remove(0);
+    put(&mut session, &meets, [1.3, 0.0, 1.0]);
+    let both = [meets, wall.clone()];
+    assert_eq!(call(&mut session, "sim.checkCollision", &both)[0], Value::Int(1));
+    set(&mut session, "sim.setModelProperty", 1);
+    assert_eq!(call(&mut session, "sim.checkCollision", &both)[0], Value::Int(0), "the model is not collidable");
+    set(&mut session, "sim.setModelProperty", 0);
+    assert_eq!(call(&mut session, "sim.checkCollision", &both)[0], Value::Int(1));
+    set(&mut session, "sim.setObjectSpecialProperty", 0);
+    session.stop().unwrap();
+    assert_eq!(property(&mut session, &wall), all, "as before the run");
+    for (value, word) in [(0x20_i64, "not dynamic"), (0x40, "not respondable"), (0x80, "not reset")] {
+        let why = refused(&mut session, "sim.setModelProperty", &[wall.clone(), value.into()]);
+        assert!(why.contains(word), "{why}");
+    }
+    set(&mut session, "sim.setObjectProperty", 32);
+    assert_eq!(call(&mut session, "sim.getObjectProperty", std::slice::from_ref(&wall)), [Value::Int(32)]);
+    let why = refused(&mut session, "sim.groupShapes", &[Value::List(vec![wall, cart])]);
+    assert!(why.contains("body of the scene") && why.contains("setObjectParent"), "{why}");
+}

@@ -453,3 +453,37 @@ fn the_sensor_of_the_example_scene_has_a_handle_that_is_its_own() {
     assert_eq!(session.sim().objects_of_type(9), handles);
     assert_eq!(handles, [Handle(1), Handle(2)]);
 }
+
+#[test]
+fn a_sensor_shows_the_entity_that_it_has_and_no_hidden_objects() {
+    let mut session = open();
+    let (eye, ball, wall) = (find(&mut session, "/eye"), find(&mut session, "/ball"), find(&mut session, "/wall"));
+    let whole = image(&mut session, &eye);
+    let show = |session: &mut Session, entity: &Value| {
+        call(session, "sim.setObjectInt32Param", &[eye.clone(), 1008_i64.into(), entity.clone()]);
+        let shown = call(session, "sim.getObjectInt32Param", &[eye.clone(), 1008_i64.into()]);
+        assert_eq!(shown, std::slice::from_ref(entity));
+        image(session, &eye)
+    };
+    let (alone, wall_alone) = (show(&mut session, &ball), show(&mut session, &wall));
+    assert!(alone != whole && wall_alone != whole && alone != wall_alone);
+    assert_eq!(show(&mut session, &Value::Int(-1)), whole);
+    // hidden by its flag, its layer, its model
+    let layer = |session: &mut Session, value: i64| {
+        call(session, "sim.setObjectInt32Param", &[ball.clone(), 10_i64.into(), value.into()]);
+    };
+    call(&mut session, "sim.setBoolProperty", &[ball.clone(), "renderable".into(), false.into()]);
+    assert_eq!(image(&mut session, &eye), wall_alone);
+    call(&mut session, "sim.setBoolProperty", &[ball.clone(), "renderable".into(), true.into()]);
+    assert_eq!(image(&mut session, &eye), whole);
+    for hidden in [0, 0x100] {
+        layer(&mut session, hidden);
+        assert_eq!(image(&mut session, &eye), wall_alone);
+    }
+    layer(&mut session, 1);
+    assert_eq!(call(&mut session, "sim.getIntProperty", &[ball.clone(), "layer".into()]), [Value::Int(1)]);
+    call(&mut session, "sim.setModelProperty", &[ball.clone(), 0x100_i64.into()]);
+    assert_eq!(image(&mut session, &eye), wall_alone);
+    let words = refused(&mut session, "sim.setObjectInt32Param", &[eye.clone(), 1008_i64.into(), 55_555_i64.into()]);
+    assert!(words.contains("no object or collection"), "{words}");
+}

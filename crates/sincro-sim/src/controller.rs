@@ -76,7 +76,8 @@ pub struct Change {
     /// Path of the object; `/` for the world.
     pub object: String,
     /// Name of the quantity, as in the scene file: `mass`, `center_of_mass`, `inertia` (xx, xy, xz, yy, yz, zz),
-    /// `limits` (lower, upper), `coupling` (ratio, offset), `respondable`, `gravity`.
+    /// `limits` (lower, upper), `coupling` (ratio, offset), `respondable`, `gravity`; `detectable`; of a proximity
+    /// sensor `detects`, the handle of an object or collection, −1 for all.
     pub quantity: &'static str,
     /// New numbers, as many as the quantity has, in the units of the scene file. Of the structure: `added`, `removed`
     /// and
@@ -340,6 +341,18 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Returns the surfaces that the controller has added to the scene, for sensors to see; empty by default.
     fn pieces(&self) -> &[Piece] {
         &[]
+    }
+
+    /// Returns the numbers of the objects, in ascending order, that the proximity sensor that is object `_sensor` of
+    /// the scene may detect; `None`, the default, if the scene decides.
+    fn detected_objects(&self, _sensor: usize) -> Option<Vec<usize>> {
+        None
+    }
+
+    /// Returns true if no proximity sensor detects object `_object`, of the scene or of [`Controller::pieces`]; false
+    /// by default.
+    fn is_undetectable(&self, _object: usize) -> bool {
+        false
     }
 
     /// Calls `_visit` with each object that the controller has made or moved at run time, for pictures: shapes,

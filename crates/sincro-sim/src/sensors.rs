@@ -14,7 +14,7 @@ use crate::proximity::{Detection, ProximitySensor};
 use sincro_scene::experiment::Experiment;
 use sincro_scene::record::probe::attached;
 use sincro_scene::scene::Scene;
-use sincro_scene::scenery::Scenery;
+use sincro_scene::scenery::{Piece, Scenery};
 use sincro_scene::sensor::{Errors, SensorKind, every};
 
 /// Timing and noise that samples depend on.
@@ -128,7 +128,12 @@ impl Sensors {
             kinematics::motions(seen.model, seen.q, seen.v, zero, seen.scratch);
             for sensor in list.iter().filter(due) {
                 let made = controllers.iter().flat_map(|controller| controller.pieces());
-                let found = sensor.detect(&seen, scenery.pieces.iter().chain(made), tick / sensor.every);
+                let chosen = controllers.iter().find_map(|controller| controller.detected_objects(sensor.object));
+                let pieces = scenery.pieces.iter().chain(made).filter(|piece| sensor.admits(piece, chosen.as_deref()));
+                let is_seen = |piece: &&Piece| !controllers.iter().any(|c| c.is_undetectable(piece.object));
+                // a choice has been made of what can be detected
+                let pieces = pieces.filter(|piece| chosen.is_some() || is_seen(piece));
+                let found = sensor.detect(&seen, pieces, tick / sensor.every);
                 sensor.write(found.as_ref(), &mut values[sensor.first..][..sensor.n]);
                 controllers.iter_mut().for_each(|controller| controller.detected(sensor.object, found));
             }
@@ -199,16 +204,22 @@ impl Sensor {
         }
     }
 
-    /// Sample `k` of a proximity sensor, after the kinematics.
+    /// Returns true if a proximity sensor may detect a piece: one of the objects that a controller has chosen, or
+    /// those of the scene.
+    fn admits(&self, piece: &Piece, chosen: Option<&[usize]>) -> bool {
+        let of_scene = || self.proximity.as_ref().is_some_and(|proximity| proximity.admits(&self.at, piece));
+        chosen.map_or_else(of_scene, |objects| objects.binary_search(&piece.object).is_ok())
+    }
+
+    /// Sample `k` of a proximity sensor of these pieces, after the kinematics.
     fn detect<'a>(
         &self,
         seen: &StateView<'_, f64>,
-        pieces: impl Iterator<Item = &'a sincro_scene::scenery::Piece>,
+        pieces: impl Iterator<Item = &'a Piece>,
         k: u64,
     ) -> Option<Detection> {
         let (proximity, at) = (self.proximity.as_ref()?, &self.at);
         let SensorKind::Proximity { noise, .. } = self.kind else { return None };
-        let pieces = pieces.filter(|piece| proximity.admits(at, piece));
         let found = proximity.detect(&frame_pose(seen.scratch, at), pieces, seen.scratch, f64::INFINITY)?;
         if noise == 0.0 {
             return Some(found);

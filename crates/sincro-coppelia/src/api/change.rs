@@ -44,7 +44,8 @@ impl SimApi<'_> {
         if self.is_running() { self.world.state.tick as f64 * self.registry.base_step() } else { 0.0 }
     }
 
-    fn change(&mut self, handle: Handle, quantity: &'static str, value: Vec<f64>) -> Result<(), ApiError> {
+    /// Keeps a change of a number of an object.
+    pub(super) fn change(&mut self, handle: Handle, quantity: &'static str, value: Vec<f64>) -> Result<(), ApiError> {
         let object = self.registry.entry(handle)?.path.clone();
         let t = self.acts_at();
         self.registry.keep_change(Change { t, object, quantity, value })

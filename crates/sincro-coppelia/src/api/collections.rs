@@ -27,6 +27,8 @@ pub(crate) enum Item {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Collection {
     name: String,
+    /// True if its members take part in everything, whatever their own flags say.
+    overrides: bool,
     /// True if it adds.
     items: Vec<(Item, bool)>,
 }
@@ -43,18 +45,18 @@ impl Collection {
 }
 
 impl ObjectRegistry {
-    /// Makes an empty collection.
+    /// Makes an empty collection; with `overrides` its members take part in everything, whatever their own flags say.
     ///
     /// # Errors
     ///
     /// There are too many.
-    pub(crate) fn create_collection(&mut self, name: &str) -> Result<Handle, ApiError> {
+    pub(crate) fn create_collection(&mut self, name: &str, overrides: bool) -> Result<Handle, ApiError> {
         let all = &mut self.senses.collections;
         if all.len() >= MAX_COLLECTIONS {
             return Err(ApiError(format!("there are {MAX_COLLECTIONS} collections already: destroy some")));
         }
         let handle = all.last_key_value().map_or(Handle(FIRST), |(last, _)| Handle(last.0 + 1));
-        all.insert(handle, Collection { name: name.to_owned(), items: Vec::new() });
+        all.insert(handle, Collection { name: name.to_owned(), overrides, items: Vec::new() });
         Ok(handle)
     }
 
@@ -70,6 +72,11 @@ impl ObjectRegistry {
     #[must_use]
     pub fn is_collection(&self, handle: Handle) -> bool {
         self.senses.collections.contains_key(&handle)
+    }
+
+    /// Returns true if members of a collection take part in everything.
+    pub(super) fn overrides_flags(&self, handle: Handle) -> bool {
+        self.senses.collections.get(&handle).is_some_and(|collection| collection.overrides)
     }
 
     fn collection(&mut self, handle: Handle) -> Result<&mut Collection, ApiError> {
@@ -109,6 +116,7 @@ impl ObjectRegistry {
     pub(crate) fn remove_collection(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.collection(handle)?;
         self.senses.collections.remove(&handle);
+        self.forget_entity(Entity::Collection(handle));
         Ok(())
     }
 
@@ -158,6 +166,16 @@ pub enum Entity {
     Collection(Handle),
 }
 
+impl Entity {
+    /// Number of the entity where −1 stands for all.
+    pub(super) fn number(self) -> i64 {
+        match self {
+            Self::All => -1,
+            Self::Object(handle) | Self::Collection(handle) => handle.0.into(),
+        }
+    }
+}
+
 impl SimApi<'_> {
     /// Resolves a handle to what it stands for: an object, a collection, or, for −2 (`sim.handle_all`), everything.
     ///
@@ -178,10 +196,17 @@ impl SimApi<'_> {
     ///
     /// It is a collection that was removed.
     pub(super) fn members(&self, entity: Entity) -> Result<Vec<Handle>, ApiError> {
+        self.registry.members(entity)
+    }
+}
+
+impl ObjectRegistry {
+    /// The objects of an entity.
+    pub(super) fn members(&self, entity: Entity) -> Result<Vec<Handle>, ApiError> {
         match entity {
-            Entity::All => Ok(self.registry.entries().map(|e| e.handle).collect()),
+            Entity::All => Ok(self.entries().map(|e| e.handle).collect()),
             Entity::Object(one) => Ok(vec![one]),
-            Entity::Collection(handle) => self.registry.collected(handle),
+            Entity::Collection(handle) => self.collected(handle),
         }
     }
 }

@@ -9,6 +9,7 @@ use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::Shape;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
+use super::flags::{COLLIDABLE, MEASURABLE};
 use super::senses::handle_of;
 use super::{ApiError, Entity, Handle, Kind, SimApi};
 
@@ -31,11 +32,13 @@ struct Part {
 }
 
 impl SimApi<'_> {
-    /// Everything of an entity that has a place: surfaces, and points of single objects that have none.
-    fn parts(&mut self, entity: Entity) -> Result<Vec<Part>, ApiError> {
+    /// Everything of an entity that has a place and this flag: surfaces, and points of single objects that have none.
+    fn parts(&mut self, entity: Entity, flag: i64) -> Result<Vec<Part>, ApiError> {
         let members = self.members(entity)?;
         let found: Vec<(Handle, Arc<Geometry>, Attached<f64>)> = {
-            let pieces = self.registry.senses.pieces().filter(|p| members.binary_search(&handle_of(p)).is_ok());
+            let registry = &*self.registry;
+            let is_member = |own: Handle| members.binary_search(&own).is_ok() && registry.counts(entity, own, flag);
+            let pieces = registry.senses.pieces().filter(|p| is_member(handle_of(p)));
             pieces.map(|p| (handle_of(p), p.geometry.clone(), p.at)).collect()
         };
         let mut parts = Vec::with_capacity(found.len());
@@ -44,6 +47,7 @@ impl SimApi<'_> {
         }
         if let Entity::Object(object) = entity
             && parts.is_empty()
+            && self.registry.takes_part(object, flag)
         {
             let entry = self.registry.entry(object)?;
             if !matches!(entry.kind, Kind::Frame | Kind::Sensor | Kind::Dummy) {
@@ -55,14 +59,25 @@ impl SimApi<'_> {
         Ok(parts)
     }
 
-    /// Minimum distance of two entities at the present instant; none if it exceeds `most` `[m]`. [`Entity::All`] stands
+    /// Minimum distance of two entities at the present instant; none if it exceeds `most` `[m]`, or if nothing of one
+    /// is measurable. [`Entity::All`] stands
     /// for everything that has a shape and does not belong to the other entity.
     ///
     /// # Errors
     ///
     /// An entity was removed, or is an object without shape that is no point either (a joint, a force).
     pub fn distance(&mut self, one: Entity, two: Entity, most: f64) -> Result<Option<DistanceResult>, ApiError> {
-        let (mut first, mut second) = (self.parts(one)?, self.parts(two)?);
+        self.distance_of([one, two], most, MEASURABLE)
+    }
+
+    /// Minimum distance of what has a flag of two entities.
+    fn distance_of(
+        &mut self,
+        [one, two]: [Entity; 2],
+        most: f64,
+        flag: i64,
+    ) -> Result<Option<DistanceResult>, ApiError> {
+        let (mut first, mut second) = (self.parts(one, flag)?, self.parts(two, flag)?);
         match (one, two) {
             (_, Entity::All) => {
                 let own = self.members(one)?;
@@ -97,8 +112,8 @@ impl SimApi<'_> {
         Ok(best)
     }
 
-    /// Finds two objects, one of each entity and in this order, that press on each other or whose surfaces meet; none
-    /// if there are none.
+    /// Finds two collidable objects, one of each entity and in this order, that press on each other or whose surfaces
+    /// meet; none if there are none.
     ///
     /// # Errors
     ///
@@ -113,18 +128,19 @@ impl SimApi<'_> {
             }
         }
         let (first, second) = (self.members(one)?, self.members(two)?);
-        let is_of = |members: &[Handle], body: Handle| members.binary_search(&body).is_ok();
-        let pressing = self.contact_points().into_iter().map(|contact| contact.bodies).find_map(|[a, b]| {
-            if is_of(&first, a) && is_of(&second, b) {
-                Some([a, b])
-            } else {
-                (is_of(&first, b) && is_of(&second, a)).then_some([b, a])
-            }
+        let points = self.contact_points();
+        let registry = &*self.registry;
+        let is_of = |members: &[Handle], entity: Entity, body: Handle| {
+            members.binary_search(&body).is_ok() && registry.counts(entity, body, COLLIDABLE)
+        };
+        let (of_first, of_second) = (|body: Handle| is_of(&first, one, body), |body: Handle| is_of(&second, two, body));
+        let pressing = points.into_iter().map(|contact| contact.bodies).find_map(|[a, b]| {
+            if of_first(a) && of_second(b) { Some([a, b]) } else { (of_first(b) && of_second(a)).then_some([b, a]) }
         });
         if pressing.is_some() {
             return Ok(pressing);
         }
-        Ok(self.distance(one, two, 0.0)?.map(|found| found.objects))
+        Ok(self.distance_of([one, two], 0.0, COLLIDABLE)?.map(|found| found.objects))
     }
 }
 

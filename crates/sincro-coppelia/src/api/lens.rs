@@ -11,6 +11,9 @@ const DEFAULT_ANGLE: f64 = std::f64::consts::FRAC_PI_3;
 impl SimApi<'_> {
     /// Pixels of a vision sensor, and whether lines meet in its pictures.
     pub(super) fn set_vision_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), ApiError> {
+        if id == 1008 {
+            return self.set_shown(handle, value);
+        }
         let optics = self.registry.vision_sensor(handle)?.optics;
         let side = usize::try_from(value).unwrap_or_default();
         let [columns, rows] = optics.resolution;
@@ -59,8 +62,6 @@ pub(super) fn vision_int(optics: &Optics, id: i64) -> Result<i64, ApiError> {
         // lights that are off, attributes of drawing, its way (OpenGL is the nearest in kind), colours and depths that
         // are left out
         1006 | 1007 | 1017 | 1020 | 1021 => 0,
-        // the one thing that is drawn: all
-        1008 => -1,
         1018 => i64::from(optics.view_angle() > 0.0),
         _ => return Err(unknown("whole-number vision sensor", id)),
     })

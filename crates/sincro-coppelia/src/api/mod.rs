@@ -19,6 +19,7 @@ mod distances;
 mod drawings;
 mod error;
 mod find;
+mod flags;
 pub mod functions;
 mod graphs;
 mod ik;

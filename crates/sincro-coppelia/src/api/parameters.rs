@@ -14,7 +14,8 @@ pub(super) const STATIC: &str = "a shape that is made is static and touches noth
 impl SimApi<'_> {
     /// Whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control loop on,
     /// 2039 control mode of a joint, 3003 static and 3004 respondable of a shape, 1002 and 1003 columns and rows of a
-    /// vision sensor `[px]`; all are in `docs/compatibility.md`.
+    /// vision sensor `[px]`, 4002 the entity that a proximity sensor detects, 10 visibility layers; all are in
+    /// `docs/compatibility.md`.
     ///
     /// # Errors
     ///
@@ -23,7 +24,9 @@ impl SimApi<'_> {
         let entry = self.registry.entry(handle)?;
         let mode = |sim: &Self| sim.joint_mode(handle);
         Ok(match (id, &entry.kind) {
-            (10, _) => 1,
+            (10, _) => self.registry.visibility_layer(handle),
+            (1008, Kind::Vision(_)) => self.registry.shown_number(handle)?,
+            (4002, Kind::Proximity) => self.detected_number(handle)?,
             (_, Kind::Vision(_)) => vision_int(&self.registry.vision_sensor(handle)?.optics, id)?,
             (2000, Kind::Joint(_)) => i64::from(mode(self)? != MotorMode::Free),
             (2001, Kind::Joint(_)) => i64::from(matches!(mode(self)?, MotorMode::Position | MotorMode::Spring)),
@@ -40,7 +43,8 @@ impl SimApi<'_> {
 
     /// Sets a whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control
     /// loop on, 2039 control mode of a joint (0 free, 1 force, 4 velocity, 8 position, 12 spring), 3004 respondable of
-    /// a body, those of vision sensors.
+    /// a body, 4002 the entity that a proximity sensor detects (−1 all), 10 the visibility layers, those of vision
+    /// sensors.
     ///
     /// # Errors
     ///
@@ -48,8 +52,11 @@ impl SimApi<'_> {
     /// or the value is not allowed.
     pub fn set_object_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), ApiError> {
         let entry = self.registry.entry(handle)?;
-        if let Kind::Vision(_) = entry.kind {
-            return self.set_vision_int(handle, id, value);
+        match (id, &entry.kind) {
+            (10, _) => return self.set_visibility_layer(handle, value),
+            (_, Kind::Vision(_)) => return self.set_vision_int(handle, id, value),
+            (4002, Kind::Proximity) => return self.set_detected(handle, value),
+            _ => {}
         }
         if entry.kind == Kind::Shape && matches!(id, 3003 | 3004 | 3019) {
             // static and not respondable it is

@@ -3,7 +3,9 @@
 
 use sincro_dynamics::geometry::FieldOfView;
 
-use super::registry::{Handle, Kind, WORLD};
+use super::flags::DETECTABLE;
+use super::registry::{Handle, Kind, ObjectRegistry, WORLD};
+use super::scene_objects::handle_of_id;
 use super::senses::{ProximityEntry, handle_of};
 use super::{ApiError, Entity, SimApi};
 use sincro_sim::proximity::{Detection, ProximitySensor};
@@ -26,7 +28,8 @@ impl SimApi<'_> {
     }
 
     /// Evaluates a proximity sensor at the present instant against one entity, within `most` `[m]`; none if it detects
-    /// nothing. The reading of [`SimApi::proximity`] stays.
+    /// nothing. Objects whose flag `detectable` is cleared are not detected. The reading of [`SimApi::proximity`]
+    /// stays.
     ///
     /// # Errors
     ///
@@ -37,13 +40,13 @@ impl SimApi<'_> {
         let at = self.registry.entry(handle)?.frame;
         let x_we = self.place(&at);
         let members = if entity == Entity::All { Vec::new() } else { self.members(entity)? };
-        let (senses, t) = (&self.registry.senses, self.t);
-        let pieces = senses.pieces().filter(|piece| {
-            if entity == Entity::All {
-                sensor.admits(&at, piece)
-            } else {
-                members.binary_search(&handle_of(piece)).is_ok()
-            }
+        let (registry, t) = (&*self.registry, self.t);
+        let pieces = registry.senses.pieces().filter(|piece| {
+            let is_chosen = match entity {
+                Entity::All => sensor.admits(&at, piece),
+                _ => members.binary_search(&handle_of(piece)).is_ok(),
+            };
+            is_chosen && registry.counts(entity, handle_of(piece), DETECTABLE)
         });
         let saw = self.world.with_state_view(t, |seen| sensor.detect(&x_we, pieces, seen.scratch, most));
         Ok(saw.filter(|saw| saw.distance >= blind_below))
@@ -62,7 +65,8 @@ impl SimApi<'_> {
         {
             return Ok(saw);
         }
-        let saw = self.look_at(handle, Entity::All, f64::INFINITY)?;
+        let entity = self.proximity_entry(handle)?.entity;
+        let saw = self.look_at(handle, entity, f64::INFINITY)?;
         self.registry.tell(handle, saw);
         Ok(saw)
     }
@@ -95,12 +99,44 @@ impl SimApi<'_> {
     /// Evaluates the runtime sensors, as a main script does, except those with explicit handling.
     pub(crate) fn handle_runtime_sensors(&mut self) {
         let proximity = &self.registry.senses.proximity;
-        let made: Vec<Handle> =
-            proximity.iter().filter(|(_, l)| !l.is_of_scene && !l.is_explicit).map(|(h, _)| *h).collect();
-        for handle in made {
-            let saw = self.look_at(handle, Entity::All, f64::INFINITY);
+        let made = proximity.iter().filter(|(_, l)| !l.is_of_scene && !l.is_explicit);
+        let made: Vec<(Handle, Entity)> = made.map(|(handle, sensor)| (*handle, sensor.entity)).collect();
+        for (handle, entity) in made {
+            let saw = self.look_at(handle, entity, f64::INFINITY);
             self.registry.tell(handle, saw.ok().flatten());
         }
+    }
+
+    /// Lets a proximity sensor detect the objects of one entity alone, from its next sample on: a collection or object,
+    /// or all that it detects in the scene for −1. Its recorded signals are those of the same choice.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no proximity sensor, or the entity is none.
+    pub(super) fn set_detected(&mut self, handle: Handle, entity: i64) -> Result<(), ApiError> {
+        self.proximity_entry(handle)?;
+        let chosen = self.chosen(entity)?;
+        self.change(handle, "detects", vec![entity as f64])?;
+        if let Some(sensor) = self.registry.senses.proximity.get_mut(&handle) {
+            sensor.entity = chosen;
+        }
+        Ok(())
+    }
+
+    /// Entity of a number that stands for what a sensor looks at: −1 is all.
+    pub(super) fn chosen(&self, entity: i64) -> Result<Entity, ApiError> {
+        let none =
+            || ApiError(format!("{entity} is no object or collection that a sensor could look at, nor −1 for all"));
+        match i32::try_from(entity) {
+            Ok(-1 | -2) => Ok(Entity::All),
+            Ok(number) => self.entity(Handle(number)).map_err(|_| none()),
+            Err(_) => Err(none()),
+        }
+    }
+
+    /// Number of the entity that a proximity sensor detects, −1 for all.
+    pub(super) fn detected_number(&self, handle: Handle) -> Result<i64, ApiError> {
+        Ok(self.proximity_entry(handle)?.entity.number())
     }
 
     /// Forgets what a proximity sensor saw.
@@ -138,10 +174,24 @@ impl SimApi<'_> {
     ) -> Result<Handle, ApiError> {
         let handle = self.registry.create("ProximitySensor", Kind::Proximity, WORLD)?;
         let sensor = ProximitySensor { field, with: Vec::new(), carrier: None };
-        self.registry
-            .senses
-            .proximity
-            .insert(handle, ProximityEntry { sensor, is_explicit, is_of_scene: false, blind_below, saw: None });
+        self.registry.senses.proximity.insert(
+            handle,
+            ProximityEntry { sensor, is_explicit, is_of_scene: false, blind_below, saw: None, entity: Entity::All },
+        );
         Ok(handle)
+    }
+}
+
+impl ObjectRegistry {
+    /// Numbers of the objects that a proximity sensor of the scene may detect, in ascending order, as a client or
+    /// script has it; none if the scene decides.
+    pub(crate) fn detected_objects(&self, sensor: usize) -> Option<Vec<usize>> {
+        let entity = self.senses.proximity.get(&handle_of_id(sensor))?.entity;
+        if entity == Entity::All {
+            return None;
+        }
+        let members = self.members(entity).unwrap_or_default();
+        let members = members.into_iter().filter(|own| self.counts(entity, *own, DETECTABLE));
+        Some(members.filter_map(|own| usize::try_from(own.0 - 1).ok()).collect())
     }
 }

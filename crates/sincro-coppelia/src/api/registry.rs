@@ -17,6 +17,7 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::World;
 
 use super::drawings::Drawings;
+use super::flags::Flags;
 use super::graphs::Graphs;
 use super::motions::{JointMotion, Motions};
 use super::note::Notes;
@@ -244,6 +245,8 @@ pub struct ObjectRegistry {
     pub(super) recorded_frames: BTreeSet<Handle>,
     /// Free joints, and frames that were free joints: clients do not see them as parents.
     pub(super) left_out: BTreeSet<Handle>,
+    /// Flags of objects that were set.
+    pub(super) flags: Flags,
     /// TCP ports of the legacy remote API; none if no clients are served.
     pub legacy_ports: Option<LegacyPorts>,
     /// Ports of the legacy API that scripts want to be open.
@@ -326,6 +329,7 @@ impl ObjectRegistry {
             n_interfaces: 0,
             recorded_frames: BTreeSet::new(),
             left_out: BTreeSet::new(),
+            flags: Flags::default(),
             legacy_ports: None,
             port_requests: Vec::new(),
             scene: Arc::clone(scene),
@@ -764,7 +768,10 @@ impl ObjectRegistry {
                 now.kind = then.kind;
             }
         }
+        self.senses.end_run(&before.senses);
+        self.flags = before.flags;
         self.settle_senses(n_before);
+        self.settle_entities();
     }
 }
 

@@ -3,8 +3,8 @@
 
 use sincro_dynamics::kinematics::Attached;
 
-use super::ApiError;
 use super::registry::{Entry, Handle, Kind, ObjectRegistry, WORLD};
+use super::{ApiError, Entity};
 
 /// Objects that may exist at once, beyond those of the scene.
 pub(super) const MAX_CREATED: usize = 10_000;
@@ -70,6 +70,8 @@ impl ObjectRegistry {
         self.senses.forget(handle);
         self.drawings.forget(handle);
         self.parked.remove(&handle);
+        self.flags.forget(handle);
+        self.forget_entity(Entity::Object(handle));
         Ok(())
     }
 

@@ -8,6 +8,7 @@ use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::{MassProperties, Model};
 use sincro_dynamics::spatial::{Mat3, Pose};
 
+use super::collections::Entity;
 use super::registry::{Entry, Handle, JointEntry, Kind, ObjectRegistry, WORLD, axis_of, turned, unit_mass};
 use super::senses::ProximityEntry;
 use super::{convention, pairs};
@@ -182,6 +183,8 @@ impl ObjectRegistry {
         self.recorded_frames.remove(&handle);
         self.moved_frames.remove(&handle);
         self.added.remove(&handle);
+        self.flags.forget(handle);
+        self.forget_entity(Entity::Object(handle));
     }
 
     /// Commands, impulses and lists in the order of the model.
@@ -226,7 +229,9 @@ impl ObjectRegistry {
             let (Some(sensor), Some(object)) = (ProximitySensor::of(spec, scene), object) else { continue };
             let handle = handle_of_object(object);
             of_scene.insert(handle);
-            let fresh = ProximityEntry { sensor, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None };
+            let entity = Entity::All;
+            let fresh =
+                ProximityEntry { sensor, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None, entity };
             match self.senses.proximity.get_mut(&handle) {
                 Some(known) => known.sensor = fresh.sensor,
                 None => {

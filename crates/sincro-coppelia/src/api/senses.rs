@@ -8,7 +8,7 @@ use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::spatial::Pose;
 
-use super::collections::Collection;
+use super::collections::{Collection, Entity};
 use super::{ApiError, Entry, Handle, Kind, ObjectRegistry};
 use sincro_scene::scene::Scene;
 use sincro_scene::scenery::{Piece, Scenery};
@@ -49,6 +49,8 @@ pub(super) struct ProximityEntry {
     pub blind_below: f64,
     /// Latest reading; none before the first.
     pub saw: Option<Option<Detection>>,
+    /// Entity that a client or script has it detect; all by default.
+    pub entity: Entity,
 }
 
 impl Senses {
@@ -60,7 +62,14 @@ impl Senses {
             let (Some(sensor), Some(own)) = (ProximitySensor::of(spec, scene), object_of(&spec.path)) else { continue };
             proximity.insert(
                 Handle(own as i32 + 1),
-                ProximityEntry { sensor, is_explicit: false, is_of_scene: true, blind_below: 0.0, saw: None },
+                ProximityEntry {
+                    sensor,
+                    is_explicit: false,
+                    is_of_scene: true,
+                    blind_below: 0.0,
+                    saw: None,
+                    entity: Entity::All,
+                },
             );
         }
         Self { scenery: scene.scenery().clone(), proximity, ..Self::default() }
@@ -96,8 +105,26 @@ impl Senses {
     pub fn forget(&mut self, own: Handle) {
         self.forget_parts(own);
         self.proximity.remove(&own);
+        self.detect_all_for(Entity::Object(own));
         for collection in self.collections.values_mut() {
             collection.forget(own);
+        }
+    }
+
+    /// Proximity sensors that were to detect an entity that has gone detect all.
+    pub fn detect_all_for(&mut self, entity: Entity) {
+        self.proximity
+            .values_mut()
+            .filter(|sensor| sensor.entity == entity)
+            .for_each(|sensor| sensor.entity = Entity::All);
+    }
+
+    /// A run has ended: proximity sensors detect the entities of `before` it.
+    pub fn end_run(&mut self, before: &Self) {
+        for (own, sensor) in &mut self.proximity {
+            if let Some(before) = before.proximity.get(own) {
+                sensor.entity = before.entity;
+            }
         }
     }
 
@@ -173,6 +200,28 @@ impl ObjectRegistry {
     /// Pieces of what clients and scripts have made.
     pub(crate) fn runtime_pieces(&self) -> &[Piece] {
         &self.senses.runtime
+    }
+
+    /// Sensors that are to look at an entity that has gone look at all.
+    pub(super) fn settle_entities(&mut self) {
+        let of_proximity = self.senses.proximity.values().map(|sensor| sensor.entity);
+        let entities: Vec<Entity> = of_proximity.chain(self.vision.entities()).collect();
+        for entity in entities {
+            let is_there = match entity {
+                Entity::All => true,
+                Entity::Object(own) => self.entry(own).is_ok(),
+                Entity::Collection(own) => self.is_collection(own),
+            };
+            if !is_there {
+                self.forget_entity(entity);
+            }
+        }
+    }
+
+    /// Sensors that were to look at an entity that has gone look at all.
+    pub(super) fn forget_entity(&mut self, entity: Entity) {
+        self.senses.detect_all_for(entity);
+        self.vision.show_all_for(entity);
     }
 
     /// No proximity sensor has looked yet.

@@ -10,7 +10,7 @@ use sincro_dynamics::scratch::Scratch;
 
 use super::registry::{Handle, Kind, ObjectRegistry};
 use super::senses::handle_of;
-use super::{ApiError, SimApi};
+use super::{ApiError, Entity, SimApi};
 use sincro_scene::camera::{Image, Layer, Optics, Part, Renderer};
 use sincro_scene::scene::VisionSensor;
 use sincro_scene::scenery::visible;
@@ -36,6 +36,8 @@ struct SensorSlot {
     is_removed: bool,
     shows: ImageState,
     image: Option<Image>,
+    /// Entity that a client or script has it show; all by default.
+    entity: Entity,
 }
 
 /// State of the image of a sensor.
@@ -76,7 +78,8 @@ pub(crate) enum Sensors {
 impl Vision {
     /// Adds a sensor; its index.
     pub fn add(&mut self, sensor: VisionSensor, is_runtime: bool) -> usize {
-        let slot = SensorSlot { sensor, is_runtime, is_removed: false, shows: ImageState::Nothing, image: None };
+        let shows = ImageState::Nothing;
+        let slot = SensorSlot { sensor, is_runtime, is_removed: false, shows, image: None, entity: Entity::All };
         match self.slots.iter().position(|slot| slot.is_removed) {
             Some(k) => {
                 self.slots[k] = slot;
@@ -111,6 +114,16 @@ impl Vision {
         self.buffers.scratch = None;
     }
 
+    /// Entities that the sensors show.
+    pub fn entities(&self) -> impl Iterator<Item = Entity> {
+        self.slots.iter().map(|slot| slot.entity)
+    }
+
+    /// Sensors that were to show an entity that has gone show all.
+    pub fn show_all_for(&mut self, entity: Entity) {
+        self.slots.iter_mut().filter(|slot| slot.entity == entity).for_each(|slot| slot.entity = Entity::All);
+    }
+
     /// Forgets all pictures.
     pub fn forget(&mut self) {
         for slot in &mut self.slots {
@@ -123,7 +136,7 @@ impl Vision {
         self.forget();
         for (now, then) in self.slots.iter_mut().zip(before.slots) {
             if !now.is_runtime {
-                now.sensor = then.sensor;
+                (now.sensor, now.entity) = (then.sensor, then.entity);
             }
         }
     }
@@ -173,6 +186,20 @@ impl ObjectRegistry {
     /// `handle` is no object, or is no vision sensor.
     pub fn vision_sensor(&self, handle: Handle) -> Result<&VisionSensor, ApiError> {
         Ok(&self.vision.slots[self.vision_index(handle)?].sensor)
+    }
+
+    /// Objects that a vision sensor may show, in ascending order: those of its entity that are renderable and on a
+    /// layer that is shown.
+    fn seen_by(&self, k: usize) -> Vec<Handle> {
+        let entity = self.vision.slots[k].entity;
+        let overrides = matches!(entity, Entity::Collection(own) if self.overrides_flags(own));
+        let members = self.members(entity).unwrap_or_default();
+        members.into_iter().filter(|own| overrides || self.is_seen(*own)).collect()
+    }
+
+    /// Number of the entity that a vision sensor shows, −1 for all.
+    pub(super) fn shown_number(&self, handle: Handle) -> Result<i64, ApiError> {
+        Ok(self.vision.slots[self.vision_index(handle)?].entity.number())
     }
 
     /// Changes a vision sensor; its picture is forgotten if that has another size or another lens.
@@ -231,6 +258,18 @@ impl ObjectRegistry {
 }
 
 impl SimApi<'_> {
+    /// Lets a vision sensor show the objects of one entity alone, from now on.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no vision sensor, or the entity is none.
+    pub(super) fn set_shown(&mut self, handle: Handle, entity: i64) -> Result<(), ApiError> {
+        let (k, entity) = (self.registry.vision_index(handle)?, self.chosen(entity)?);
+        self.finish_picture(handle);
+        self.registry.vision.slots[k].entity = entity;
+        Ok(())
+    }
+
     /// Handles vision sensors: what they show is what is seen now. Sensors with external input keep what was written.
     ///
     /// # Errors
@@ -406,13 +445,15 @@ impl SimApi<'_> {
     fn draw_some(&mut self, handle: Handle, k: usize, q: &[f64], object: Option<Handle>) {
         let (model, registry) = (self.world.model(), &mut *self.registry);
         let Ok(frame) = registry.entry(handle).map(|entry| entry.frame) else { return };
+        let seen = registry.seen_by(k);
         let Vision { slots, buffers, .. } = &mut registry.vision;
         let scratch = buffers.scratch.get_or_insert_with(|| Scratch::new(model));
         kinematics::poses(model, q, scratch);
         let x_wc = kinematics::frame_pose(scratch, &frame);
-        let SensorSlot { sensor, image, .. } = &mut slots[k];
+        let (senses, SensorSlot { sensor, image, .. }) = (&registry.senses, &mut slots[k]);
         let image = image.get_or_insert_with(|| Image::new(&sensor.optics));
-        let pieces = registry.senses.pieces().filter(|piece| object.is_none_or(|object| handle_of(piece) == object));
+        let is_wanted = |own: Handle| object.is_none_or(|object| own == object) && seen.binary_search(&own).is_ok();
+        let pieces = senses.pieces().filter(|piece| is_wanted(handle_of(piece)));
         let pieces = visible(pieces, scratch);
         buffers.renderer.get_or_insert_default().draw(pieces, (&x_wc, &sensor.optics), sensor.background, image);
     }

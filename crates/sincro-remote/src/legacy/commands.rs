@@ -39,7 +39,6 @@ const COLLISIONS: &str = "there are no collision objects here: use simxCheckColl
 const DISTANCES: &str = "there are no distance objects here: use simxCheckDistance with two bodies or collections";
 const DIALOGS: &str = "there is nobody to answer a dialog here";
 const INTERFACES: &str = "there are no user interfaces here";
-const MODEL_PROPERTIES: &str = "objects have no model properties here";
 
 /// Enables synchronous mode.
 pub(super) const SYNCHRONOUS_ON: u16 = 0x0001;
@@ -118,7 +117,7 @@ pub(super) const COMMANDS: &[Row] = &[
     row(0x102e, "simxCopyPasteObjects", Sim(objects::copies)),
     row(0x102f, "simxSetObjectSelection", Sim(objects::select)),
     row(0x1034, "simxGetModelProperty", Sim(objects::model_property)),
-    row(0x1035, "simxSetModelProperty", Refused(MODEL_PROPERTIES)),
+    row(0x1035, "simxSetModelProperty", Sim(objects::set_model_property)),
     row(0x1036, "simxGetObjectVelocity", Sim(objects::velocity)),
     row(0x1037, "simxRemoveModel", Sim(objects::remove_model)),
     row(0x1038, "simxGetJointMaxForce", Sim(joints::target_force)),

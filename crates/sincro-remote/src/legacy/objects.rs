@@ -71,10 +71,12 @@ pub(super) fn child(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     ints([sim.registry.visible_children(Some(parent)).nth(index).map_or(-1, |e| e.handle.0)])
 }
 
-/// No object has one.
 pub(super) fn model_property(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    sim.registry.entry(call.handle()?)?;
-    ints([0])
+    ints([sim.registry.model_property(call.handle()?)? as i32])
+}
+
+pub(super) fn set_model_property(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    after(sim.set_model_property(call.handle()?, call.int(0)?.into()))
 }
 
 pub(super) fn float(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {

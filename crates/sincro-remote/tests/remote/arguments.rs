@@ -113,6 +113,8 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         | "persistentDataWrite" => {
             vec![text(), Value::Bytes(vec![1])]
         }
+        "setModelProperty" | "setObjectProperty" => vec![body.clone(), int(0)],
+        "setObjectSpecialProperty" => vec![body.clone(), int(0x3f3)],
         "getScriptSimulationParameter" => vec![joint.clone(), text()],
         "setScriptSimulationParameter" => vec![joint.clone(), text(), text()],
         "setObjectParent" => vec![point.clone(), int(-1), Value::Bool(true)],

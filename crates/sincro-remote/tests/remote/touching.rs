@@ -110,6 +110,11 @@ fn what_touches_is_told_to_legacy_clients() {
     assert!(client.call(0x1028, &ints(&[copy]), &[]).is_ok());
     assert!(client.call(0x1028, &ints(&[copy]), &[]).is_err());
     client.last_errors();
+    // a model that is not visible, and none that is not dynamic
+    client.call(0x1035, &ints(&[box_]), &ints(&[0x100])).unwrap();
+    assert_eq!(client.call(0x1034, &ints(&[box_]), &[]).unwrap().int(0), 0x100);
+    assert!(client.call(0x1035, &ints(&[box_]), &ints(&[0x20])).is_err());
+    assert!(client.last_errors()[0].contains("not dynamic"));
     let refused = [
         (0x1003, "vision"),
         (0x1004, "vision"),
@@ -130,7 +135,6 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x102b, "dialog"),
         (0x102c, "dialog"),
         (0x102d, "dialog"),
-        (0x1035, "model properties"),
         (0x2001, "user interfaces"),
         (0x2006, "user interfaces"),
         (0x2010, "no shape"),

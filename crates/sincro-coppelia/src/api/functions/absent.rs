@@ -16,7 +16,6 @@ const ABSENT: &[(&[&str], &str)] = &[
         &["getObjectStringParam", "setObjectStringParam"],
         "objects have no texts: use readCustomDataBlock and writeCustomDataBlock, or parameters of scripts",
     ),
-    (&["setModelProperty", "setObjectSpecialProperty"], "what an object takes part in belongs to the scene"),
     (
         &["getObjectColor", "getShapeColor"],
         "what a body looks like stands in the scene file: scripts and clients are not told",

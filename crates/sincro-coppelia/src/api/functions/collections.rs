@@ -42,16 +42,15 @@ fn short(name: &str) -> String {
     name.chars().take(100).collect()
 }
 
-/// Creates a collection from options, or, as in V-REP, from a name and options; the options override properties that
-/// objects do not have here.
+/// Creates a collection from options, or, as in V-REP, from a name and options: bit 0 lets its objects take part
+/// whatever their own flags say.
 fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let name = if let Value::Text(_) | Value::Bytes(_) = a.get(0) { a.text(0)? } else { "" };
-    if name.is_empty() {
-        a.int_or(0, 0)?;
-    } else if sim.registry.collection_named(name).is_some() {
+    let options = a.int_or(usize::from(matches!(a.get(0), Value::Text(_) | Value::Bytes(_))), 0)?;
+    if !name.is_empty() && sim.registry.collection_named(name).is_some() {
         return Err(ApiError(format!("there is a collection `{}` already", short(name))));
     }
-    one(sim.registry.create_collection(&short(name))?)
+    one(sim.registry.create_collection(&short(name), options & 1 != 0)?)
 }
 
 fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {

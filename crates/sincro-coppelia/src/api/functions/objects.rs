@@ -101,7 +101,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "getObjectSpecialProperty",
         tip: "int property=sim.getObjectSpecialProperty(int objectHandle)",
-        run: property,
+        run: special_property,
     },
     Function {
         name: "getExtensionString",
@@ -109,7 +109,21 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |_, _| one(""),
     },
     Function { name: "getObjectProperty", tip: "int property=sim.getObjectProperty(int objectHandle)", run: property },
-    Function { name: "getModelProperty", tip: "int property=sim.getModelProperty(int objectHandle)", run: property },
+    Function {
+        name: "setObjectSpecialProperty",
+        tip: "int result=sim.setObjectSpecialProperty(int objectHandle,int property)",
+        run: set_special_property,
+    },
+    Function {
+        name: "getModelProperty",
+        tip: "int property=sim.getModelProperty(int objectHandle)",
+        run: model_property,
+    },
+    Function {
+        name: "setModelProperty",
+        tip: "int result=sim.setModelProperty(int objectHandle,int property)",
+        run: set_model_property,
+    },
     Function {
         name: "readCustomDataBlock",
         tip: "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)",
@@ -380,15 +394,37 @@ fn set_float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     done()
 }
 
-fn property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    handle(sim, a, 0)?;
-    one(0_i64)
+fn special_property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.registry.special_property(own))
 }
 
-/// Properties say what a window shows and lets be selected: taken, and of no effect.
+fn set_special_property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.set_special_property(own, a.int(1)?)?;
+    one(1_i64)
+}
+
+fn model_property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.registry.model_property(own)?)
+}
+
+fn set_model_property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    sim.set_model_property(own, a.int(1)?)?;
+    one(1_i64)
+}
+
+fn property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    one(sim.registry.common_property(own))
+}
+
+/// Properties say what a window shows and lets be selected: kept, and of no effect.
 fn set_property(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    handle(sim, a, 0)?;
-    a.int(1)?;
+    let own = handle(sim, a, 0)?;
+    sim.registry.set_common_property(own, a.int(1)?);
     one(1_i64)
 }
 

@@ -44,9 +44,14 @@ const PARTLY: &[(&[&str], &str)] = &[
     (&["groupShapes"], "runtime shapes, and bodies that were made at run time and stand still against each other"),
     (&["loadScene"], "scene folders of this program, beside the one that is served"),
     (&["getObjectSizeFactor"], "always 1: objects are not scaled"),
+    (&["getObjectProperty", "setObjectProperty"], "kept and given back: there are no windows"),
     (
-        &["getObjectProperty", "setObjectProperty", "getObjectSpecialProperty", "getModelProperty"],
-        "taken, and always 0",
+        &["getObjectSpecialProperty", "setObjectSpecialProperty"],
+        "collidable, measurable, detectable (one bit suffices), renderable; the others are kept and given back",
+    ),
+    (
+        &["getModelProperty", "setModelProperty"],
+        "not collidable, measurable, detectable, renderable, visible hold for the whole model; not dynamic, respondable or reset and scripts inactive are refused",
     ),
     (&["getObjectSel", "setObjectSel"], "nothing is ever selected"),
     (&["getExtensionString"], "always empty"),

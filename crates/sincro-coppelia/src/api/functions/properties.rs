@@ -65,7 +65,11 @@ const PROPERTIES: &[Property] = &[
     of("mass", ("getShapeMass", &[]), Some(("setShapeMass", &[], &[]))),
     of("respondable", ("getObjectInt32Param", &[3004]), Some(("setObjectInt32Param", &[3004], &[]))),
     of("dynLinearVelocity", ("getVelocity", &[]), None),
+    of("layer", ("getObjectInt32Param", &[10]), Some(("setObjectInt32Param", &[10], &[]))),
 ];
+
+/// Flags of objects that are truth values, and their bits in `sim.objectspecialproperty_…`.
+const FLAGS: [(&str, i64); 4] = [("collidable", 1), ("measurable", 2), ("detectable", 0x1f0), ("renderable", 0x200)];
 
 /// Properties of the scene.
 const OF_SCENE: &[Property] = &[
@@ -200,10 +204,20 @@ impl Type {
 fn known(target: Handle, name: &str) -> Result<&'static Property, ApiError> {
     let list = if target == SCENE { OF_SCENE } else { PROPERTIES };
     list.iter().find(|p| p.name == name && target != APPLICATION).ok_or_else(|| {
-        let names: Vec<&str> = if target == APPLICATION { Vec::new() } else { list.iter().map(|p| p.name).collect() };
+        let names: Vec<&str> = match target {
+            APPLICATION => Vec::new(),
+            SCENE => list.iter().map(|p| p.name).collect(),
+            _ => list.iter().map(|p| p.name).chain(FLAGS.map(|(flag, _)| flag)).collect(),
+        };
         let short: String = name.chars().take(60).collect();
         ApiError(format!("there is no property `{short}` here: {}, customData.…, signal.…", names.join(", ")))
     })
+}
+
+/// Bits of a flag of an object by the name of its property.
+fn flags_of(target: Handle, name: &str) -> Option<i64> {
+    let is_object = ![SCENE, APPLICATION].contains(&target);
+    FLAGS.iter().find(|(known, _)| is_object && *known == name).map(|(_, flags)| *flags)
 }
 
 fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
@@ -222,6 +236,9 @@ fn value(sim: &mut SimApi<'_>, target: Handle, name: &str) -> Result<Option<Valu
     if let Some(tag) = name.strip_prefix("customData.") {
         check_tag(tag)?;
         return sim.registry.data.get(&(target, tag.to_owned())).map(Stored::value).transpose();
+    }
+    if let Some(flags) = flags_of(target, name) {
+        return Ok(Some(Value::Bool(sim.registry.special_property(target) & flags != 0)));
     }
     let property = known(target, name)?;
     let own = (target != SCENE).then(|| Value::from(target));
@@ -261,6 +278,10 @@ fn set(sim: &mut SimApi<'_>, a: Arguments<'_>, kind: Option<Type>) -> Outcome {
     }
     if let Some(tag) = name.strip_prefix("customData.") {
         return super::objects::store(sim, (target, tag), Stored::from_value(&value));
+    }
+    if let Some(flags) = flags_of(target, name) {
+        let is_set = value.as_bool().ok_or_else(|| ApiError(format!("property `{name}` is a truth value")))?;
+        return sim.set_special_flags(target, flags, is_set).and_then(|()| done());
     }
     let property = known(target, name)?;
     let Some((setter, before, behind)) = property.set else {
@@ -342,14 +363,15 @@ fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 /// Names of the properties that are stored with a target, by number; nil behind the last.
 fn name_at(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (target, index) = (owner(sim, a, 0)?, a.int(1)?);
-    let list = match target {
-        SCENE => OF_SCENE,
-        APPLICATION => &[],
-        _ => PROPERTIES,
+    let (list, flags) = match target {
+        SCENE => (OF_SCENE, &[][..]),
+        APPLICATION => (&[][..], &[][..]),
+        _ => (PROPERTIES, &FLAGS[..]),
     };
     let stored = sim.registry.data.keys().filter(|(h, _)| *h == target);
     let stored: Vec<String> = stored.map(|(_, tag)| format!("customData.{tag}")).collect();
-    let mut names: Vec<String> = list.iter().map(|p| p.name.to_owned()).collect();
+    let flags = flags.iter().map(|(flag, _)| *flag);
+    let mut names: Vec<String> = list.iter().map(|p| p.name).chain(flags).map(str::to_owned).collect();
     names.retain(|name| value(&mut *sim, target, name).is_ok_and(|value| value.is_some()));
     names.extend(stored);
     let name = usize::try_from(index).ok().and_then(|k| names.into_iter().nth(k));
