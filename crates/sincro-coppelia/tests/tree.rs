@@ -229,3 +229,24 @@ fn models_are_removed_and_copied_with_all_that_clients_see_below_them() {
     );
     assert!(s.registry().entry(Handle(cube as i32)).is_err());
 }
+
+#[test]
+fn a_model_is_copied_with_what_is_beside_its_body_on_the_joint() {
+    let mut s = open();
+    let chassis = handle(&mut s, "/chassis");
+    let copies = call(&mut s, "sim.copyPasteObjects", &[Value::List(vec![chassis.into()]), 1_i64.into()]);
+    let copy = list(&copies)[0];
+    assert_eq!(int(&mut s, "sim.getObjectParent", &[copy.into()]), -1);
+    let below = call(&mut s, "sim.getObjectsInTree", &[copy.into(), (-2_i64).into(), 1_i64.into()]);
+    let below = list(&below[..1]);
+    assert_eq!(below.len(), 2, "the plate and the antenna");
+    call(&mut s, "sim.setObjectPosition", &[copy.into(), Value::List([5.0, 0.0, 1.0].map(Value::from).to_vec())]);
+    let places: Vec<Vec<f64>> = below.iter().map(|object| position(&mut s, *object, -1)).collect();
+    assert!(places.iter().any(|place| near(place, [5.0, 0.0, 1.5])), "the antenna: {places:?}");
+    assert!(places.iter().any(|place| near(place, [5.2, 0.0, 1.0])), "the plate: {places:?}");
+    // alone without its model
+    let alone = call(&mut s, "sim.copyPasteObjects", &[Value::List(vec![chassis.into()]), 0_i64.into()]);
+    let alone = list(&alone)[0];
+    let below = call(&mut s, "sim.getObjectsInTree", &[alone.into(), (-2_i64).into(), 1_i64.into()]);
+    assert!(list(&below[..1]).is_empty());
+}

@@ -41,6 +41,12 @@ impl ObjectRegistry {
         self.children(Some(joint)).find(|entry| matches!(entry.kind, Kind::Body(_))).map(|entry| entry.handle)
     }
 
+    /// Joint, or frame that was one, whose place a body takes in the tree; none for other objects.
+    pub(super) fn joint_below(&self, body: Handle) -> Option<Handle> {
+        let joint = self.entry(body).ok()?.parent?;
+        (self.is_left_out(joint) && self.body_on(joint) == Some(body)).then_some(joint)
+    }
+
     /// Handle of the parent of an object as clients see it, above free joints; none for the world, and for what is no
     /// object.
     #[must_use]
@@ -101,8 +107,7 @@ impl ObjectRegistry {
 
     /// Objects on the free joint of a body besides it.
     fn beside(&self, body: Option<Handle>) -> impl Iterator<Item = &Entry> {
-        let joint = body.and_then(|body| self.entry(body).ok()?.parent);
-        let joint = joint.filter(|joint| self.is_left_out(*joint) && self.body_on(*joint) == body);
+        let joint = body.and_then(|body| self.joint_below(body));
         let on_joint = joint.into_iter().flat_map(|joint| self.children(Some(joint)));
         on_joint.filter(move |entry| Some(entry.handle) != body)
     }

@@ -18,12 +18,21 @@ impl SimApi<'_> {
     ///
     /// A handle is no object, an object cannot stand alone (a force, a rotor), or there would be too many.
     pub fn copy_objects(&mut self, handles: &[Handle], whole: bool) -> Result<Vec<Handle>, ApiError> {
-        let mut chosen: BTreeSet<Handle> = BTreeSet::new();
+        let (mut chosen, mut left_out): (BTreeSet<Handle>, BTreeSet<Handle>) = Default::default();
         for handle in handles {
             self.registry.entry(*handle)?;
-            let whole = whole || self.is_model_base(*handle);
-            chosen.extend(if whole { self.registry.tree(*handle) } else { vec![*handle] });
+            chosen.insert(*handle);
+            if whole || self.is_model_base(*handle) {
+                chosen.extend(self.registry.tree(*handle));
+                // with what is beside it on its free joint, which goes with all of that
+                let joint = self.registry.joint_below(*handle).filter(|joint| self.is_free_joint(*joint));
+                if let Some(joint) = joint.filter(|joint| self.free_carrier(*handle) != Some(*joint)) {
+                    chosen.extend(self.registry.tree(joint));
+                    left_out.insert(joint);
+                }
+            }
         }
+        left_out.retain(|joint| !handles.contains(joint));
         if !chosen.iter().any(|handle| self.is_of_model(*handle)) {
             return handles.iter().map(|handle| self.copy(*handle)).collect();
         }
@@ -35,6 +44,10 @@ impl SimApi<'_> {
             if self.is_of_model(root) {
                 self.copy_root(root, &chosen, (&mut edit, &mut named), &mut copied)?;
             }
+        }
+        for joint in left_out.iter().filter_map(|joint| copied.get(joint)) {
+            // in V-REP there is no such joint: its script is not that of the body
+            edit.draft.remove_scripts(joint);
         }
         self.rebuild(edit)?;
         let mut copies: BTreeMap<Handle, Handle> = BTreeMap::new();
