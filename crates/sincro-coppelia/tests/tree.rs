@@ -244,6 +244,10 @@ fn a_model_is_copied_with_what_is_beside_its_body_on_the_joint() {
     let places: Vec<Vec<f64>> = below.iter().map(|object| position(&mut s, *object, -1)).collect();
     assert!(places.iter().any(|place| near(place, [5.0, 0.0, 1.5])), "the antenna: {places:?}");
     assert!(places.iter().any(|place| near(place, [5.2, 0.0, 1.0])), "the plate: {places:?}");
+    let saved = call(&mut s, "sim.saveModel", &[copy.into()])[0].clone();
+    let loaded = call(&mut s, "sim.loadModel", &[saved])[0].as_int().unwrap();
+    let names = |s: &mut Session, of: i64| list(&call(s, "sim.getObjectsInTree", &[of.into()])).len();
+    assert_eq!(names(&mut s, loaded), 4, "below the frame of the model: the body, the plate and the antenna");
     // alone without its model
     let alone = call(&mut s, "sim.copyPasteObjects", &[Value::List(vec![chassis.into()]), 0_i64.into()]);
     let alone = list(&alone)[0];

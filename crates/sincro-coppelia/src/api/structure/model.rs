@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use crate::api::registry::{Handle, Kind};
+use crate::api::registry::Handle;
 use crate::api::{ApiError, SimApi};
 
 /// Largest model that is written [bytes].
@@ -118,9 +118,9 @@ impl SimApi<'_> {
     /// `handle` is no object, or none of the model.
     pub(crate) fn model_text(&mut self, handle: Handle) -> Result<String, ApiError> {
         let edit = self.draft()?;
-        let is_body = matches!(self.registry.entry(handle)?.kind, Kind::Body(_));
-        // a free body goes with the joint that lets it move
-        let carrier = if is_body { self.free_carrier(handle) } else { None };
+        self.registry.entry(handle)?;
+        // a free body goes with the joint that lets it move, and with what is beside it there
+        let carrier = self.registry.joint_below(handle);
         let root = carrier.filter(|joint| self.is_free_joint(*joint)).unwrap_or(handle);
         let path = self.model_path(root)?;
         let (names, q) = (self.world.model().names(), &self.world.state.q);
