@@ -240,9 +240,12 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// There is no such body, or it has no contact in the scene.
+    /// There is no such body, or it is to touch others and has no contact in the scene.
     pub(crate) fn set_respondable(&mut self, handle: Handle, touches: bool) -> Result<(), ApiError> {
         self.mass(handle)?;
+        if !touches && self.can_touch(handle).is_err() {
+            return Ok(());
+        }
         self.can_touch(handle)?;
         self.change(handle, "respondable", vec![f64::from(u8::from(touches))])?;
         if touches {

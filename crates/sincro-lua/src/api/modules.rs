@@ -1,10 +1,12 @@
 //! Modules beside `sim`: `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, by `require` and, but
-//! for `dkjson`, as globals.
+//! for `dkjson`, as globals; files of the scene that a script is given, by `require`.
 
+use mlua::chunk::ChunkMode;
 use mlua::{Error, Function, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::functions;
 
 use super::ApiContext;
+use crate::{power, sandbox};
 
 pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let lua = context.lua;
@@ -25,17 +27,45 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         lua.globals().set(name, class)?;
     }
     modules.set("matrix", matrix)?;
-    let require = lua.create_function(move |_, name: String| {
+    let (script, guard) = (context.shared.script(context.index), context.guard.clone());
+    let require = lua.create_function(move |lua, name: String| {
         let (plain, version) = name.split_once('-').unwrap_or((&name, "1"));
         if version.parse::<u32>().is_ok()
             && let Some(module) = modules.get::<Option<Table>>(plain)?
         {
-            return Ok(module);
+            return Ok(LuaValue::Table(module));
         }
-        Err(Error::RuntimeError(format!(
-            "there is no module '{name}': scripts have `sim`, `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, and load no files"
-        )))
+        let loaded: Table = lua.globals().get::<Table>("package")?.get("loaded")?;
+        let known: LuaValue = loaded.get(&*name)?;
+        if !known.is_nil() {
+            return Ok(known);
+        }
+        let spellings = [format!("{name}.lua"), format!("{}.lua", name.replace('.', "/")), name.clone()];
+        let file = spellings.iter().find_map(|name| script.files.iter().find(|(known, _)| known == name));
+        let Some((file, source)) = file else {
+            return Err(Error::RuntimeError(format!(
+                "there is no module '{name}': scripts have `sim`, `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
+            )));
+        };
+        sandbox::charge_text(lua, &guard, &source.text)?;
+        let text = power::with_calls(&source.text);
+        let module = lua.load(text).set_name(format!("={file}")).set_mode(ChunkMode::Text).call::<LuaValue>(&*name)?;
+        // as in Lua: what a file leaves under its name counts, then what it returns, then true
+        let module = if module.is_nil() { loaded.get(&*name)? } else { module };
+        let module = if module.is_nil() { LuaValue::Boolean(true) } else { module };
+        loaded.set(&*name, &module)?;
+        Ok(module)
     })?;
+    let package = lua.create_table()?;
+    package.set("loaded", lua.create_table()?)?;
+    // where scripts add folders to: modules are found by their names in the scene alone
+    package.set("path", "./?.lua")?;
+    package.set("cpath", "")?;
+    let refused = |_: &mlua::Lua, _: MultiValue| -> mlua::Result<()> {
+        Err(Error::RuntimeError("package.loadlib is not allowed: scripts load no programs".into()))
+    };
+    package.set("loadlib", lua.create_function(refused)?)?;
+    lua.globals().set("package", package)?;
     lua.globals().set("require", require)
 }
 

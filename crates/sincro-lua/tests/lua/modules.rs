@@ -1,7 +1,9 @@
 //! Modules beside `sim`: user interfaces without windows, MessagePack, the remote API; threads in tracebacks; the calls
 //! of the stock quadricopters.
 
-use super::world::said;
+use sincro_sim::results::Status;
+
+use super::world::{EXPERIMENT, PENDULUM, open, run, said};
 
 #[test]
 fn message_pack_gives_back_what_was_packed_in_the_published_format() {
@@ -223,4 +225,48 @@ fn tables_are_printed_with_their_values() {
     assert_eq!(said[1], "{1, me={...}}\t{}\t{...}\town");
     assert_eq!(said[2], "{1, 2}, x, 3\tplain");
     assert!(said[3].starts_with("{1, 2, 3, ") && said[3].len() <= 10_000, "{}", said[3].len());
+}
+
+/// The pendulum with a script that has these files.
+fn with_files(code: &str, files: &[(&str, &str)]) -> Result<Vec<String>, String> {
+    let names: Vec<String> = files.iter().map(|(name, _)| format!("{name:?}")).collect();
+    let scene =
+        format!("{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"a.lua\"\nfiles = [{}]\n", names.join(", "));
+    let own = [("scene.toml", &*scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)];
+    let run = run(&open(&[&own[..], files].concat()).map_err(|problems| problems.to_string())?);
+    match run.status {
+        Status::Completed => Ok(run.messages.into_iter().map(|m| m.text).collect()),
+        other => Err(format!("{other:?}")),
+    }
+}
+
+#[test]
+fn files_of_the_scene_are_modules() {
+    let helper =
+        "loads = (loads or 0) + 1\nlocal M = { name = ... }\nfunction M.twice(x) return 2 * x ^ 1 end\nreturn M";
+    let plain = "function of_plain() return 7 end";
+    let said = with_files(
+        "function sysCall_init()
+            package.path = package.path .. ';./lib/?.lua'
+            local a, b = require('helper'), require 'helper'
+            print(a == b, loads, a.name, a.twice(4))
+            print(require 'lib.plain', of_plain(), require('lib/plain'))
+            package.loaded.helper = nil
+            print(require('helper') == a, loads)
+        end",
+        &[("helper.lua", helper), ("lib/plain.lua", plain)],
+    )
+    .unwrap();
+    assert_eq!(said, ["true\t1\thelper\t8.0", "true\t7\ttrue", "false\t2"]);
+}
+
+#[test]
+fn a_module_that_is_no_file_of_the_script_says_where_it_would_stand() {
+    let code = "function sysCall_init() require 'missing' end";
+    let why = with_files(code, &[("helper.lua", "return 1")]).unwrap_err();
+    assert!(why.contains("there is no module 'missing'") && why.contains("files = [\\\"missing.lua\\\"]"), "{why}");
+    let broken = with_files("function sysCall_init() require 'helper' end", &[("helper.lua", "\nlocal = 1")]);
+    assert!(broken.unwrap_err().contains("helper.lua:2:"), "the place in the file");
+    let endless = with_files("function sysCall_init() require 'helper' end", &[("helper.lua", "while true do end")]);
+    assert!(endless.unwrap_err().contains("instructions"), "it counts as the script that loads it");
 }

@@ -160,6 +160,58 @@ fn callbacks_see_every_point_and_can_stop() {
 }
 
 #[test]
+fn an_object_goes_along_a_line_as_v_rep_had_it() {
+    let code = "
+        function sysCall_threadmain()
+            local here, dummy = sim.getObjectHandle('here'), sim.createDummy(0.01)
+            sim.setObjectPosition(dummy, -1, { 0, 0, 0.5 })
+            -- 0.3 m at 0.25 m/s after 0.5 m/s²: 0.5 s to speed up, 0.5 s to slow down, 0.7 s between
+            print(simMoveToPosition(dummy, here, { 0.3, 0, 0.5 }, nil, 0.25, 0.5))
+            print(sim.getSimulationTime(), table.concat(sim.getObjectPosition(dummy, here), ' '))
+            -- a turn alone, at once: 0.5 rad count as 0.05 m
+            sim.moveToPosition(dummy, -1, nil, { 0, 0, 0.5 }, 0.1)
+            print(sim.getSimulationTime(), sim.getObjectOrientation(dummy, -1)[3])
+            print(pcall(sim.moveToPosition, dummy, -1, nil, nil, 0.1, 0.1, { 1, 1 }))
+        end";
+    let said = said(code);
+    let place: Vec<f64> = said[1].split(['\t', ' ']).map(number).collect();
+    assert!(said[0].starts_with('1'), "{said:?}");
+    assert!((1.7..1.76).contains(&place[0]), "{said:?}");
+    assert!((place[1] - 0.3).abs() < 1e-12 && place[2].abs() < 1e-12 && (place[3] - 0.5).abs() < 1e-12, "{said:?}");
+    let turned: Vec<f64> = said[2].split('\t').map(number).collect();
+    assert!((turned[0] - place[0] - 0.5).abs() < 0.06 && (turned[1] - 0.5).abs() < 1e-12, "{said:?}");
+    assert!(said[3].contains("argument 7"), "{said:?}");
+}
+
+#[test]
+fn no_limits_of_a_target_are_as_none() {
+    let (_, run) = finished(
+        "function sysCall_init()
+            sim.setJointTargetPosition(sim.getObject('/a'), 0.5, { 0, 0, 0 })
+            sim.setJointTargetVelocity(sim.getObject('/b'), 0.25, { 0, 0 })
+        end",
+    );
+    let second = |name: &str| run.table.column(name).unwrap().values[1];
+    let [a, b] = ["/a.command", "/a/upper/b.command"].map(second);
+    assert_eq!((a, b), (0.5, 0.25));
+}
+
+#[test]
+fn what_changes_nothing_is_taken() {
+    let said = said(
+        "function sysCall_init()
+            local ball = sim.getObject('/ball')
+            print(pcall(sim.setObjectInt32Param, ball, sim.shapeintparam_respondable, 0))
+            print(pcall(sim.setBoolProperty, ball, 'respondable', false))
+            print(pcall(sim.setBoolProperty, ball, 'respondable', true))
+            print(pcall(sim.setLightParameters, 0, 1))
+        end",
+    );
+    assert!(said[0].starts_with("true") && said[1].starts_with("true") && said[3].starts_with("true"), "{said:?}");
+    assert!(said[2].starts_with("false") && said[2].contains("no shape to touch others with"), "{said:?}");
+}
+
+#[test]
 fn a_pose_is_reached_on_a_line_or_axis_by_axis() {
     let code = "
         function sysCall_thread()

@@ -9,7 +9,7 @@ pub const ELSEWHERE: [&str; 5] = ["startSimulation", "stopSimulation", "closeSce
 
 /// Functions that need what is not here: a script, sensors, bodies that touch, stops, couplings, groups, a motion, mesh
 /// files, a simulation that stands still.
-pub const NEEDS_MORE: [&str; 22] = [
+pub const NEEDS_MORE: [&str; 23] = [
     "setFloatParam",
     "setJointDependency",
     "getContactInfo",
@@ -30,6 +30,7 @@ pub const NEEDS_MORE: [&str; 22] = [
     "moveToPose",
     "rmlMoveToJointPositions",
     "rmlMoveToPosition",
+    "moveToPosition",
     "setFloatingParameter",
     "setFloatParameter",
 ];

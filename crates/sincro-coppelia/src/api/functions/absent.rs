@@ -48,7 +48,7 @@ const ABSENT: &[(&[&str], &str)] = &[
         "there are no distance and collision objects: checkDistance and checkCollision tell of any two bodies or collections",
     ),
     (
-        &["moveToJointPositions", "moveToPosition"],
+        &["moveToJointPositions"],
         "say how fast: sim.moveToConfig and sim.moveToPose take limits of velocity, acceleration and jerk",
     ),
     (
@@ -283,7 +283,6 @@ const ABSENT: &[(&[&str], &str)] = &[
             "modifyGhost",
             "readTexture",
             "resetTracing",
-            "setLightParameters",
             "writeTexture",
         ],
         "what a body looks like stands in the scene file, and pictures are drawn from it",

@@ -116,6 +116,8 @@ fn limits<const N: usize>(a: Arguments<'_>, what: &str) -> Result<Option<[f64; N
     match a.get(2) {
         Value::Nil => Ok(None),
         Value::List(list) if list.is_empty() => Ok(None),
+        // V-REP knows no limit of 0: without any, the target is given at once
+        Value::List(list) if list.iter().all(|x| x.as_real() == Some(0.0)) => Ok(None),
         _ => a.reals(2).map(Some).map_err(|ApiError(why)| ApiError(format!("{why}: {what}"))),
     }
 }

@@ -5,10 +5,11 @@
 //! | `moveToConfig` (a map, or flags, positions … as before 4.7) | `moveToConfig_…` |
 //! | `moveToPose` (the same) | `moveToPose_…` |
 //! | `rmlMoveToJointPositions`, `rmlMoveToPosition` of V-REP | the same two |
+//! | `moveToPosition` of V-REP | `moveToPose_…` |
 
 use super::fields::Fields;
 use super::motions::{MIN_ACCELERATION, MIN_VELOCITY};
-use crate::api::convention::{numbers_of_pose, pose_of_matrix};
+use crate::api::convention::{numbers_of_pose, pose_of_matrix, quaternion_of, rotation_of_euler};
 use crate::api::{ApiError, Arguments, Reference, SimApi, Value};
 
 /// Function that moves joints or an object and returns when the motion has ended. An adapter, which alone can wait,
@@ -24,6 +25,8 @@ pub enum Move {
     JointPositions,
     /// `rmlMoveToPosition` of V-REP: an object to a position and orientation.
     Position,
+    /// `moveToPosition` of V-REP: an object along a straight line to a position and orientation.
+    Line,
 }
 
 /// Functions that wait: name without `sim.`, call tip (results, name and parameters with their types), kind.
@@ -39,6 +42,11 @@ pub const MOVES: &[(&str, &str, Move)] = &[
         "rmlMoveToPosition",
         "int result,float[3] newPos,float[4] newQuaternion,float[4] newVel,float[4] newAccel,float timeLeft=sim.rmlMoveToPosition(int objectHandle,int relativeToObjectHandle,int flags,float[4] currentVel,float[4] currentAccel,float[4] maxVel,float[4] maxAccel,float[4] maxJerk,float[3] targetPosition,float[4] targetQuaternion,float[4] targetVel=nil)",
         Move::Position,
+    ),
+    (
+        "moveToPosition",
+        "int result,float timeLeft=sim.moveToPosition(int objectHandle,int relativeToObjectHandle,float[3] position=nil,float[3] eulerAngles=nil,float velocity,float acceleration=nil)",
+        Move::Line,
     ),
 ];
 
@@ -62,7 +70,7 @@ impl Move {
     pub fn stem(self) -> &'static str {
         match self {
             Self::Config | Self::JointPositions => "moveToConfig",
-            Self::Pose | Self::Position => "moveToPose",
+            Self::Pose | Self::Position | Self::Line => "moveToPose",
         }
     }
 
@@ -82,6 +90,7 @@ impl Move {
             Self::Pose => pose(a),
             Self::JointPositions => joint_positions(sim, a),
             Self::Position => position(sim, a),
+            Self::Line => line(sim, a),
         }
     }
 
@@ -97,6 +106,7 @@ impl Move {
             Self::Pose if is_old => vec![get("matrix"), get("timeLeft")],
             Self::Config | Self::Pose => vec![data.clone()],
             Self::JointPositions => vec![Value::Int(1), get("pos"), get("vel"), get("accel"), get("timeLeft")],
+            Self::Line => vec![Value::Int(1), get("timeLeft")],
             Self::Position => {
                 let numbers = fields.get("pose").as_reals().unwrap_or_default();
                 let part =
@@ -126,6 +136,9 @@ impl Move {
         [place, get("vel"), get("accel")].into_iter().chain(data).collect()
     }
 }
+
+/// Acceleration over velocity `[1/s]`, and jerk over acceleration, that count as none at all.
+const AT_ONCE: f64 = 1e4;
 
 /// The first numbers of a list, and the rest.
 fn split(a: Arguments<'_>, k: usize, n: usize) -> Result<(Vec<f64>, Vec<f64>), ApiError> {
@@ -240,18 +253,50 @@ fn turned(target: f64, from: f64, direction: f64) -> f64 {
     }
 }
 
-/// (object, relativeTo, flags, vel, accel, maxVel, maxAccel, maxJerk, position, quaternion, targetVel)
-fn position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Value, ApiError> {
-    let mut fields = Fields::default();
-    limits(&mut fields, a, (a.int(2)?, 5), 4)?;
-    copy(&mut fields, a, &[("object", 0), ("relObject", 1), ("vel", 3), ("accel", 4), ("targetVel", 10)]);
+/// Pose of the object of argument 1 in that of argument 2.
+fn present(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<[f64; 7], ApiError> {
     let object = super::handle(sim, a, 0)?;
     let against = match a.handle(1)? {
         -1 => Reference::World,
         -11 => Reference::Parent,
         other => Reference::Object(super::plain(sim, other)?),
     };
-    let mut seven = numbers_of_pose(&sim.pose(object, against)?);
+    Ok(numbers_of_pose(&sim.pose(object, against)?))
+}
+
+/// (object, relativeTo, position, eulerAngles, velocity, acceleration): what is nil stays as it is. A turn by 1 rad
+/// takes as long as a way of 0.1 m; without an acceleration, or with 0, the velocity is reached at once.
+fn line(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Value, ApiError> {
+    let mut fields = Fields::default();
+    copy(&mut fields, a, &[("object", 0), ("relObject", 1)]);
+    let mut seven = present(sim, a)?;
+    if a.has(2) {
+        seven[..3].copy_from_slice(&a.reals::<3>(2)?);
+    }
+    if a.has(3) {
+        seven[3..].copy_from_slice(&quaternion_of(&rotation_of_euler(a.reals::<3>(3)?)));
+    }
+    if a.has(6) {
+        return Err(ApiError::new(
+            "argument 7, corrections of distance and orientation, is not offered: leave it away",
+        ));
+    }
+    let velocity = a.real(4)?;
+    let acceleration = if a.has(5) && a.real(5)? != 0.0 { a.real(5)? } else { AT_ONCE * velocity };
+    fields.set_list("targetPose", seven);
+    fields.set_list("maxVel", [velocity]);
+    fields.set_list("maxAccel", [acceleration]);
+    fields.set_list("maxJerk", [AT_ONCE * acceleration]);
+    fields.set_list("metric", [1.0, 1.0, 1.0, 0.1]);
+    Ok(fields.into_value())
+}
+
+/// (object, relativeTo, flags, vel, accel, maxVel, maxAccel, maxJerk, position, quaternion, targetVel)
+fn position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Value, ApiError> {
+    let mut fields = Fields::default();
+    limits(&mut fields, a, (a.int(2)?, 5), 4)?;
+    copy(&mut fields, a, &[("object", 0), ("relObject", 1), ("vel", 3), ("accel", 4), ("targetVel", 10)]);
+    let mut seven = present(sim, a)?;
     if a.has(8) {
         seven[..3].copy_from_slice(&a.reals::<3>(8)?);
     }

@@ -43,6 +43,10 @@ pub(super) const FUNCTIONS: &[Function] = &[
     ),
     shown("removeBanner", "int result=sim.removeBanner(int bannerID)"),
     shown(
+        "setLightParameters",
+        "int result=sim.setLightParameters(int lightHandle,int state,float[3] ambientPart=nil,float[3] diffusePart=nil,float[3] specularPart=nil)",
+    ),
+    shown(
         "setShapeTexture",
         "sim.setShapeTexture(int shapeHandle,int textureId,int mappingMode,int options,float[2] uvScaling)",
     ),

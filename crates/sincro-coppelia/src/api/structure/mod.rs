@@ -52,7 +52,7 @@ struct Rebuild {
 }
 
 /// Changes of the structure that may wait for the lock-step; each keeps the model before it.
-const MAX_CHANGES: usize = 256;
+const MAX_CHANGES: usize = 1024;
 /// Scripts that a scene may have at once; each has a state of its own.
 const MAX_SCRIPTS: usize = 1_000;
 
@@ -73,7 +73,7 @@ impl SimApi<'_> {
     fn rebuild(&mut self, edit: Rebuild) -> Result<(), ApiError> {
         let joins_last = edit.is_placement && self.registry.is_last_placement;
         if self.registry.restructured.len() >= MAX_CHANGES && !joins_last {
-            let words = "more than 256 changes of the structure in one call: let the simulation step in between";
+            let words = "more than 1024 changes of the structure in one call: let the simulation step in between";
             return Err(ApiError::new(words));
         }
         let Rebuild { mut draft, copies, joined, conserves_momentum, is_placement } = edit;
