@@ -27,6 +27,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         lua.globals().set(name, class)?;
     }
     modules.set("matrix", matrix)?;
+    let environment: Function = lua.load(include_str!("../environment.lua")).set_name("=sincro").call(())?;
     let (script, guard) = (context.shared.script(context.index), context.guard.clone());
     let require = lua.create_function(move |lua, name: String| {
         let (plain, version) = name.split_once('-').unwrap_or((&name, "1"));
@@ -49,7 +50,10 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         };
         sandbox::charge_text(lua, &guard, &source.text)?;
         let text = power::with_calls(&source.text);
-        let module = lua.load(text).set_name(format!("={file}")).set_mode(ChunkMode::Text).call::<LuaValue>(&*name)?;
+        let is_old = text.contains("module");
+        let chunk = lua.load(text).set_name(format!("={file}")).set_mode(ChunkMode::Text);
+        let chunk = if is_old { chunk.set_environment(environment.call::<Table>(())?) } else { chunk };
+        let module = chunk.call::<LuaValue>(&*name)?;
         // as in Lua: what a file leaves under its name counts, then what it returns, then true
         let module = if module.is_nil() { loaded.get(&*name)? } else { module };
         let module = if module.is_nil() { LuaValue::Boolean(true) } else { module };
@@ -61,6 +65,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     // where scripts add folders to: modules are found by their names in the scene alone
     package.set("path", "./?.lua")?;
     package.set("cpath", "")?;
+    package.set("seeall", lua.create_function(|_, _: MultiValue| Ok(()))?)?;
     let refused = |_: &mlua::Lua, _: MultiValue| -> mlua::Result<()> {
         Err(Error::RuntimeError("package.loadlib is not allowed: scripts load no programs".into()))
     };

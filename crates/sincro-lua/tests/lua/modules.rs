@@ -245,6 +245,7 @@ fn files_of_the_scene_are_modules() {
     let helper =
         "loads = (loads or 0) + 1\nlocal M = { name = ... }\nfunction M.twice(x) return 2 * x ^ 1 end\nreturn M";
     let plain = "function of_plain() return 7 end";
+    let old = "module(..., package.seeall)\ncount = 3\nfunction more() count = count + 1 return tostring(count) end";
     let said = with_files(
         "function sysCall_init()
             package.path = package.path .. ';./lib/?.lua'
@@ -253,11 +254,13 @@ fn files_of_the_scene_are_modules() {
             print(require 'lib.plain', of_plain(), require('lib/plain'))
             package.loaded.helper = nil
             print(require('helper') == a, loads)
+            local old = require 'old'
+            print(old.count, old.more(), old.count, _G.count, _G.old == old)
         end",
-        &[("helper.lua", helper), ("lib/plain.lua", plain)],
+        &[("helper.lua", helper), ("lib/plain.lua", plain), ("old.lua", old)],
     )
     .unwrap();
-    assert_eq!(said, ["true\t1\thelper\t8.0", "true\t7\ttrue", "false\t2"]);
+    assert_eq!(said, ["true\t1\thelper\t8.0", "true\t7\ttrue", "false\t2", "3\t4\t4\tnil\ttrue"]);
 }
 
 #[test]
