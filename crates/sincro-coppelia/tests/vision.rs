@@ -386,7 +386,7 @@ fn older_functions_give_the_same_pictures() {
     let packed = call(&mut session, "simGetVisionSensorDepthBuffer", &[flagged(0x40_0000)]);
     assert_eq!((metres[0].as_reals().unwrap().len(), packed[0].as_bytes().unwrap().len()), (768, 4 * 768));
     let sides = call(&mut session, "simGetVisionSensorResolution", std::slice::from_ref(&eye));
-    assert_eq!(sides, [Value::Int(32), Value::Int(24)]);
+    assert_eq!(sides, [Value::List(vec![Value::Int(32), Value::Int(24)])]);
     let screen = find(&mut session, "/screen");
     call(&mut session, "simSetVisionSensorImage", &[screen.clone(), Value::reals([1.0; 24])]);
     assert_eq!(image(&mut session, &screen), [255; 24]);

@@ -32,6 +32,7 @@ const IRREGULAR: &[(&str, &str)] = &[
     ("setObjectInt32Parameter", "setObjectInt32Param"),
     ("getObjectFloatParameter", "getObjectFloatParam"),
     ("setObjectFloatParameter", "setObjectFloatParam"),
+    ("getVisionSensorResolution", "getVisionSensorRes"),
     ("packFloats", "packFloatTable"),
     ("packDoubles", "packDoubleTable"),
     ("packInts", "packInt32Table"),

@@ -29,11 +29,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |d, a| Ok(vec![pixels(resolution(d, a)?)]),
     },
     Function {
-        name: "getVisionSensorResolution",
-        tip: "int resolutionX,int resolutionY=sim.getVisionSensorResolution(int sensorHandle)",
-        run: |d, a| Ok(resolution(d, a)?.map(|n| Value::Int(n as i64)).to_vec()),
-    },
-    Function {
         name: "readVisionSensor",
         tip: "int result,float[15] packet1=sim.readVisionSensor(int sensorHandle)",
         run: read,
