@@ -231,8 +231,8 @@ fn a_body_may_pass_through_all_others_and_begin_with_a_velocity() {
         call(&mut session, "sim.setObjectFloatParam", "/ball", &[Value::Int(id), Value::Real(0.0)]).unwrap();
     }
     assert_eq!(run(&mut session).trace, plain);
-    let told = call(&mut session, "sim.setObjectInt32Param", "/arm", &[Value::Int(3004), Value::Int(0)]).unwrap_err();
-    assert!(told.contains("`/hinge/arm` touches nothing"), "{told}");
+    let told = call(&mut session, "sim.setObjectInt32Param", "/arm", &[Value::Int(3004), Value::Int(1)]).unwrap_err();
+    assert!(told.contains("`/hinge/arm` has no shape"), "{told}");
     let told =
         call(&mut session, "sim.setObjectFloatParam", "/arm", &[Value::Int(3000), Value::Real(0.0)]).unwrap_err();
     assert!(told.contains("hangs on no free joint"), "{told}");
@@ -260,4 +260,30 @@ fn what_nothing_weighs_is_refused() {
     }
     assert_eq!(session.phase(), Phase::Stopped);
     assert!(run(&mut session).changes.is_empty());
+}
+
+#[test]
+fn flags_stay_as_they_are_when_the_run_keeps_no_more_changes() {
+    let mut session = session(&[]);
+    session.start().unwrap();
+    let mut n = 0;
+    let told = loop {
+        n += 1;
+        assert!(n <= 10_001, "there is a limit");
+        let gravity = Value::reals([0.0, 0.0, -9.81]);
+        match session.call("sim.setArrayParam", &[Value::Int(0), gravity]) {
+            Ok(_) => session.step().unwrap(),
+            Err(error) => break error.0,
+        }
+    };
+    assert!(told.contains("10000 times"), "{told}");
+    for (set, get, value) in [
+        ("sim.setObjectSpecialProperty", "sim.getObjectSpecialProperty", 1),
+        ("sim.setModelProperty", "sim.getModelProperty", 8),
+    ] {
+        let before = call(&mut session, get, "/ball", &[]).unwrap();
+        let told = call(&mut session, set, "/ball", &[Value::Int(value)]).unwrap_err();
+        assert!(told.contains("10000 times"), "{told}");
+        assert_eq!(call(&mut session, get, "/ball", &[]), Ok(before), "{get}");
+    }
 }

@@ -38,13 +38,16 @@ const REFUSED: [(i64, &str); 4] = [
 /// Visibility layers that are shown by default.
 const SHOWN_LAYERS: i64 = 0xff;
 
+/// Flags by the object that has them.
+type Map = BTreeMap<Handle, i64>;
+
 /// Flags that clients and scripts have set, each by the object that has them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flags {
-    special: BTreeMap<Handle, i64>,
-    model: BTreeMap<Handle, i64>,
-    common: BTreeMap<Handle, i64>,
-    layers: BTreeMap<Handle, i64>,
+    special: Map,
+    model: Map,
+    common: Map,
+    layers: Map,
 }
 
 impl Flags {
@@ -127,17 +130,15 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// There is no such object, or there is no such flag.
+    /// There is no such object or no such flag, or the model was changed 10,000 times already; the flags are then as
+    /// they were.
     pub(crate) fn set_special_property(&mut self, handle: Handle, value: i64) -> Result<(), ApiError> {
         let path = &self.registry.entry(handle)?.path;
         if value & !(ALL | KEPT) != 0 {
             let known = "collidable 1, measurable 2, detectable 16 to 256, renderable 512";
             return Err(ApiError(format!("{value} has flags for `{path}` that there are not: {known}")));
         }
-        let was_detectable = self.registry.takes_part(handle, DETECTABLE);
-        self.finish_pictures();
-        self.registry.flags.special.insert(handle, value);
-        self.keep_detectable(handle, was_detectable)
+        self.set_flags(handle, value, |flags| &mut flags.special)
     }
 
     /// Sets or clears flags of an object that says what it takes part in.
@@ -154,16 +155,14 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// There is no such object, or a flag is set that would change the physics.
+    /// There is no such object, a flag is set that would change the physics, or the model was changed 10,000 times
+    /// already; the flags are then as they were.
     pub fn set_model_property(&mut self, handle: Handle, value: i64) -> Result<(), ApiError> {
         let path = &self.registry.entry(handle)?.path;
         if let Some((_, why)) = REFUSED.iter().find(|(flag, _)| value & flag != 0) {
             return Err(ApiError(format!("the model `{path}` cannot be {why}")));
         }
-        let was_detectable = self.registry.takes_part(handle, DETECTABLE);
-        self.finish_pictures();
-        self.registry.flags.model.insert(handle, value);
-        self.keep_detectable(handle, was_detectable)
+        self.set_flags(handle, value, |flags| &mut flags.model)
     }
 
     /// Sets the visibility layers of an object, a bit each; on none of the first eight it is hidden from vision
@@ -177,12 +176,22 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Keeps with the run that proximity sensors detect an object from now on, or do not.
-    fn keep_detectable(&mut self, handle: Handle, before: bool) -> Result<(), ApiError> {
+    /// Sets flags of an object in one of the maps of them. The run keeps that proximity sensors detect the object from
+    /// now on, or do not; the flags stay as they are if it cannot.
+    fn set_flags(&mut self, handle: Handle, value: i64, map: fn(&mut Flags) -> &mut Map) -> Result<(), ApiError> {
+        let before = self.registry.takes_part(handle, DETECTABLE);
+        self.finish_pictures();
+        let former = map(&mut self.registry.flags).insert(handle, value);
         let now = self.registry.takes_part(handle, DETECTABLE);
-        if now == before {
-            return Ok(());
+        let kept =
+            if now == before { Ok(()) } else { self.change(handle, "detectable", vec![f64::from(u8::from(now))]) };
+        if kept.is_err() {
+            let flags = map(&mut self.registry.flags);
+            match former {
+                Some(former) => flags.insert(handle, former),
+                None => flags.remove(&handle),
+            };
         }
-        self.change(handle, "detectable", vec![f64::from(u8::from(now))])
+        kept
     }
 }
