@@ -262,6 +262,43 @@ fn what_nothing_weighs_is_refused() {
     assert!(run(&mut session).changes.is_empty());
 }
 
+fn velocity(session: &mut Session) -> Vec<f64> {
+    let told = call(session, "sim.getObjectVelocity", "/ball", &[]).unwrap();
+    [told[0].as_reals().unwrap(), told[1].as_reals().unwrap()].concat()
+}
+
+#[test]
+fn an_initial_velocity_that_is_set_after_a_reset_is_the_whole_velocity() {
+    let mut session = session(&[]);
+    let set = |session: &mut Session, id: i64, x: f64| {
+        call(session, "sim.setObjectFloatParam", "/ball", &[Value::Int(id), Value::Real(x)]).unwrap();
+    };
+    let near = |session: &mut Session, wanted: [f64; 6]| {
+        let told = velocity(session);
+        assert!(told.iter().zip(wanted).all(|(x, y)| (x - y).abs() < 1e-12), "{told:?}, expected {wanted:?}");
+    };
+    call(&mut session, "sim.setObjectInt32Param", "/ball", &[Value::Int(3004), Value::Int(0)]).unwrap();
+    set(&mut session, 3002, 5.0);
+    set(&mut session, 3021, 3.0);
+    session.start().unwrap();
+    session.step().unwrap();
+    call(&mut session, "sim.resetDynamicObject", "/ball", &[]).unwrap();
+    assert!(velocity(&mut session)[2] > 4.0, "nothing was set: it goes on");
+    set(&mut session, 3000, 2.0);
+    near(&mut session, [2.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    set(&mut session, 3001, 1.0);
+    near(&mut session, [2.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+    call(&mut session, "sim.resetDynamicObject", "/ball", &[]).unwrap();
+    set(&mut session, 3020, 4.0);
+    near(&mut session, [2.0, 1.0, 0.0, 4.0, 0.0, 0.0]);
+    // in a later step it waits, and is the whole velocity again
+    session.step().unwrap();
+    set(&mut session, 3001, 6.0);
+    assert!((velocity(&mut session)[0] - 2.0).abs() < 1e-9);
+    call(&mut session, "sim.resetDynamicObject", "/ball", &[]).unwrap();
+    near(&mut session, [0.0, 6.0, 0.0, 0.0, 0.0, 0.0]);
+}
+
 #[test]
 fn flags_stay_as_they_are_when_the_run_keeps_no_more_changes() {
     let mut session = session(&[]);

@@ -52,8 +52,9 @@ impl SimApi<'_> {
     }
 
     /// Sets one component of the velocity that a body begins with: 0–2 of its centre of mass [m/s], 3–5 of its rotation
-    /// [rad/s], world axes. While stopped it is that of the start, and the others stay; while a run is on it acts when
-    /// the dynamics of the body are reset in the same step or later ([`SimApi::reset_dynamics`]).
+    /// [rad/s], world axes. While stopped, and until a run has begun (`sysCall_init`), it is that of the start, and the
+    /// others stay; in a run it acts when the dynamics of the body are reset in the same step or later
+    /// ([`SimApi::reset_dynamics`]).
     ///
     /// # Errors
     ///
@@ -78,14 +79,23 @@ impl SimApi<'_> {
             };
             return Err(ApiError(format!("`{path}` hangs on no free joint of the world: {help}")));
         }
-        let is_reset = self.registry.resets.get(&handle) == Some(&self.world.state.tick);
-        if self.is_running() && !is_reset {
-            self.registry.initial_velocities.entry(handle).or_default()[component] = Some(value);
-            return Ok(());
+        if !self.registry.has_begun {
+            let (mut v, mut w) = self.center_velocity(handle)?;
+            *(if component < 3 { &mut v[component] } else { &mut w[component - 3] }) = value;
+            return self.set_free_velocity(handle, v, w);
         }
-        let (mut v, mut w) = self.center_velocity(handle)?;
-        *(if component < 3 { &mut v[component] } else { &mut w[component - 3] }) = value;
-        self.set_free_velocity(handle, v, w)
+        let tick = self.world.state.tick;
+        match self.registry.resets.get_mut(&handle).filter(|(at, _)| *at == tick) {
+            Some((_, given)) => {
+                given[component] = value;
+                let [vx, vy, vz, wx, wy, wz] = *given;
+                self.set_free_velocity(handle, [vx, vy, vz], [wx, wy, wz])
+            }
+            None => {
+                self.registry.initial_velocities.entry(handle).or_default()[component] = Some(value);
+                Ok(())
+            }
+        }
     }
 
     /// Resets the dynamics of a body on a free joint of its own: it goes on with the velocity that was set for it since
@@ -96,15 +106,22 @@ impl SimApi<'_> {
     ///
     /// The velocity is too large.
     pub(crate) fn reset_dynamics(&mut self, handle: Handle) -> Result<(), ApiError> {
-        if !self.is_running() {
+        if !self.registry.has_begun {
             return Ok(());
         }
-        self.registry.resets.insert(handle, self.world.state.tick);
-        let Some(given) = self.registry.initial_velocities.remove(&handle) else { return Ok(()) };
+        let tick = self.world.state.tick;
+        let reset = self.registry.resets.entry(handle).or_insert((tick, [0.0; 6]));
+        if reset.0 != tick {
+            *reset = (tick, [0.0; 6]);
+        }
+        let Some(set) = self.registry.initial_velocities.remove(&handle) else { return Ok(()) };
+        for (component, value) in reset.1.iter_mut().zip(set) {
+            *component = value.unwrap_or(*component);
+        }
+        let [vx, vy, vz, wx, wy, wz] = reset.1;
         if self.own_free_joint(handle)?.is_none() {
             return Ok(());
         }
-        let [vx, vy, vz, wx, wy, wz] = given.map(|x| x.unwrap_or(0.0));
         self.set_free_velocity(handle, [vx, vy, vz], [wx, wy, wz])
     }
 

@@ -267,8 +267,8 @@ pub struct ObjectRegistry {
     pub(crate) images: BTreeMap<String, Vec<u8>>,
     /// Velocities that bodies begin with when their dynamics are reset, component by component.
     pub(super) initial_velocities: BTreeMap<Handle, [Option<f64>; 6]>,
-    /// Tick at which the dynamics of a body were reset last in this run.
-    pub(super) resets: BTreeMap<Handle, u64>,
+    /// Tick at which the dynamics of a body were reset last in this run, with the velocity that was set for it by then.
+    pub(super) resets: BTreeMap<Handle, (u64, [f64; 6])>,
     /// Folder for files of clients, from which models may be loaded; none if they may send none.
     pub(crate) sent_folder: Option<PathBuf>,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.

@@ -109,3 +109,21 @@ fn without_a_reset_an_initial_velocity_waits_and_is_used_once() {
         end";
     assert_eq!(said(code), ["0.0\t2.0", "0.0", "2.0", "0.0", "0.0"]);
 }
+
+#[test]
+fn an_initial_velocity_that_is_set_before_the_run_begins_is_that_of_the_start() {
+    let thrown = placing(
+        "function sysCall_init()
+            local box = sim.getObject('/box')
+            sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_x, 2)
+            sim.setObjectFloatParam(box, sim.shapefloatparam_init_velocity_z, 1)
+            local v = sim.getObjectVelocity(box)
+            print(v[1], v[3])
+        end",
+    );
+    assert_eq!(thrown.messages[0].text, "2.0\t1.0");
+    let x = &thrown.table.column("/box_joint/box.position.x").unwrap().values;
+    assert!((x[20] - 0.4).abs() < 1e-9, "{x:?}");
+    let balance = &thrown.table.column("energy.balance").unwrap().values;
+    assert!(balance.iter().all(|x| x.abs() < 1e-9), "{balance:?}");
+}
