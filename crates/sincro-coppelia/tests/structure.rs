@@ -696,3 +696,81 @@ fn bodies_that_were_made_are_grouped_to_one() {
     let run = finished(&mut session);
     assert!(run.energy.residual < 1e-6, "{:?}", run.energy);
 }
+
+/// A cube of 0.1 m that is made at a place.
+fn cube(session: &mut Session, place: [f64; 3], mass: f64) -> i64 {
+    let size = Value::reals([0.1; 3]);
+    let made = call(session, "sim.createPureShape", &[0_i64.into(), 0_i64.into(), size, mass.into()])[0].clone();
+    put(session, made.as_int().unwrap(), place);
+    made.as_int().unwrap()
+}
+
+fn hang(session: &mut Session, object: i64, parent: i64) {
+    call(session, "sim.setObjectParent", &[object.into(), parent.into(), true.into()]);
+}
+
+fn list(all: &[i64]) -> Value {
+    Value::List(all.iter().map(|h| Value::from(*h)).collect())
+}
+
+fn paths(session: &mut Session) -> Vec<String> {
+    session.registry().entries().map(|entry| entry.path.clone()).collect()
+}
+
+#[test]
+fn joined_bodies_are_removed_at_once_and_what_is_between_them_stays() {
+    let mut session = open(&box_above_floor(0.05));
+    let all = [2.0, 3.0, 4.0].map(|x| cube(&mut session, [x, 0.0, 0.5], 1.0));
+    let original = handle(&mut session, "/box");
+    let copies = call(&mut session, "sim.copyPasteObjects", &[list(&[original]), 0_i64.into()]);
+    let last = handles(&copies[0])[0];
+    for pair in [[all[1], all[0]], [all[2], all[1]], [last, all[2]]] {
+        hang(&mut session, pair[0], pair[1]);
+    }
+    call(&mut session, "sim.removeObjects", &[list(&[all[1], last])]);
+    let left = paths(&mut session);
+    assert!(session.registry().entry(Handle(last as i32)).is_err(), "{left:?}");
+    assert_eq!(call(&mut session, "sim.getObjectParent", &[all[2].into()]), [all[0].into()]);
+    assert!((position(&mut session, all[2])[0] - 4.0).abs() < 1e-12);
+}
+
+const TAGGED: &str = r#"
+[[joint]]
+name = "car"
+kind = "free"
+initial = { position = [0.0, 3.0, 1.0, 1.0, 0.0, 0.0, 0.0] }
+[[body]]
+name = "chassis"
+parent = "/car"
+mass = 2.0
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+[[frame]]
+name = "antenna"
+parent = "/car"
+position = [0.0, 0.0, 0.5]
+[[frame]]
+name = "mark"
+parent = "/car/chassis"
+position = [0.2, 0.0, 0.0]
+"#;
+
+fn tagged() -> String {
+    format!("{}{TAGGED}", box_above_floor(0.05))
+}
+
+#[test]
+fn what_hangs_on_a_loose_body_that_is_removed_alone_stays_where_it_is() {
+    // a force acts on the body: it goes with it
+    let push = "[[force]]\nname = \"push\"\nparent = \"/car/chassis\"\nforce = [1.0, 0.0, 0.0]\n";
+    let mut session = open(&format!("{}{push}", tagged()));
+    let [chassis, antenna, mark] = ["/chassis", "/antenna", "/mark"].map(|path| handle(&mut session, path));
+    let dummy = call(&mut session, "sim.createDummy", &[0.01.into()])[0].as_int().unwrap();
+    hang(&mut session, dummy, chassis);
+    call(&mut session, "sim.removeObjects", &[list(&[chassis])]);
+    let left: Vec<String> = paths(&mut session).into_iter().filter(|path| !path.contains("box")).collect();
+    assert_eq!(left, ["/floor", "/mark", "/antenna", "/Dummy"]);
+    for (object, place) in [(antenna, [0.0, 3.0, 1.5]), (mark, [0.2, 3.0, 1.0])] {
+        assert_eq!(call(&mut session, "sim.getObjectParent", &[object.into()]), [Value::Int(-1)]);
+        assert!(position(&mut session, object).iter().zip(place).all(|(x, y)| (x - y).abs() < 1e-12));
+    }
+}

@@ -1,12 +1,15 @@
 //! Removal of objects and models.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sincro_scene::draft::SceneDraft;
 
 use super::Rebuild;
 use crate::api::registry::Handle;
 use crate::api::{ApiError, SimApi};
+
+/// Lists of a scene file whose objects act on what carries them, which has to move.
+const ACTING: [&str; 3] = ["force", "rotor", "drag"];
 
 impl SimApi<'_> {
     /// Removes objects, with `whole` each with all below it; else their children pass to what carries them. Joints that
@@ -36,79 +39,136 @@ impl SimApi<'_> {
         if of_model.is_empty() {
             return runtime.into_iter().try_for_each(|handle| self.remove(handle));
         }
-        let mut edit = self.draft()?;
+        let edit = self.draft()?;
         let mut gone: BTreeSet<String> = BTreeSet::new();
         for handle in &of_model {
             gone.insert(self.model_path(*handle)?);
         }
-        self.pass_children(&mut edit, &mut gone)?;
         // joints that let nothing move any more
         let idle = idle_joints(&edit.draft, &gone);
         gone.extend(idle);
-        let stays: Vec<(Handle, Option<Handle>)> = self.orphans(&gone, &chosen)?;
-        edit.draft.remove(&gone);
+        self.remove_and_rebuild(edit, gone, &BTreeMap::new())?;
+        runtime.into_iter().try_for_each(|handle| self.remove(handle))
+    }
+
+    /// Makes an edit without the objects `gone`. Their children pass to what carries those, where they are, or to the
+    /// object that `heirs` has for what is removed. Forces, rotors and drags that nothing that moves would carry go,
+    /// too.
+    ///
+    /// # Errors
+    ///
+    /// The scene cannot be: nothing has changed then.
+    pub(super) fn remove_and_rebuild(
+        &mut self,
+        mut edit: Rebuild,
+        mut gone: BTreeSet<String>,
+        heirs: &BTreeMap<Handle, Handle>,
+    ) -> Result<(), ApiError> {
+        let paths = self.pass_children(&mut edit, &mut gone, heirs)?;
+        edit.draft.remove(&paths);
         let mut former = Vec::new();
-        for (child, parent) in stays {
+        let mut done = Ok(());
+        for (child, parent) in self.orphans(&gone, heirs)? {
             former.push((child, self.registry.entry(child)?.parent));
-            self.set_parent(child, parent, true)?;
+            done = done.and_then(|()| self.set_parent(child, parent, true));
         }
-        if let Err(refused) = self.rebuild(edit) {
+        if let Err(refused) = done.and_then(|()| self.rebuild(edit)) {
             // nothing has been removed: what hung on it does so again
             former.into_iter().try_for_each(|(child, parent)| self.set_parent(child, parent, true))?;
             return Err(refused);
         }
-        runtime.into_iter().try_for_each(|handle| self.remove(handle))
+        Ok(())
     }
 
-    /// Hangs the children of what is removed on what carries that, where they are.
-    fn pass_children(&mut self, edit: &mut Rebuild, gone: &mut BTreeSet<String>) -> Result<(), ApiError> {
-        let of_gone: Vec<String> = gone.iter().cloned().collect();
+    /// Hangs the children of what is removed on what they pass to, where they are. Returns the paths of what is removed
+    /// after that; `gone` has those before it.
+    fn pass_children(
+        &mut self,
+        edit: &mut Rebuild,
+        gone: &mut BTreeSet<String>,
+        heirs: &BTreeMap<Handle, Handle>,
+    ) -> Result<BTreeSet<String>, ApiError> {
+        let mut of_gone: Vec<String> = gone.iter().cloned().collect();
+        // deeper ones first: their paths are then those of the scene
+        of_gone.sort_by_key(|path| std::cmp::Reverse(path.matches('/').count()));
+        let mut paths = gone.clone();
         for path in of_gone {
             for child in edit.draft.children(&path) {
                 if gone.contains(&child) {
                     continue;
                 }
                 let handle = self.handle_at(&child)?;
-                let mut above = self.registry.entry(handle)?.parent;
-                while let Some(parent) = above {
-                    let is_gone = self.is_of_model(parent) && gone.contains(&self.model_path(parent)?);
-                    if !is_gone {
-                        break;
-                    }
-                    above = self.registry.entry(parent)?.parent;
+                let above = self.heir(handle, gone, heirs)?;
+                let is_carried = above.map_or(Ok(false), |own| self.carries_motion(own))?;
+                if !is_carried && edit.draft.table(&child).is_some_and(|(list, _)| ACTING.contains(&list)) {
+                    let below = edit.draft.subtree(&child);
+                    paths.extend(below.iter().cloned());
+                    gone.extend(below);
+                    continue;
                 }
                 let (parent, x_wp) = self.model_parent(above)?;
                 let pose = x_wp.inverse().compose(&self.own_pose(handle)?);
-                edit.draft.hang(&child, &parent, &pose);
+                let new = edit.draft.hang(&child, &parent, &pose);
+                paths = paths.into_iter().map(|path| moved_path(path, &child, &new)).collect();
             }
         }
-        Ok(())
+        Ok(paths)
+    }
+
+    /// Returns true if what hangs on an object is not fixed in the world.
+    fn carries_motion(&self, handle: Handle) -> Result<bool, ApiError> {
+        Ok(self.registry.entry(handle)?.moving.link.is_some())
+    }
+
+    /// Object that carries another one when the objects `gone` are removed; none for the world.
+    fn heir(
+        &self,
+        handle: Handle,
+        gone: &BTreeSet<String>,
+        heirs: &BTreeMap<Handle, Handle>,
+    ) -> Result<Option<Handle>, ApiError> {
+        let mut above = self.registry.entry(handle)?.parent;
+        while let Some(parent) = above.filter(|parent| self.is_gone(*parent, gone)) {
+            above = match heirs.get(&parent) {
+                Some(heir) => Some(*heir),
+                None => self.registry.entry(parent)?.parent,
+            };
+        }
+        Ok(above)
+    }
+
+    fn is_gone(&self, handle: Handle, gone: &BTreeSet<String>) -> bool {
+        self.model_path(handle).is_ok_and(|path| gone.contains(&path))
     }
 
     /// Runtime objects that hang on what is removed, each with what it hangs on then.
     fn orphans(
         &self,
         gone: &BTreeSet<String>,
-        chosen: &BTreeSet<Handle>,
+        heirs: &BTreeMap<Handle, Handle>,
     ) -> Result<Vec<(Handle, Option<Handle>)>, ApiError> {
-        let is_gone = |handle: Handle| self.model_path(handle).is_ok_and(|path| gone.contains(&path));
         let mut found = Vec::new();
         let is_loose = |e: &&crate::api::Entry| e.is_runtime || self.registry.moved_frames.contains(&e.handle);
-        for entry in self.registry.entries().filter(is_loose).filter(|e| !chosen.contains(&e.handle)) {
-            let Some(parent) = entry.parent.filter(|p| is_gone(*p)) else { continue };
-            let mut above = self.registry.entry(parent)?.parent;
-            while let Some(next) = above.filter(|p| is_gone(*p)) {
-                above = self.registry.entry(next)?.parent;
+        let stays = |e: &&crate::api::Entry| !self.is_gone(e.handle, gone);
+        for entry in self.registry.entries().filter(is_loose).filter(stays) {
+            if entry.parent.is_some_and(|parent| self.is_gone(parent, gone)) {
+                found.push((entry.handle, self.heir(entry.handle, gone, heirs)?));
             }
-            found.push((entry.handle, above));
         }
         Ok(found)
     }
 }
 
-/// Joints below which no body is left, with all below them.
+/// Path of an object after one above it has gone from the path `old` to `new`.
+fn moved_path(path: String, old: &str, new: &str) -> String {
+    match path.strip_prefix(old) {
+        Some(rest) if rest.starts_with('/') => format!("{new}{rest}"),
+        _ => path,
+    }
+}
+
+/// Joints below which no body is left, those above others first.
 pub(super) fn idle_joints(draft: &SceneDraft, gone: &BTreeSet<String>) -> Vec<String> {
-    let mut idle = Vec::new();
     let stays = |path: &String| !gone.contains(path);
     let is = |path: &String, list: &str| draft.table(path).is_some_and(|(kind, _)| kind == list);
     // a fixed joint needs nothing to move, unless it measures what it carries
@@ -118,11 +178,6 @@ pub(super) fn idle_joints(draft: &SceneDraft, gone: &BTreeSet<String>) -> Vec<St
         keys.get("kind").and_then(|kind| kind.as_str()) == Some("fixed") && !measures
     };
     let can_idle = |path: &String| is(path, "joint") && stays(path) && !is_fixed(path);
-    for joint in draft.subtree("").into_iter().filter(can_idle) {
-        let below = draft.subtree(&joint);
-        if !below.iter().any(|path| is(path, "body") && stays(path)) {
-            idle.extend(below);
-        }
-    }
-    idle
+    let is_idle = |joint: &String| !draft.subtree(joint).iter().any(|path| is(path, "body") && stays(path));
+    draft.subtree("").into_iter().filter(can_idle).filter(is_idle).collect()
 }
