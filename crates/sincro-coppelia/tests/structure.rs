@@ -713,8 +713,30 @@ fn list(all: &[i64]) -> Value {
     Value::List(all.iter().map(|h| Value::from(*h)).collect())
 }
 
+fn mass(session: &mut Session, body: i64) -> f64 {
+    call(session, "sim.getShapeMass", &[body.into()])[0].as_real().unwrap()
+}
+
 fn paths(session: &mut Session) -> Vec<String> {
     session.registry().entries().map(|entry| entry.path.clone()).collect()
+}
+
+#[test]
+fn bodies_that_are_joined_in_a_chain_are_grouped_in_any_order() {
+    for order in [[0, 2, 1], [0, 1, 2]] {
+        let mut session = open(&box_above_floor(0.05));
+        let before = paths(&mut session).len();
+        let all = [1.0, 2.0, 4.0].map(|mass| cube(&mut session, [2.0 + 0.2 * mass, 0.0, 0.5], mass));
+        hang(&mut session, all[1], all[0]);
+        hang(&mut session, all[2], all[1]);
+        let grouped = call(&mut session, "sim.groupShapes", &[list(&order.map(|k| all[k]))]);
+        assert_eq!(grouped, [all[0].into()]);
+        assert!((mass(&mut session, all[0]) - 7.0).abs() < 1e-12, "{order:?}: {} kg", mass(&mut session, all[0]));
+        let left = paths(&mut session);
+        assert_eq!(left.len(), before + 2, "one body with its free joint: {left:?}");
+        session.start().unwrap();
+        steps(&mut session, 2);
+    }
 }
 
 #[test]
@@ -773,4 +795,43 @@ fn what_hangs_on_a_loose_body_that_is_removed_alone_stays_where_it_is() {
         assert_eq!(call(&mut session, "sim.getObjectParent", &[object.into()]), [Value::Int(-1)]);
         assert!(position(&mut session, object).iter().zip(place).all(|(x, y)| (x - y).abs() < 1e-12));
     }
+}
+
+/// Two copies of a body with what is beside it on its joint.
+fn two_copies(session: &mut Session) -> [i64; 2] {
+    let original = handle(session, "/chassis");
+    [(); 2].map(|()| {
+        let copies = call(session, "sim.copyPasteObjects", &[list(&[original]), 1_i64.into()]);
+        handles(&copies[0])[0]
+    })
+}
+
+#[test]
+fn what_is_beside_a_body_that_is_grouped_hangs_on_the_first_one() {
+    let mut session = open(&tagged());
+    let [body, _] = two_copies(&mut session);
+    let below = call(&mut session, "sim.getObjectsInTree", &[body.into(), (-2_i64).into(), 1_i64.into()]);
+    let below = handles(&below[0]);
+    let places: Vec<[f64; 3]> = below.iter().map(|object| position(&mut session, *object)).collect();
+    assert_eq!(below.len(), 2, "antenna, mark");
+    let first = cube(&mut session, [2.0, 3.0, 1.0], 1.0);
+    call(&mut session, "sim.groupShapes", &[list(&[first, body])]);
+    assert!((mass(&mut session, first) - 3.0).abs() < 1e-12);
+    for (object, place) in below.iter().zip(places) {
+        assert_eq!(call(&mut session, "sim.getObjectParent", &[(*object).into()]), [first.into()]);
+        assert!(position(&mut session, *object).iter().zip(place).all(|(x, y)| (x - y).abs() < 1e-12));
+    }
+}
+
+#[test]
+fn what_hangs_on_bodies_that_cannot_be_grouped_stays_there() {
+    let mut session = open(&tagged());
+    let [first, other] = two_copies(&mut session);
+    let dummy = call(&mut session, "sim.createDummy", &[0.01.into()])[0].as_int().unwrap();
+    hang(&mut session, dummy, other);
+    let before = paths(&mut session);
+    // marks of both would have the same path
+    session.call("sim.groupShapes", &[list(&[first, other])]).unwrap_err();
+    assert_eq!(call(&mut session, "sim.getObjectParent", &[dummy.into()]), [other.into()]);
+    assert_eq!(paths(&mut session), before);
 }

@@ -1,6 +1,6 @@
 //! Bodies that were made at run time and are grouped: one body with the shapes and the mass of all.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value};
 use sincro_dynamics::model::MassProperties;
@@ -28,22 +28,20 @@ impl SimApi<'_> {
         edit.conserves_momentum = false;
         let (first_path, mut keys, own) = self.groupable(first, &edit)?;
         let mut shapes = shapes_of(&keys, &first_path, &Pose::identity())?;
-        let (mut masses, mut gone, mut runtime) = (vec![own], BTreeSet::new(), Vec::new());
+        let (mut masses, mut gone, mut heirs) = (vec![own], BTreeSet::new(), BTreeMap::new());
         for other in others {
             let (path, keys, mass) = self.groupable(*other, &edit)?;
             self.check_at_rest(first, *other)?;
             let x_fo = x_wf.inverse().compose(&self.pose(*other, Reference::World)?);
             shapes.extend(shapes_of(&keys, &path, &x_fo)?);
             masses.push(mass.placed(&x_fo.rot, x_fo.pos));
-            for child in edit.draft.children(&path) {
-                let pose = self.own_pose(self.handle_at(&child)?)?;
-                edit.draft.hang(&child, &first_path, &x_wf.inverse().compose(&pose));
-            }
-            let hung = self.registry.children(Some(*other)).filter(|entry| entry.is_runtime);
-            runtime.extend(hung.map(|entry| entry.handle));
-            let carrier = self.free_carrier(*other).filter(|carrier| self.was_joint(*carrier));
-            gone.extend(carrier.map(|carrier| self.model_path(carrier)).transpose()?);
             gone.insert(path);
+            heirs.insert(*other, first);
+            // with its free joint or the frame that was one: what is beside it there hangs on the first one, too
+            if let Some(carrier) = self.registry.joint_below(*other) {
+                gone.insert(self.model_path(carrier)?);
+                heirs.insert(carrier, first);
+            }
         }
         let mass = MassProperties::sum(&masses);
         keys.remove("density");
@@ -52,11 +50,7 @@ impl SimApi<'_> {
         edit.draft.replace(&first_path, "body", keys);
         let idle = idle_joints(&edit.draft, &gone);
         gone.extend(idle);
-        edit.draft.remove(&gone);
-        for child in runtime {
-            self.set_parent(child, Some(first), true)?;
-        }
-        self.rebuild(edit)?;
+        self.remove_and_rebuild(edit, gone, &heirs)?;
         if self.registry.entry(first)?.frame.link.is_some() {
             self.set_mass(first, mass)?;
         }
@@ -93,7 +87,7 @@ impl SimApi<'_> {
         if one.frame.link.is_none() != two.frame.link.is_none() {
             return Err(refused("cannot be one body: one of them is fixed in the world (parameter 3003)"));
         }
-        if self.registry.tree(other).contains(&first) {
+        if self.registry.visible_tree(other).contains(&first) {
             return Err(refused("cannot be one body: the first hangs on the other, give them in the other order"));
         }
         let (a, b) = (self.twist(&one.frame), self.twist(&two.frame));
