@@ -237,7 +237,9 @@ impl Controller for ApiController {
 
     /// The registry alone: memory of scripts cannot be copied.
     fn fork(&self) -> Forked {
-        let copy = Box::new(Self { registry: self.registry.clone(), scripts: None });
+        let mut copy = Box::new(Self { registry: self.registry.clone(), scripts: None });
+        // pictures are kept once
+        drop(copy.take_images());
         if self.runs_scripts() { Forked::Part(copy, "scripts".to_owned()) } else { Forked::Whole(copy) }
     }
 

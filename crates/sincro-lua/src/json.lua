@@ -1,7 +1,7 @@
 -- Module `dkjson`, also `json`: texts of JSON (RFC 8259) from tables and back, called as the module of that name.
 local type, tostring, tonumber, pairs, rawget, getmetatable, setmetatable, error, select, pcall =
   type, tostring, tonumber, pairs, rawget, getmetatable, setmetatable, error, select, pcall
-local find, sub, byte, char, format, gsub, rep, concat = string.find, string.sub, string.byte, string.char, string.format,
+local find, match, sub, byte, char, format, gsub, rep, concat = string.find, string.match, string.sub, string.byte, string.char, string.format,
   string.gsub, string.rep, table.concat
 local math_type, utf8_char = math.type, utf8.char
 
@@ -167,13 +167,19 @@ end
 
 local long = { b = '\b', f = '\f', n = '\n', r = '\r', t = '\t' }
 
+-- the number of four hexadecimal digits, if they are that
+local function hex(text, at)
+  local digits = match(text, '^%x%x%x%x', at)
+  return digits and tonumber(digits, 16)
+end
+
 local function read_escape(text, at)
   local c = sub(text, at, at)
   if c ~= 'u' then return long[c] or c, at + 1 end
-  local code = tonumber(sub(text, at + 1, at + 4), 16)
+  local code = hex(text, at + 1)
   if not code then return 'u', at + 1 end
   if code >= 0xd800 and code < 0xdc00 and sub(text, at + 5, at + 6) == '\\u' then
-    local low = tonumber(sub(text, at + 7, at + 10), 16)
+    local low = hex(text, at + 7)
     if low and low >= 0xdc00 and low < 0xe000 then
       return utf8_char(0x10000 + (code - 0xd800) * 0x400 + (low - 0xdc00)), at + 11
     end

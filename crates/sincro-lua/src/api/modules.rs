@@ -30,13 +30,8 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let environment: Function = lua.load(include_str!("../environment.lua")).set_name("=sincro").call(())?;
     let (script, guard) = (context.shared.script(context.index), context.guard.clone());
     let require = lua.create_function(move |lua, name: String| {
-        let (plain, version) = name.split_once('-').unwrap_or((&name, "1"));
-        if version.parse::<u32>().is_ok()
-            && let Some(module) = modules.get::<Option<Table>>(plain)?
-        {
-            return Ok(LuaValue::Table(module));
-        }
-        let loaded: Table = lua.globals().get::<Table>("package")?.get("loaded")?;
+        let package: Table = lua.globals().get("package")?;
+        let loaded: Table = package.get("loaded")?;
         let known: LuaValue = loaded.get(&*name)?;
         if !known.is_nil() {
             return Ok(known);
@@ -44,6 +39,17 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         let spellings = [format!("{name}.lua"), format!("{}.lua", name.replace('.', "/")), name.clone()];
         let file = spellings.iter().find_map(|name| script.files.iter().find(|(known, _)| known == name));
         let Some((file, source)) = file else {
+            if let Some(given) = package.get::<Table>("preload")?.get::<Option<Function>>(&*name)? {
+                let module: LuaValue = given.call(&*name)?;
+                loaded.set(&*name, &module)?;
+                return Ok(module);
+            }
+            let (plain, version) = name.split_once('-').unwrap_or((&name, "1"));
+            if version.parse::<u32>().is_ok()
+                && let Some(module) = modules.get::<Option<Table>>(plain)?
+            {
+                return Ok(LuaValue::Table(module));
+            }
             return Err(Error::RuntimeError(format!(
                 "there is no module '{name}': scripts have `sim`, `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
             )));
@@ -62,6 +68,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     })?;
     let package = lua.create_table()?;
     package.set("loaded", lua.create_table()?)?;
+    package.set("preload", lua.create_table()?)?;
     // where scripts add folders to: modules are found by their names in the scene alone
     package.set("path", "./?.lua")?;
     package.set("cpath", "")?;

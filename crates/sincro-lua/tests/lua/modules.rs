@@ -264,6 +264,21 @@ fn files_of_the_scene_are_modules() {
 }
 
 #[test]
+fn a_file_of_the_scene_goes_before_a_module_of_its_name() {
+    let said = with_files(
+        "function sysCall_init()
+            package.preload.given = function(name) return { name = name } end
+            print(require('json').of_scene, require('given').name, require('dkjson').of_scene)
+            print(require('dkjson').decode('\"\\\\u-001\"'))
+        end",
+        &[("json.lua", "return { of_scene = true }")],
+    )
+    .unwrap();
+    assert_eq!(said[0], "true\tgiven\tnil");
+    assert!(!said[1].contains("value out of range"), "{said:?}");
+}
+
+#[test]
 fn a_module_that_is_no_file_of_the_script_says_where_it_would_stand() {
     let code = "function sysCall_init() require 'missing' end";
     let why = with_files(code, &[("helper.lua", "return 1")]).unwrap_err();
