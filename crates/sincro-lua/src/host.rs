@@ -146,10 +146,11 @@ impl Scripts {
         }
         let n = self.machines.len();
         self.machines.iter().for_each(Machine::refill);
+        if phase == Phase::NonSimulation {
+            return self.call_while_stopped();
+        }
         if phase == Phase::Actuation {
             self.wait_for_main()?;
-        }
-        if matches!(phase, Phase::Actuation | Phase::NonSimulation) {
             (0..n).try_for_each(|k| self.with_machine(k, Machine::resume))?;
         }
         if phase == Phase::Sensing {
@@ -157,11 +158,14 @@ impl Scripts {
         }
         let called = (0..n).try_for_each(|k| self.with_machine(k, |m| m.call(phase)));
         match phase {
-            Phase::Open => self.is_open = called.is_ok(),
+            Phase::Open => {
+                self.is_open = called.is_ok();
+                self.machines.iter().for_each(Machine::resume_script);
+            }
             Phase::Cleanup => return called.and(self.end_run()),
             Phase::Close => {
-                self.is_open = false;
-                self.machines.clear();
+                (self.is_open, self.scene) = (false, None);
+                self.machines.drain(..).for_each(|machine| self.shared.end(machine.place()));
             }
             _ => {}
         }
@@ -172,6 +176,24 @@ impl Scripts {
             self.decide_contacts()?;
         }
         Ok(())
+    }
+
+    /// Calls the scripts that live while there is no run, each whether or not another one fails; one that has failed is
+    /// not called again before the next run. Returns the first failure.
+    fn call_while_stopped(&mut self) -> Result<(), ScriptError> {
+        let mut first = Ok(());
+        for k in 0..self.machines.len() {
+            if self.machines[k].has_failed {
+                continue;
+            }
+            let done = self.with_machine(k, |m| m.resume().and_then(|()| m.call(Phase::NonSimulation)));
+            if done.is_err() {
+                self.machines[k].has_failed = true;
+                self.machines[k].resume_script();
+            }
+            first = first.and(done);
+        }
+        first
     }
 
     /// Ends the child scripts; customization scripts stay if they live through all runs of a session.
@@ -281,7 +303,12 @@ impl Scripts {
             places.push(place);
         }
         for place in &new {
-            self.machines.push(Machine::new(&self.shared, *place)?);
+            let machine = Machine::new(&self.shared, *place).inspect_err(|_| {
+                // else they would be taken for known ones the next time
+                let has_one = |place: &usize| self.machines.iter().any(|m| m.place() == *place);
+                new.iter().filter(|place| !has_one(place)).for_each(|place| self.shared.end(*place));
+            });
+            self.machines.push(machine?);
         }
         self.machines.iter().for_each(|m| self.shared.set_state(m.place(), m.lua.weak()));
         let order = |m: &Machine| places.iter().position(|place| *place == m.place());

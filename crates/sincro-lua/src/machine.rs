@@ -56,6 +56,8 @@ pub(crate) struct Machine {
     thread: Option<Thread>,
     /// True if `sysCall_joint` has been called.
     is_joint_called: bool,
+    /// True if it has failed while there was no run.
+    pub has_failed: bool,
     /// True once `sysCall_init` has been called.
     is_initialized: bool,
 }
@@ -112,6 +114,7 @@ impl Machine {
             entries,
             thread: None,
             is_joint_called: false,
+            has_failed: false,
             is_initialized: false,
         })
     }
@@ -311,9 +314,10 @@ impl Machine {
         self.within(|_| function.call(()))
     }
 
-    /// Prepares for the next run of a session.
+    /// Prepares for the next run of a session: a limit that was reached counts no longer.
     pub fn forget_run(&mut self) {
-        self.is_joint_called = false;
+        (self.is_joint_called, self.has_failed) = (false, false);
+        self.resume_script();
     }
 
     /// Calls a function if the script has it.

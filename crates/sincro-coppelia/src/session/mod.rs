@@ -492,6 +492,7 @@ impl Session {
         match self.phase() {
             Phase::Running => return Ok(()),
             Phase::Paused => self.notify_scripts(host::Phase::Suspended)?,
+            // scripts whose `sysCall_init` failed live when the next run begins
             Phase::Stopped if self.has_failed => return Ok(()),
             Phase::Stopped => {
                 self.open_scripts()?;
@@ -523,7 +524,7 @@ impl Session {
     /// Calls the customization scripts while there is no run; a failure is logged.
     fn call_stopped(&mut self, phase: host::Phase) -> Result<(), ApiError> {
         ApiController::call_stopped(&mut self.lockstep, phase).map_err(|fault| {
-            self.has_failed = true;
+            self.has_failed |= phase == host::Phase::Open;
             let message = fault.to_string();
             self.registry().log(200, message.clone());
             ApiError(message)

@@ -154,3 +154,47 @@ fn a_run_has_the_same_trace_by_itself_and_in_each_run_of_a_session() {
         assert_eq!(session.take_finished().remove(0).simulated.trace, once.trace);
     }
 }
+
+#[test]
+fn one_that_reached_a_limit_does_not_hold_back_later_runs() {
+    let endless = "
+        function sysCall_nonSimulation() while true do end end
+        function sysCall_beforeSimulation() print('begins') end
+        function sysCall_actuation() if endless then while true do end end end
+        function turn() endless = not endless end";
+    let mut session = session(endless, "");
+    session.idle().unwrap_err();
+    for _ in 0..2 {
+        session.start().unwrap();
+        session.step().unwrap();
+        session.stop().unwrap();
+    }
+    let hinge = hinge(&mut session);
+    session.call_script(hinge, Some(Kind::Customization), "turn", &[]).unwrap();
+    session.start().unwrap();
+    session.step().unwrap_err();
+    session.call_script(hinge, Some(Kind::Customization), "turn", &[]).unwrap();
+    session.start().unwrap();
+    session.step().unwrap();
+    let begun = told(&mut session).iter().filter(|line| *line == "begins").count();
+    assert_eq!(begun, 4);
+}
+
+#[test]
+fn one_that_fails_while_stopped_leaves_the_others_alone() {
+    let scene = format!(
+        "{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nkind = \"customization\"\nfile = \"a.lua\"\n\
+         [[script]]\nobject = \"/hinge/arm\"\nkind = \"customization\"\nfile = \"b.lua\"\n"
+    );
+    let fails = "function sysCall_nonSimulation() error('out of order') end";
+    let lives = "function sysCall_nonSimulation() print('alive') end";
+    let files = [("scene.toml", &*scene), ("experiment.toml", EXPERIMENT), ("a.lua", fails), ("b.lua", lives)];
+    let mut session = folder(&files).session(with_scripts(), None);
+    assert!(session.idle().unwrap_err().0.contains("out of order"));
+    session.idle().unwrap();
+    assert_eq!(told(&mut session).iter().filter(|line| *line == "alive").count(), 2);
+    // each run is a new beginning
+    session.start().unwrap();
+    session.stop().unwrap();
+    assert!(session.idle().is_err());
+}

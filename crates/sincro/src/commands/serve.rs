@@ -22,7 +22,7 @@ use crate::{Exit, diagnostics};
 
 /// Interval at which interrupts and new clients are polled.
 const POLL_INTERVAL: Duration = Duration::from_millis(250);
-/// Time that a script has to return when the server is ended.
+/// Time that scripts have for what they do last when the server is ended; then they are stopped.
 const LAST_CALL: Duration = Duration::from_secs(5);
 /// Interval at which the speed is printed on a terminal.
 const TELL: Duration = Duration::from_secs(5);
@@ -160,8 +160,11 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         }
     }
     // a run that is on is ended and kept, unless a script that does not return holds it
-    sincro::abort_running_scripts();
-    match server.hub().try_enter(LAST_CALL) {
+    std::thread::spawn(|| {
+        std::thread::sleep(LAST_CALL);
+        sincro::abort_running_scripts();
+    });
+    match server.hub().try_enter(2 * LAST_CALL) {
         Some(mut guard) => drop(guard.act(Session::close)),
         None => {
             eprintln!("error: the simulation does not answer; the run that is on is lost");
