@@ -243,10 +243,10 @@ impl SimApi<'_> {
     /// There is no such body, or it is to touch others and has no contact in the scene.
     pub(crate) fn set_respondable(&mut self, handle: Handle, touches: bool) -> Result<(), ApiError> {
         self.mass(handle)?;
-        if !touches && self.can_touch(handle).is_err() {
-            return Ok(());
+        match self.can_touch(handle) {
+            Err(_) if !touches => return Ok(()),
+            able => able?,
         }
-        self.can_touch(handle)?;
         self.change(handle, "respondable", vec![f64::from(u8::from(touches))])?;
         if touches {
             self.registry.passing.remove(&handle);

@@ -71,7 +71,7 @@ impl ObjectRegistry {
 
     /// Returns true if an object has one of these flags, and its models let it.
     pub(super) fn takes_part(&self, handle: Handle, flags: i64) -> bool {
-        let own = self.flags.special.get(&handle).copied().unwrap_or(ALL);
+        let own = self.special_property(handle);
         let of_models = self.flags_of_models(handle);
         let is_cleared = CLEARING.iter().any(|(model, own)| of_models & model != 0 && own & flags != 0);
         own & flags != 0 && !is_cleared
@@ -84,8 +84,8 @@ impl ObjectRegistry {
 
     /// Returns true if vision sensors see an object: it is renderable, on a layer that is shown, and no model hides it.
     pub(super) fn is_seen(&self, handle: Handle) -> bool {
-        let layers = self.flags.layers.get(&handle).copied().unwrap_or(1);
-        let is_hidden = layers & SHOWN_LAYERS == 0 || self.flags_of_models(handle) & NOT_VISIBLE != 0;
+        let is_hidden =
+            self.visibility_layer(handle) & SHOWN_LAYERS == 0 || self.flags_of_models(handle) & NOT_VISIBLE != 0;
         !is_hidden && self.takes_part(handle, RENDERABLE)
     }
 

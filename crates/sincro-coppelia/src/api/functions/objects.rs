@@ -223,8 +223,7 @@ impl SimApi<'_> {
     }
 
     /// Handles of the objects with a type number of [`SimApi::type_of`]; −2 and 109 stand for all types. Parents come
-    /// before children, runtime objects last, free joints not at all; empty if there are
-    /// none.
+    /// before children, runtime objects last, free joints not at all; empty if there are none.
     #[must_use]
     pub fn objects_of_type(&self, wanted: i64) -> Vec<Handle> {
         let fits = |e: &&Entry| matches!(wanted, -2 | 109) || self.type_of(e) == wanted;
