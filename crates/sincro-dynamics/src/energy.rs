@@ -74,8 +74,8 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
         e.potential += gear.energy(gear.error(q, v).0);
     }
     for element in &model.spring_dampers {
-        let line = element.line(|link| (scratch.links[link].v, scratch.poses[link]));
-        e.potential += element.potential(line.length);
+        let at = element.length(q, v, |link| (scratch.links[link].v, scratch.poses[link]));
+        e.potential += element.potential(at.length);
     }
     for &link in &model.sprung {
         let link = &model.links[link];

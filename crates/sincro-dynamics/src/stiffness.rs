@@ -6,7 +6,7 @@
 //! = 0. Coupling between joints is neglected, and D changes with the pose.
 
 use crate::actuation::MotorMode;
-use crate::actuation::spring_damper::Line;
+use crate::actuation::spring_damper::{Line, PathLength};
 use crate::constraint::implicit_forces::ImplicitForces;
 use crate::model::Model;
 use crate::recursions::aba::AtRest;
@@ -23,7 +23,7 @@ pub const RK4_LIMIT: f64 = 2.785;
 pub enum StiffElement {
     /// Spring and damper of the degree of freedom of this index in v.
     Dof(usize),
-    /// Spring and damper between two points, by its index in [`Model::spring_dampers`].
+    /// Spring and damper between two points, or tendon, by its index in [`Model::spring_dampers`].
     SpringDamper(usize),
     /// Elastic gear, by its index in [`Model::elastic_gears`], taken as touching.
     ElasticGear(usize),
@@ -62,7 +62,7 @@ impl Stiffness {
                 format!("winding of the motor of `{}`", model.names().dof_name(model.windings[k].dof))
             }
             StiffElement::ElasticGear(k) => format!("coupling `{}`", model.names().elastic_gears[k]),
-            StiffElement::SpringDamper(k) => format!("spring_damper `{}`", model.names().spring_dampers[k]),
+            StiffElement::SpringDamper(k) => format!("spring or tendon `{}`", model.names().spring_dampers[k]),
         }
     }
 }
@@ -81,6 +81,7 @@ pub struct StiffnessProbe {
     at_rest: AtRest,
     forces: Option<Box<ImplicitForces<f64>>>,
     lines: Vec<Line<f64>>,
+    lengths: Vec<PathLength<f64>>,
 }
 
 impl StiffnessProbe {
@@ -91,7 +92,8 @@ impl StiffnessProbe {
             scratch: Scratch::new(model),
             at_rest: AtRest::new(model),
             forces: ImplicitForces::new(model),
-            lines: Vec::with_capacity(model.spring_dampers.len()),
+            lines: Vec::new(),
+            lengths: Vec::with_capacity(model.spring_dampers.len()),
         }
     }
 
@@ -114,26 +116,26 @@ impl StiffnessProbe {
     /// Fastest spring or damper between two points, with everything between them left free; leaves the factors of the
     /// mass matrix.
     fn stiffest_line(&mut self, model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
-        let Self { scratch, at_rest, forces, lines } = self;
+        let Self { scratch, at_rest, forces, lines, lengths } = self;
         let forces = forces.as_mut()?;
         kinematics::motions(model, &state.q, &state.v, at_rest.zeros(), scratch);
         lines.clear();
-        lines.extend(
-            model
-                .spring_dampers
-                .iter()
-                .map(|element| element.line(|link| (scratch.links[link].v, scratch.poses[link]))),
-        );
+        lengths.clear();
+        let motion = |link: usize| (scratch.links[link].v, scratch.poses[link]);
+        for element in &model.spring_dampers {
+            lines.extend(element.segments().iter().map(|segment| segment.line(motion)));
+            lengths.push(element.length(&state.q, &state.v, motion));
+        }
         at_rest.factor(model, &state.q, scratch);
         forces.place(model, lines, scratch, at_rest.zeros());
-        let n_rows = lines.len() + model.elastic_gears.len();
+        let n_rows = lengths.len() + model.elastic_gears.len();
         forces.factor(model, scratch, core::iter::repeat_n(1.0, n_rows), at_rest.zeros());
-        let each = model.spring_dampers.iter().zip(lines.iter()).zip(forces.inverse_inertias()).enumerate();
-        let each = each.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, ((element, line), inverse))| {
-            let (stiffness, damping) = element.implicit_terms(line.length, line.rate);
+        let each = model.spring_dampers.iter().zip(lengths.iter()).zip(forces.inverse_inertias()).enumerate();
+        let each = each.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, ((element, at), inverse))| {
+            let (stiffness, damping) = element.implicit_terms(at.length, at.rate);
             Stiffness::new(StiffElement::SpringDamper(k), stiffness, damping, 1.0 / inverse)
         });
-        let of_gears = model.elastic_gears.iter().zip(forces.inverse_inertias().skip(lines.len())).enumerate();
+        let of_gears = model.elastic_gears.iter().zip(forces.inverse_inertias().skip(lengths.len())).enumerate();
         let of_gears = of_gears.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, (gear, inverse))| {
             Stiffness::new(StiffElement::ElasticGear(k), gear.stiffness, gear.damping, 1.0 / inverse)
         });

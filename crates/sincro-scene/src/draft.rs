@@ -24,7 +24,7 @@ use crate::script::{Script, ScriptParser};
 use crate::tree::{KINDS, join};
 
 /// Lists of a scene file whose entries join objects, and go with them.
-const JOINING: [&str; 4] = ["closure", "coupling", "spring_damper", "contact_pair"];
+const JOINING: [&str; 5] = ["closure", "coupling", "spring_damper", "tendon", "contact_pair"];
 /// Lists of a scene file whose entries are objects of the tree.
 const OBJECTS: [&str; 8] = ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera"];
 /// Keys of a scene file that have done their work once it is written out.
@@ -116,7 +116,7 @@ impl SceneDraft {
         }
         // lengths that were measured at the start stay as they are
         let names = &scene.model.names().spring_dampers;
-        for item in draft.items.iter_mut().filter(|item| item.list == "spring_damper") {
+        for item in draft.items.iter_mut().filter(|item| matches!(&*item.list, "spring_damper" | "tendon")) {
             let path = format!("/{}", item.name());
             let own = names.iter().position(|name| *name == path).map(|k| scene.model.spring_dampers()[k].free_length);
             if let (Some(length), false) = (own, item.table.contains_key("free_length")) {
@@ -455,9 +455,8 @@ impl SceneDraft {
         }
         let frame = Map::from_iter([("name".to_owned(), name.into()), ("parent".to_owned(), "/".into())]);
         other.add("frame", frame);
-        for item in
-            other.items.iter_mut().filter(|item| matches!(&*item.list, "closure" | "coupling" | "spring_damper"))
-        {
+        let is_flat = |list: &str| matches!(list, "closure" | "coupling" | "spring_damper" | "tendon");
+        for item in other.items.iter_mut().filter(|item| is_flat(&item.list)) {
             let flat = format!("{name}-{}", item.name());
             item.table.insert("name".into(), flat.into());
         }

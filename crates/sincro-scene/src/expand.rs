@@ -28,7 +28,7 @@ const MAX_DEPTH: usize = 16;
 /// Most objects that instances inside instances may come to.
 const MAX_OBJECTS: usize = 100_000;
 /// Lists of a scene file that an instance brings along.
-const LISTS: [&str; 13] = [
+const LISTS: [&str; 14] = [
     "joint",
     "body",
     "frame",
@@ -40,6 +40,7 @@ const LISTS: [&str; 13] = [
     "closure",
     "coupling",
     "spring_damper",
+    "tendon",
     "contact_pair",
     "script",
 ];
@@ -392,7 +393,7 @@ fn prefix(document: &mut Document, path: &str) {
         let n = document.get(&format!("/{list}")).and_then(Value::as_array).map_or(0, Vec::len);
         for k in 0..n {
             let pointer = format!("/{list}/{k}");
-            if matches!(list, "closure" | "coupling" | "spring_damper") {
+            if matches!(list, "closure" | "coupling" | "spring_damper" | "tendon") {
                 // their path is `/` and the name, wherever they stand
                 let own = document.text(&format!("{pointer}/name")).unwrap_or("").to_owned();
                 let flat = path.trim_start_matches('/').replace('/', "-");

@@ -20,7 +20,7 @@ use crate::document::Document;
 use crate::tree::{self, join};
 
 /// Keys of a scene whose values are paths of objects.
-const PATH_KEYS: [&str; 7] = ["parent", "object", "joint", "between", "joints", "with", "frame"];
+const PATH_KEYS: [&str; 8] = ["parent", "object", "joint", "between", "through", "joints", "with", "frame"];
 
 /// Result of looking for a short name.
 #[derive(Clone, Debug, PartialEq, Eq)]

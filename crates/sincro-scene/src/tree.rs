@@ -5,8 +5,20 @@ use serde_json::Value;
 use crate::document::Document;
 
 /// Keys of the lists of a scene file that hold objects, in the order in which they are read.
-pub const KINDS: [&str; 11] =
-    ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera", "closure", "coupling", "spring_damper"];
+pub const KINDS: [&str; 12] = [
+    "joint",
+    "body",
+    "frame",
+    "force",
+    "rotor",
+    "drag",
+    "sensor",
+    "camera",
+    "closure",
+    "coupling",
+    "spring_damper",
+    "tendon",
+];
 
 /// Object of a scene file by path and place, before it is validated; found by [`raw_objects`].
 #[derive(Clone, Debug)]

@@ -53,6 +53,41 @@ pub enum NonlinearLaw {
     Table(ForceTable),
     /// Force as a formula of deflection and rate ([`FORMULA_NAMES`]).
     Formula(Expression),
+    /// Sum of forces that act outside of ranges of the deflection.
+    Ranges(Vec<FreeRange>),
+}
+
+/// Range of the deflection without force: beyond its ends a spring and damper pushes back, and never pulls on. Used in
+/// [`NonlinearLaw::Ranges`] for the slack and the limits of tendons.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeRange {
+    /// Smallest deflection without force `[m]`; −∞ for none.
+    pub low: f64,
+    /// Largest deflection without force `[m]`; ∞ for none.
+    pub high: f64,
+    /// Stiffness beyond them `[N/m]`.
+    pub stiffness: f64,
+    /// Damping beyond them `[N·s/m]`.
+    pub damping: f64,
+}
+
+impl FreeRange {
+    /// Force at deflection `x` and rate `v`: −k (x − high) − c v above, −k (x − low) − c v below, as far as it points
+    /// back into the range.
+    #[inline]
+    fn force<R: Real>(&self, x: R, v: R) -> R {
+        let (zero, k, c) = (R::zero(), R::splat(self.stiffness), R::splat(self.damping));
+        let (low, high) = (R::splat(self.low), R::splat(self.high));
+        let above = zero.min(-(k * (x - high)) - c * v);
+        let below = zero.max(-(k * (x - low)) - c * v);
+        high.if_less(x, above, x.if_less(low, below, zero))
+    }
+
+    /// Energy stored at deflection `x` `[J]`.
+    fn energy(&self, x: f64) -> f64 {
+        let beyond = (x - self.high).max(self.low - x).max(0.0);
+        0.5 * self.stiffness * beyond * beyond
+    }
 }
 
 impl NonlinearLaw {
@@ -82,15 +117,17 @@ impl NonlinearLaw {
     pub fn force<R: Real>(&self, x: R, v: R) -> R {
         match self {
             Self::Table(table) => x.map(|x| table.value(x)),
+            Self::Ranges(ranges) => ranges.iter().fold(R::zero(), |sum, range| sum + range.force(x, v)),
             Self::Formula(formula) => formula.eval_in(&[x, v], &mut [R::zero(); MAX_STACK]),
         }
     }
 
     /// Potential energy −∫₀ˣ N(s, 0) ds `[J]` at deflection `x` `[m]` or `[rad]`, zero at none; of a formula by
-    /// quadrature.
+    /// quadrature, of ranges zero within them.
     pub fn potential<R: Real>(&self, x: R) -> R {
         let of = |x: f64| match self {
             Self::Table(table) => table.integral(0.0) - table.integral(x),
+            Self::Ranges(ranges) => ranges.iter().map(|range| range.energy(x)).sum(),
             Self::Formula(_) => -quadrature(&|s| self.force(s, 0.0), 0.0, x),
         };
         x.map(|x| (of(x), -self.force(x, 0.0)))
@@ -246,6 +283,24 @@ mod tests {
             assert!((law.potential(x) - energy).abs() < 1e-15, "{x}: {}", law.potential(x));
         }
         assert_eq!(law.implicit_terms(-0.5, 0.0), (4.0, 0.0));
+    }
+
+    #[test]
+    fn beyond_a_range_a_spring_and_damper_pushes_back_and_never_pulls_on() {
+        let range = FreeRange { low: -0.1, high: 0.3, stiffness: 100.0, damping: 4.0 };
+        let nonlinear = Some(Arc::new(NonlinearLaw::Ranges(vec![range])));
+        let law = ForceLaw { stiffness: 0.0, damping: 0.0, preload: 0.0, nonlinear };
+        for (x, v, force) in [(0.0, 9.0, 0.0), (0.5, 0.0, -20.0), (0.5, 2.0, -28.0), (-0.2, -1.0, 14.0)] {
+            assert!((law.force(x, v) - force).abs() < 1e-12, "{x}, {v}");
+        }
+        // it leaves faster than the spring follows
+        assert_eq!((law.force(0.31, -5.0), law.force(-0.11, 5.0)), (0.0, 0.0));
+        assert!((law.potential(0.5) - 2.0).abs() < 1e-14 && (law.potential(-0.2) - 0.5).abs() < 1e-14);
+        assert_eq!((law.potential(0.2), law.implicit_terms(0.2, 1.0)), (0.0, (0.0, 0.0)));
+        let (k, c) = law.implicit_terms(0.5, 2.0);
+        assert!((k - 100.0).abs() < 1e-12 && (c - 4.0).abs() < 1e-12);
+        let open = FreeRange { low: f64::NEG_INFINITY, ..range };
+        assert_eq!((open.force(-1e9, -3.0), open.energy(-1e9)), (0.0, 0.0));
     }
 
     #[test]

@@ -1,17 +1,18 @@
-//! Spring, damper and actuator between two points: a force along the line that joins a point of one link and a point of
-//! another, or of the world.
+//! Spring, damper and actuator between two points, and tendons: a force along a path, which is the line that joins a
+//! point of one link and a point of another or of the world, a polyline through several points (a spatial tendon), or
+//! a linear combination of joint coordinates (a fixed tendon).
 //!
-//! With the length ℓ of the line, its rate ℓ̇ and the free length ℓ₀ the force is F(ℓ − ℓ₀, ℓ̇) of a [`ForceLaw`] plus
-//! the command of the actuator; positive forces push the points apart. Where the points coincide the line has no
-//! direction, and the force is zero.
+//! With the length ℓ of the path, its rate ℓ̇ and the free length ℓ₀ the force is F(ℓ − ℓ₀, ℓ̇) of a [`ForceLaw`] plus
+//! the command of the actuator; positive forces make the path longer. The generalized force is F·∂ℓ/∂q. Where two
+//! points coincide their line has no direction, and no force.
 //!
-//! Source: key `haug1989`, translational spring–damper–actuator.
+//! Sources: key `haug1989`, translational spring–damper–actuator; key `mjcf`, fixed and spatial tendons.
 //!
 //! | symbol | meaning | frame |
 //! |---|---|---|
-//! | `p`, `v` | the two points, their velocities | world |
+//! | `p`, `v` | two points of the path, their velocities | world |
 //! | `n` | unit vector from the first to the second | world |
-//! | ℓ, ℓ̇ | distance of the points, its rate n·(v₂ − v₁) | |
+//! | ℓ, ℓ̇ | Σ over the lines of distance and its rate n·(v₂ − v₁), or Σ cᵢ qᵢ and Σ cᵢ q̇ᵢ | |
 
 use sincro_integrate::quadrature;
 use sincro_math::Real;
@@ -28,32 +29,68 @@ pub struct LinkPoint<R> {
     pub position: Vec3<R>,
 }
 
-/// Actuator of a [`SpringDamper`]: adds its command, limited, to the force along the line.
+/// Actuator of a [`SpringDamper`]: adds its command, limited, to the force along the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineActuator<R> {
-    /// Index in the model's commands of its command, a force `[N]`; positive pushes the points apart.
+    /// Index in the model's commands of its command, a force `[N]`; positive makes the path longer.
     pub command: usize,
     /// Largest magnitude of the force `[N]`; infinite for none.
     pub max_force: R,
 }
 
-/// Translational spring, damper and actuator along the line between two points; from
+/// Piece of a path between two neighbouring points of it: a straight line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment<R> {
+    /// The two points, in the order of the path.
+    pub ends: [LinkPoint<R>; 2],
+}
+
+/// Share of a joint coordinate in the length of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointShare<R> {
+    /// Degree of freedom.
+    pub dof: usize,
+    /// Index of its coordinate in q.
+    pub coordinate: usize,
+    /// Length for each unit of the coordinate `[m/rad]`, or `[1]` of a prismatic joint.
+    pub coefficient: R,
+}
+
+/// Path along which a [`SpringDamper`] acts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Path<R> {
+    /// Line through two points or more, without friction at those between its ends: one segment or more.
+    Lines(Vec<Segment<R>>),
+    /// Linear combination of coordinates of joints with one degree of freedom.
+    Joints(Vec<JointShare<R>>),
+}
+
+/// Length of a [`Path`] and its rate at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PathLength<R> {
+    /// Length ℓ `[m]`.
+    pub length: R,
+    /// Rate of the length ℓ̇ `[m/s]`.
+    pub rate: R,
+}
+
+/// Spring, damper and actuator along a path: between two points, or a tendon; from
 /// [`SpringDamperSpec`](crate::model::SpringDamperSpec).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringDamper<R> {
-    /// Two end points of the line.
-    pub ends: [LinkPoint<R>; 2],
+    /// Path whose length the force law takes.
+    pub path: Path<R>,
     /// Length at which the deflection is zero `[m]`.
     pub free_length: R,
-    /// Force `[N]` over deflection (length less free length) `[m]` and rate `[m/s]`; positive pushes the points apart.
+    /// Force `[N]` over deflection (length less free length) `[m]` and rate `[m/s]`; positive makes the path longer.
     pub law: ForceLaw<R>,
     /// True for a rope: it pulls, when longer than its free length, and never pushes.
     pub tension_only: bool,
-    /// Actuator along the line; `None` without.
+    /// Actuator along the path; `None` without.
     pub actuator: Option<LineActuator<R>>,
 }
 
-/// Line of a [`SpringDamper`] at one instant, in world axes; from [`SpringDamper::line`].
+/// Line of a [`Segment`] at one instant, in world axes; from [`Segment::line`].
 #[derive(Clone, Copy, Debug)]
 pub struct Line<R> {
     /// Positions of the two end points `[m]`.
@@ -68,7 +105,7 @@ pub struct Line<R> {
     pub rate: R,
 }
 
-/// Forces of a [`SpringDamper`] along its line at one instant; positive ones push the points apart.
+/// Forces of a [`SpringDamper`] along its path at one instant; positive ones make it longer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LineForces<R> {
     /// Elastic force `[N]`: minus the derivative of the potential energy.
@@ -87,7 +124,7 @@ impl<R: Real> LineForces<R> {
     }
 }
 
-impl<R: Real> SpringDamper<R> {
+impl<R: Real> Segment<R> {
     /// Computes the line at one instant. `at` gives, for the index of a link, its twist about its origin in link axes
     /// (`[rad/s]`, `[m/s]`) and its pose in the world `[m]`.
     #[inline(always)]
@@ -108,7 +145,79 @@ impl<R: Real> SpringDamper<R> {
         Line { points: [p1, p2], velocities: [v1, v2], direction, length, rate: direction.dot(v2 - v1) }
     }
 
-    /// Forces along the line `[N]` at its `length` `[m]` and `rate` of the length `[m/s]`; `commands` are all commands
+    /// Wrench of a `force` along the line `[N]` on the link of end `k` (0 or 1): moment about the link's origin `[N·m]`
+    /// and force `[N]`, in link axes. `x_wl` is the pose of that link in the world `[m]`.
+    #[inline(always)]
+    pub fn wrench(&self, k: usize, line: &Line<R>, force: R, x_wl: &Pose<R>) -> Force<R> {
+        let along = line.direction.scale(if k == 0 { -force } else { force });
+        let lin = x_wl.rot.tr_mul_vec(along);
+        Force { ang: self.ends[k].position.cross(lin), lin }
+    }
+}
+
+impl<R: Real> PathLength<R> {
+    /// Sum over the lines of a path.
+    ///
+    /// # Panics
+    ///
+    /// If there is no line.
+    #[inline(always)]
+    pub fn of_lines(lines: &[Line<R>]) -> Self {
+        let mut sum = Self { length: lines[0].length, rate: lines[0].rate };
+        for line in &lines[1..] {
+            sum.length += line.length;
+            sum.rate += line.rate;
+        }
+        sum
+    }
+
+    /// Linear combination of the coordinates `q` and velocities `v` of a model.
+    #[inline(always)]
+    pub fn of_joints(shares: &[JointShare<R>], q: &[R], v: &[R]) -> Self {
+        let mut sum = Self { length: R::zero(), rate: R::zero() };
+        for share in shares {
+            sum.length += share.coefficient * q[share.coordinate];
+            sum.rate += share.coefficient * v[share.dof];
+        }
+        sum
+    }
+}
+
+impl<R: Real> SpringDamper<R> {
+    /// Straight lines of its path; none of a linear combination of joint coordinates.
+    #[inline(always)]
+    pub fn segments(&self) -> &[Segment<R>] {
+        match &self.path {
+            Path::Lines(segments) => segments,
+            Path::Joints(_) => &[],
+        }
+    }
+
+    /// Shares of joint coordinates in its path; none of one through points.
+    #[inline(always)]
+    pub fn shares(&self) -> &[JointShare<R>] {
+        match &self.path {
+            Path::Lines(_) => &[],
+            Path::Joints(shares) => shares,
+        }
+    }
+
+    /// Length of the path and its rate at the coordinates `q` (n_q) and velocities `v` (n_v). `at` gives, for the index
+    /// of a link, its twist about its origin in link axes (`[rad/s]`, `[m/s]`) and its pose in the world `[m]`.
+    pub fn length(&self, q: &[R], v: &[R], at: impl Fn(usize) -> (Motion<R>, Pose<R>)) -> PathLength<R> {
+        match &self.path {
+            Path::Joints(shares) => PathLength::of_joints(shares, q, v),
+            Path::Lines(segments) => {
+                let first = PathLength::of_lines(&[segments[0].line(&at)]);
+                segments[1..].iter().fold(first, |sum, segment| {
+                    let line = segment.line(&at);
+                    PathLength { length: sum.length + line.length, rate: sum.rate + line.rate }
+                })
+            }
+        }
+    }
+
+    /// Forces along the path `[N]` at its `length` `[m]` and `rate` of the length `[m/s]`; `commands` are all commands
     /// of the model (n_commands), of which an actuator reads its own.
     #[inline(always)]
     pub fn forces(&self, length: R, rate: R, commands: &[R]) -> LineForces<R> {
@@ -122,7 +231,7 @@ impl<R: Real> SpringDamper<R> {
         LineForces { elastic: pulls(elastic), damping: pulls(both) - pulls(elastic), actuator }
     }
 
-    /// Potential energy `[J]` at a `length` of the line `[m]`, zero at the free length.
+    /// Potential energy `[J]` at a `length` of the path `[m]`, zero at the free length.
     pub fn potential(&self, length: R) -> R {
         let x = length - self.free_length;
         if !self.tension_only {
@@ -144,7 +253,7 @@ impl<R: Real> SpringDamper<R> {
     }
 
     /// Stiffness `[N/m]` and damping `[N·s/m]` that a linearly implicit step evaluates at the new state, at a `length`
-    /// of the line `[m]` and its `rate` `[m/s]`; zero for a slack rope.
+    /// of the path `[m]` and its `rate` `[m/s]`; zero for a slack rope.
     #[inline(always)]
     pub fn implicit_terms(&self, length: R, rate: R) -> (R, R) {
         let (x, zero) = (length - self.free_length, R::zero());
@@ -154,14 +263,5 @@ impl<R: Real> SpringDamper<R> {
         }
         let is_taut = |y: R| zero.if_less(x, self.law.force(x, rate).if_less(zero, y, zero), zero);
         (is_taut(k), is_taut(c))
-    }
-
-    /// Wrench of a `force` along the line `[N]` on the link of end `k` (0 or 1): moment about the link's origin `[N·m]`
-    /// and force `[N]`, in link axes. `x_wl` is the pose of that link in the world `[m]`.
-    #[inline(always)]
-    pub fn wrench(&self, k: usize, line: &Line<R>, force: R, x_wl: &Pose<R>) -> Force<R> {
-        let along = line.direction.scale(if k == 0 { -force } else { force });
-        let lin = x_wl.rot.tr_mul_vec(along);
-        Force { ang: self.ends[k].position.cross(lin), lin }
     }
 }

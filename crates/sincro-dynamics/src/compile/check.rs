@@ -3,7 +3,9 @@
 use crate::actuation::{DriveKind, MotorMode, SpringDamper, Winding};
 use crate::aero::rotor::RotorLaw;
 use crate::joint::{Friction, JointKind};
-use crate::model::builder::{DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec};
+use crate::model::builder::{
+    DragSpec, JointSpec, ModelBuilder, Node, NodeId, NodeKind, PathSpec, RotorDrive, RotorSpec,
+};
 use crate::model::diagnostic::{Diagnostic, Severity};
 use crate::model::{MassProperties, Model};
 use crate::spatial::{Mat3, Vec3};
@@ -42,9 +44,22 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
         }
     }
     for (name, spec) in &builder.spring_dampers {
-        for (_, message, help) in spec.problems(name) {
+        for (_, message, help) in spec.problems(&format!("spring_damper or tendon `{name}`")) {
             let (severity, help) = (Severity::Error, help.into());
             found.0.push(Diagnostic { severity, node: None, field: "spring_damper", message, help });
+        }
+    }
+    for (name, spec) in &builder.spring_dampers {
+        let PathSpec::Joints(joints) = &spec.path else { continue };
+        let has_one = |node: &NodeId| {
+            let NodeKind::Joint(joint) = &builder.nodes[node.0 as usize].kind else { return false };
+            matches!(joint.kind, JointKind::Revolute { .. } | JointKind::Prismatic { .. } | JointKind::Screw { .. })
+        };
+        if let Some((node, _)) = joints.iter().find(|(node, _)| !has_one(node)) {
+            let message = format!("tendon `{name}` takes a coordinate of `{}`", builder.nodes[node.0 as usize].name);
+            let help = "give joints with one degree of freedom".into();
+            let (severity, node) = (Severity::Error, Some(*node));
+            found.0.push(Diagnostic { severity, node, field: "joints", message, help });
         }
     }
     for (name, spec) in &builder.elastic_gears {
@@ -385,16 +400,21 @@ fn carries_a_body(builder: &ModelBuilder, joint: NodeId) -> bool {
     })
 }
 
-/// Springs and dampers between points of one body.
+/// Springs and dampers between points of one body, whose length never changes.
 pub(super) fn idle_lines(model: &Model<f64>) -> Vec<Diagnostic> {
-    let is_idle = |(element, _): &(&SpringDamper<f64>, &String)| element.ends[0].link == element.ends[1].link;
+    let is_idle = |(element, _): &(&SpringDamper<f64>, &String)| {
+        element.shares().is_empty() && element.segments().iter().all(|s| s.ends[0].link == s.ends[1].link)
+    };
     let lines = model.spring_dampers.iter().zip(&model.names.spring_dampers);
-    let diagnostic = |(_, name): (&SpringDamper<f64>, &String)| Diagnostic {
-        severity: Severity::Error,
-        node: None,
-        field: "spring_damper",
-        message: format!("both ends of spring_damper `{name}` are fixed in one another: it moves nothing"),
-        help: "join points that move against each other".into(),
+    let diagnostic = |(element, name): (&SpringDamper<f64>, &String)| {
+        let what = if element.segments().len() == 1 { "both ends of spring_damper" } else { "all points of tendon" };
+        Diagnostic {
+            severity: Severity::Error,
+            node: None,
+            field: "spring_damper",
+            message: format!("{what} `{name}` are fixed in one another: it moves nothing"),
+            help: "join points that move against each other".into(),
+        }
     };
     lines.filter(is_idle).map(diagnostic).collect()
 }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use sincro_math::scalar_field::ScalarField;
 
 use crate::actuation::spring::NonlinearSpring;
-use crate::actuation::spring_damper::{LineActuator, LinkPoint};
+use crate::actuation::spring_damper::{JointShare, LineActuator, LinkPoint, Path, Segment};
 use crate::actuation::{AppliedTorque, AppliedWrench, ElasticGear, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedSource};
@@ -18,7 +18,9 @@ use crate::contact::{self, Collider, PairLaw};
 use crate::ids::{BodyId, JointId, MotorId};
 use crate::joint::{Dof, Friction, JointKind, Link, Shift, StageKind, WORLD};
 use crate::model::Attached;
-use crate::model::builder::{JointSpec, ModelBuilder, Node, NodeId, NodeKind, RotorDrive, RotorSpec, SpringDamperSpec};
+use crate::model::builder::{
+    JointSpec, ModelBuilder, Node, NodeId, NodeKind, PathSpec, RotorDrive, RotorSpec, SpringDamperSpec,
+};
 use crate::model::diagnostic::{BuildError, Diagnostic, Severity};
 use crate::model::names::{FrameInfo, JointInfo, Names};
 use crate::model::parameters::link_inertia;
@@ -419,18 +421,31 @@ fn spring_dampers(builder: &ModelBuilder, carriers: &[Carrier], model: &Model<f6
     let zero = crate::state::State::new(model).q;
     let mut scratch = crate::scratch::Scratch::new(model);
     crate::recursions::kinematics::poses(model, &zero, &mut scratch);
+    let point = |(node, position): &(NodeId, [f64; 3])| {
+        let at = carriers[node.0 as usize];
+        LinkPoint { link: at.attached().link, position: at.pose.point(Vec3(*position)) }
+    };
+    let place = |end: LinkPoint<f64>| match end.link {
+        None => end.position,
+        Some(link) => scratch.poses[link].point(end.position),
+    };
+    let share = |(node, coefficient): &(NodeId, f64)| {
+        let joint = model.names.joints.iter().find(|j| j.node == *node).expect("a tendon is of joints of the model");
+        JointShare { dof: joint.v_idx, coordinate: joint.q_idx, coefficient: *coefficient }
+    };
     let element = |spec: &SpringDamperSpec| {
-        let ends: [LinkPoint<f64>; 2] = std::array::from_fn(|k| {
-            let at = carriers[spec.ends[k].0 as usize];
-            LinkPoint { link: at.attached().link, position: at.pose.point(Vec3(spec.points[k])) }
-        });
-        let [one, two] = ends.map(|end| match end.link {
-            None => end.position,
-            Some(link) => scratch.poses[link].point(end.position),
-        });
+        let (path, length) = match &spec.path {
+            PathSpec::Joints(joints) => (Path::Joints(joints.iter().map(share).collect()), 0.0),
+            PathSpec::Points(points) => {
+                let segment = |pair: &[(NodeId, [f64; 3])]| Segment { ends: [point(&pair[0]), point(&pair[1])] };
+                let segments: Vec<_> = points.windows(2).map(segment).collect();
+                let length = segments.iter().map(|s| (place(s.ends[1]) - place(s.ends[0])).norm()).sum();
+                (Path::Lines(segments), length)
+            }
+        };
         SpringDamper {
-            ends,
-            free_length: spec.free_length.unwrap_or((two - one).norm()),
+            path,
+            free_length: spec.free_length.unwrap_or(length),
             law: spec.law.clone(),
             tension_only: spec.tension_only,
             actuator: spec.actuator.map(|max_force| LineActuator { command: 0, max_force }),

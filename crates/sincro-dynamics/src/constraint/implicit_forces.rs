@@ -1,10 +1,11 @@
-//! Forces along lines between two points at the new state of a linearly implicit step.
+//! Forces along paths, between two points or of tendons, at the new state of a linearly implicit step.
 //!
-//! A spring and damper with stiffness k and damping c along the line with Jacobian j (one row, ℓ̇ = j v) gives at the
+//! A spring and damper with stiffness k and damping c along the path with Jacobian j (one row, ℓ̇ = j v) gives at the
 //! end of a step h the force F(x + h ℓ̇⁺, ℓ̇⁺) ≈ F + h (−k) ℓ̇ − κ ℓ̈, κ = h (c + h k), ℓ̈ = j v̇ + j̇ v. The last term
-//! couples all degrees of freedom between the two points (of an elastic gear, whose row is ẋ = q̇₂ − r q̇₁, its two);
-//! joint springs are on the diagonal of the mass matrix only.
-//! Forces λ = −κ ℓ̈ of all m lines solve, with the rows scaled by √κ,
+//! couples all degrees of freedom between the points (of an elastic gear, whose row is ẋ = q̇₂ − r q̇₁, its two); joint
+//! springs are on the diagonal of the mass matrix only. A path of several lines has the sum of their rows, a linear
+//! combination of joint coordinates that of rows of two joints each.
+//! Forces λ = −κ ℓ̈ of all m paths solve, with the rows scaled by √κ,
 //!
 //! (1 + Ĵ M⁻¹ Ĵᵀ) λ̂ = −(Ĵ v̇₀ + Ĵ˙ v), λ = √κ λ̂,
 //!
@@ -13,8 +14,9 @@
 //!
 //! | symbol here | meaning | shape |
 //! |---|---|---|
-//! | `rows`, `scale` | rows ℓ̇ = j v, √κ | m |
-//! | `factors` | Ĵ M^(−1/2), one column a line | `n_v` × m |
+//! | `rows`, `ends` | parts of the rows ℓ̇ = j v; where those of each path end | m |
+//! | `scale` | √κ | m |
+//! | `factors` | Ĵ M^(−1/2), one column a path | `n_v` × m |
 //! | `lower` | Cholesky factor L of 1 + Ĵ M⁻¹ Ĵᵀ | m × m |
 //! | `cross` | L⁻¹ Ĵ M⁻¹ J_cᵀ for constraint rows J_c | m × `n_rows` |
 //! | `rates` | L⁻¹ (Ĵ v̇₀ + Ĵ˙ v) | m |
@@ -23,18 +25,19 @@ use sincro_math::Real;
 
 use super::delassus::{Delassus, InverseMass};
 use super::row::{Motions, Row, force_at, force_rate};
-use crate::actuation::spring_damper::{Line, SpringDamper};
+use crate::actuation::spring_damper::{JointShare, Line, PathLength, Segment};
 use crate::joint::WORLD;
 use crate::model::Model;
 use crate::scratch::Scratch;
 
-/// Forces of all lines at the new state, with working memory.
+/// Forces along all paths at the new state, with working memory.
 #[derive(Clone, Debug)]
 pub(crate) struct ImplicitForces<R> {
     motions: Motions<R>,
     delassus: Delassus<R>,
     inverse_mass: InverseMass<R>,
     rows: Vec<Row<R>>,
+    ends: Vec<usize>,
     scale: Vec<R>,
     factors: Vec<R>,
     lower: Vec<R>,
@@ -43,20 +46,27 @@ pub(crate) struct ImplicitForces<R> {
     lambda: Vec<R>,
     torque: Vec<R>,
     row: Vec<R>,
+    part: Vec<R>,
     change: Vec<R>,
 }
 
 /// Row ℓ̇ = j v of a line: the force +1 on its second link, −1 on its first.
-fn row_of<R: Real>(element: &SpringDamper<R>, line: &Line<R>) -> Row<R> {
-    let [one, two] = element.ends.map(|end| end.link.map_or(WORLD, |link| link as u32));
+fn row_of<R: Real>(segment: &Segment<R>, line: &Line<R>) -> Row<R> {
+    let [one, two] = segment.ends.map(|end| end.link.map_or(WORLD, |link| link as u32));
     let (n, p) = (line.direction, line.points[1]);
     let across = line.velocities[1] - line.velocities[0] - n.scale(line.rate);
     let n_dot = across.scale(R::one() / line.length);
     Row::between(two, one, force_at(p, n), force_rate(p, n, line.velocities[1], n_dot))
 }
 
+/// Row ℓ̇ = Σ cᵢ q̇ᵢ of two joints of a linear combination, or of its last one.
+fn row_of_shares<R: Real>(shares: &[JointShare<R>]) -> Row<R> {
+    let of = |k: usize| shares.get(k).map_or((WORLD, R::zero()), |share| (share.dof as u32, share.coefficient));
+    Row::of_joints([of(0), of(1)])
+}
+
 impl<R: Real> ImplicitForces<R> {
-    /// Working memory for the model; none if it has no springs and dampers between points and no elastic gears.
+    /// Working memory for the model; none if it has no springs and dampers along paths and no elastic gears.
     pub fn new(model: &Model<R>) -> Option<Box<Self>> {
         let m = model.spring_dampers.len() + model.elastic_gears.len();
         if m == 0 {
@@ -70,6 +80,7 @@ impl<R: Real> ImplicitForces<R> {
             delassus,
             inverse_mass: InverseMass::new(model),
             rows: Vec::with_capacity(m),
+            ends: Vec::with_capacity(m),
             scale: vec![o; m],
             factors: vec![o; n * m],
             lower: vec![o; m * m],
@@ -78,31 +89,44 @@ impl<R: Real> ImplicitForces<R> {
             lambda: vec![o; m],
             torque: vec![o; n],
             row: vec![o; n],
+            part: vec![o; n],
             change: vec![o; n],
         }))
     }
 
     /// Bytes on the heap of the matrices.
     pub fn heap_bytes(&self) -> usize {
-        size_of_val(&*self.factors) + size_of_val(&*self.lower) + size_of_val(&*self.row) * 3
+        size_of_val(&*self.factors) + size_of_val(&*self.lower) + size_of_val(&*self.row) * 4
     }
 
-    /// Rows of the lines at joint rates `v`, at the poses of `scratch`.
+    /// Rows of the paths, with all their lines one after the other, at joint rates `v`, at the poses of `scratch`.
     pub fn place(&mut self, model: &Model<R>, lines: &[Line<R>], scratch: &Scratch<R>, v: &[R]) {
         self.motions.place(model, scratch, v);
         self.rows.clear();
-        self.rows.extend(model.spring_dampers.iter().zip(lines).map(|(element, line)| row_of(element, line)));
-        let rows = model.elastic_gears.iter().map(|gear| {
+        self.ends.clear();
+        let mut lines = lines.iter();
+        for element in &model.spring_dampers {
+            self.rows.extend(element.segments().iter().zip(&mut lines).map(|(segment, line)| row_of(segment, line)));
+            self.rows.extend(element.shares().chunks(2).map(row_of_shares));
+            self.ends.push(self.rows.len());
+        }
+        for gear in &model.elastic_gears {
             let [one, two] = gear.dofs.map(|dof| dof as u32);
-            Row::of_joints([(two, R::one()), (one, -gear.ratio)])
-        });
-        self.rows.extend(rows);
+            self.rows.push(Row::of_joints([(two, R::one()), (one, -gear.ratio)]));
+            self.ends.push(self.rows.len());
+        }
+    }
+
+    /// Parts of the row of path `i`.
+    fn parts(&self, i: usize) -> &[Row<R>] {
+        let first = if i == 0 { 0 } else { self.ends[i - 1] };
+        &self.rows[first..self.ends[i]]
     }
 
     /// Factors of the system for the coefficients `kappa` [N·s²/m], after forward dynamics gave the accelerations
     /// `v_dot` without these forces.
     pub fn factor(&mut self, model: &Model<R>, scratch: &Scratch<R>, kappa: impl Iterator<Item = R>, v_dot: &[R]) {
-        let m = self.rows.len();
+        let m = self.ends.len();
         for (scale, kappa) in self.scale.iter_mut().zip(kappa) {
             // a root has no slope at zero
             *scale = kappa.max(R::splat(f64::MIN_POSITIVE)).sqrt();
@@ -110,12 +134,18 @@ impl<R: Real> ImplicitForces<R> {
         self.motions.accelerate(model, scratch);
         self.delassus.place(model, scratch);
         self.factors.fill(R::zero());
-        for (i, (row, scale)) in self.rows.iter().zip(&self.scale).enumerate() {
+        let mut first = 0;
+        for (i, (&end, scale)) in self.ends.iter().zip(&self.scale).enumerate() {
             let factors = &mut self.factors;
-            self.delassus.factor_row(model, self.motions.columns(), row, |k, value| {
-                factors[k as usize * m + i] = value * *scale;
-            });
-            self.rates[i] = *scale * self.motions.acceleration(row, v_dot);
+            let mut acceleration = R::zero();
+            for row in &self.rows[first..end] {
+                self.delassus.factor_row(model, self.motions.columns(), row, |k, value| {
+                    factors[k as usize * m + i] += value * *scale;
+                });
+                acceleration += self.motions.acceleration(row, v_dot);
+            }
+            self.rates[i] = *scale * acceleration;
+            first = end;
         }
         self.cholesky();
         for i in 0..m {
@@ -125,7 +155,7 @@ impl<R: Real> ImplicitForces<R> {
 
     /// j M⁻¹ jᵀ of each line, its inverse inertia [1/kg], after [`ImplicitForces::factor`] with positive coefficients.
     pub fn inverse_inertias(&self) -> impl Iterator<Item = R> {
-        let m = self.rows.len();
+        let m = self.ends.len();
         (0..m).map(move |i| {
             let square = self.factors.chunks_exact(m).fold(R::zero(), |sum, column| sum + column[i] * column[i]);
             square / (self.scale[i] * self.scale[i])
@@ -134,7 +164,7 @@ impl<R: Real> ImplicitForces<R> {
 
     /// L of 1 + Ĵ M⁻¹ Ĵᵀ: every pivot is 1 or more, no row is exchanged.
     fn cholesky(&mut self) {
-        let m = self.rows.len();
+        let m = self.ends.len();
         for i in 0..m {
             for j in 0..=i {
                 let mut sum = if i == j { R::one() } else { R::zero() };
@@ -151,7 +181,7 @@ impl<R: Real> ImplicitForces<R> {
 
     /// Row `i` of the solution of L x = b, the rows before it known.
     fn solve_lower(&self, i: usize, b: R, x: impl Fn(usize) -> R) -> R {
-        let m = self.rows.len();
+        let m = self.ends.len();
         let mut sum = b;
         for j in 0..i {
             sum -= self.lower[i * m + j] * x(j);
@@ -162,7 +192,7 @@ impl<R: Real> ImplicitForces<R> {
     /// Takes the forces of the lines out of the constraint problem w = G λ + b (`n_rows` rows): what remains is that of
     /// the mass matrix M + Jᵀ κ J. `values` are the factors of the constraint rows, `n_v` × `n_rows`.
     pub fn reduce(&mut self, values: &[R], g: &mut [R], b: &mut [R]) {
-        let (m, n) = (self.rows.len(), b.len());
+        let (m, n) = (self.ends.len(), b.len());
         self.cross.clear();
         self.cross.resize(m * n, R::zero());
         for (own, other) in self.factors.chunks_exact(m).zip(values.chunks_exact(n)) {
@@ -191,7 +221,7 @@ impl<R: Real> ImplicitForces<R> {
     /// Generalized forces of the lines, with the multipliers of the constraint rows they were taken out of; none: no
     /// constraints act.
     pub fn torque(&mut self, model: &Model<R>, multipliers: &[R]) -> &[R] {
-        let (m, n) = (self.rows.len(), multipliers.len());
+        let (m, n) = (self.ends.len(), multipliers.len());
         for i in 0..m {
             let mut sum = self.rates[i];
             for (k, multiplier) in multipliers.iter().enumerate() {
@@ -209,7 +239,14 @@ impl<R: Real> ImplicitForces<R> {
         }
         self.torque.fill(R::zero());
         for i in 0..m {
-            self.motions.jacobian(model, &self.rows[i], &mut self.row);
+            let first = if i == 0 { 0 } else { self.ends[i - 1] };
+            self.motions.jacobian(model, &self.rows[first], &mut self.row);
+            for part in &self.rows[first + 1..self.ends[i]] {
+                self.motions.jacobian(model, part, &mut self.part);
+                for (row, part) in self.row.iter_mut().zip(&self.part) {
+                    *row += *part;
+                }
+            }
             let force = self.scale[i] * self.lambda[i];
             for (torque, j) in self.torque.iter_mut().zip(&self.row) {
                 *torque += force * *j;
@@ -231,11 +268,12 @@ impl<R: Real> ImplicitForces<R> {
         }
     }
 
-    /// Rate of each line for other joint rates `v` at the same poses, handed to `take` [m/s].
-    pub fn rates_at(&mut self, model: &Model<R>, v: &[R], mut take: impl FnMut(usize, R)) {
+    /// Sets the rate of each path for other joint rates `v` at the same poses [m/s].
+    pub fn rates_at(&mut self, model: &Model<R>, v: &[R], lengths: &mut [PathLength<R>]) {
         self.motions.place_velocities(model, v);
-        for (i, row) in self.rows.iter().enumerate() {
-            take(i, self.motions.placed_rate(row, v));
+        for (i, at) in lengths.iter_mut().enumerate() {
+            let parts = self.parts(i).iter();
+            at.rate = parts.fold(R::zero(), |sum, row| sum + self.motions.placed_rate(row, v));
         }
     }
 }

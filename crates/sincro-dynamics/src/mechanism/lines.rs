@@ -1,9 +1,9 @@
-//! Springs and dampers between two points, and elastic gears: their forces on links, at one instant or at the end of a
-//! linearly implicit step, and their power.
+//! Springs and dampers along paths, and elastic gears: their forces on links, at one instant or at the end of a linearly
+//! implicit step, and their power. Torques of those on joints are in [`torques`](super::torques).
 
 use sincro_math::Real;
 
-use crate::actuation::spring_damper::Line;
+use crate::actuation::spring_damper::{Line, Path, PathLength};
 use crate::constraint::implicit_forces::ImplicitForces;
 use crate::model::Model;
 use crate::scratch::Scratch;
@@ -12,7 +12,10 @@ use crate::spatial::Force;
 /// Springs and dampers of a model in the last evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct Lines<R> {
+    /// Straight lines of all paths, one path after the other.
     lines: Vec<Line<R>>,
+    /// Length of each path.
+    lengths: Vec<PathLength<R>>,
     /// κ = h (c + h k) of each, of a linearly implicit step.
     kappa: Vec<R>,
     /// Power of the forces that were added to the external wrenches `[W]`.
@@ -26,12 +29,20 @@ impl<R: Real> Lines<R> {
         let m = n + model.elastic_gears.len();
         // solves linear systems: lanes leave implicit methods to one world at a time
         let implicit = if R::IS_SCALAR { ImplicitForces::new(model) } else { None };
-        Self { lines: Vec::with_capacity(n), kappa: vec![R::zero(); m], power: R::zero(), implicit }
+        let n_lines = model.spring_dampers.iter().map(|element| element.segments().len()).sum();
+        Self {
+            lines: Vec::with_capacity(n_lines),
+            lengths: Vec::with_capacity(n),
+            kappa: vec![R::zero(); m],
+            power: R::zero(),
+            implicit,
+        }
     }
 
     /// Bytes on the heap.
     pub fn heap_bytes(&self) -> usize {
         size_of_val(&*self.lines)
+            + size_of_val(&*self.lengths)
             + size_of_val(&*self.kappa)
             + self.implicit.as_ref().map_or(0, |implicit| implicit.heap_bytes())
     }
@@ -48,24 +59,40 @@ impl<R: Real> Lines<R> {
         external: &mut [Force<R>],
     ) {
         self.lines.clear();
+        self.lengths.clear();
         self.power = R::zero();
         for (element, kappa) in model.spring_dampers.iter().zip(&mut self.kappa) {
-            let line = element.line(|link| (scratch.links[link].v, scratch.poses[link]));
-            let mut force = element.forces(line.length, line.rate, commands).total();
-            if let Some(steps) = implicit {
-                let (of_dampers, of_springs) = (R::splat(steps.0), R::splat(steps.1));
-                let (k, c) = element.implicit_terms(line.length, line.rate);
-                // spring at x + h ẋ: what is known now
-                force -= of_springs * k * line.rate;
+            let first = self.lines.len();
+            let at = match &element.path {
+                Path::Joints(shares) => PathLength::of_joints(shares, q, v),
+                Path::Lines(segments) => {
+                    let line_of = |link: usize| (scratch.links[link].v, scratch.poses[link]);
+                    self.lines.extend(segments.iter().map(|segment| segment.line(line_of)));
+                    PathLength::of_lines(&self.lines[first..])
+                }
+            };
+            self.lengths.push(at);
+            let steps = implicit.map(|steps| (R::splat(steps.0), R::splat(steps.1)));
+            let (k, c) = steps.map_or((R::zero(), R::zero()), |_| element.implicit_terms(at.length, at.rate));
+            if let Some((of_dampers, of_springs)) = steps {
                 *kappa = of_dampers * (c + of_springs * k);
             }
-            for (end, at) in element.ends.iter().enumerate() {
-                if let Some(link) = at.link {
-                    external[link] += element.wrench(end, &line, force, &scratch.poses[link]);
+            if element.segments().is_empty() {
+                continue;
+            }
+            let mut force = element.forces(at.length, at.rate, commands).total();
+            if let Some((_, of_springs)) = steps {
+                // spring at x + h ẋ: what is known now
+                force -= of_springs * k * at.rate;
+            }
+            for (segment, line) in element.segments().iter().zip(&self.lines[first..]) {
+                for (end, at) in segment.ends.iter().enumerate() {
+                    if let Some(link) = at.link {
+                        external[link] += segment.wrench(end, line, force, &scratch.poses[link]);
+                    }
                 }
             }
-            self.power += force * line.rate;
-            self.lines.push(line);
+            self.power += force * at.rate;
         }
         if let Some(steps) = implicit {
             let (of_dampers, of_springs) = (R::splat(steps.0), R::splat(steps.1));
@@ -100,14 +127,13 @@ impl<R: Real> Lines<R> {
         if R::IS_SCALAR
             && let (Some(v), Some(forces)) = (v, &mut self.implicit)
         {
-            let lines = &mut self.lines;
-            forces.rates_at(model, v, |k, rate| lines[k].rate = rate);
+            forces.rates_at(model, v, &mut self.lengths);
         }
         let (mut work, mut heat) = (-self.power, R::zero());
-        for (element, line) in model.spring_dampers.iter().zip(&self.lines) {
-            let forces = element.forces(line.length, line.rate, commands);
-            work += forces.actuator * line.rate;
-            heat -= forces.damping * line.rate;
+        for (element, at) in model.spring_dampers.iter().zip(&self.lengths) {
+            let forces = element.forces(at.length, at.rate, commands);
+            work += forces.actuator * at.rate;
+            heat -= forces.damping * at.rate;
         }
         (work, heat)
     }

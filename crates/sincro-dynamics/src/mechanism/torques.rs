@@ -3,6 +3,7 @@
 
 use sincro_math::Real;
 
+use crate::actuation::spring_damper::PathLength;
 use crate::actuation::{damper, spring};
 use crate::integrate::Implicit;
 use crate::joint::WORLD;
@@ -67,7 +68,7 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     }
 }
 
-/// Adds the torques of nonlinear springs, elastic gears and functions of time.
+/// Adds the torques of nonlinear springs, elastic gears, fixed tendons and functions of time.
 #[inline(always)]
 fn special_torques<R: Real>(
     model: &Model<R>,
@@ -89,6 +90,18 @@ fn special_torques<R: Real>(
         let tau = gear.torque(x, rate) - steps.1 * k * rate;
         torque[gear.dofs[1]] += tau;
         torque[gear.dofs[0]] -= gear.ratio * tau;
+    }
+    for element in &model.spring_dampers {
+        let shares = element.shares();
+        if shares.is_empty() {
+            continue;
+        }
+        let PathLength { length, rate } = PathLength::of_joints(shares, at.q, at.v);
+        let (k, _) = element.implicit_terms(length, rate);
+        let force = element.forces(length, rate, at.commands).total() - steps.1 * k * rate;
+        for share in shares {
+            torque[share.dof] += share.coefficient * force;
+        }
     }
     for applied in &model.applied {
         torque[applied.dof] += applied.torque(at.t);

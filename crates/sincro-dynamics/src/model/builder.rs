@@ -218,17 +218,26 @@ pub struct LoopJointSpec {
     pub poses: [Pose<f64>; 2],
 }
 
-/// Spring, damper and actuator between two points, to be added by [`ModelBuilder::spring_damper`].
+/// Path of a [`SpringDamperSpec`].
+#[derive(Clone, Debug)]
+pub enum PathSpec {
+    /// Two points or more, in order: bodies or frames (the world too), and positions in their frames `[m]`. The path is
+    /// the polyline through them, which slides through those between its ends without friction.
+    Points(Vec<(NodeId, [f64; 3])>),
+    /// Joints with one degree of freedom and lengths for each unit of their coordinates `[m/rad]`, or `[1]` of a
+    /// prismatic joint: the length is their linear combination.
+    Joints(Vec<(NodeId, f64)>),
+}
+
+/// Spring, damper and actuator between two points or along a tendon, to be added by [`ModelBuilder::spring_damper`].
 #[derive(Clone, Debug)]
 pub struct SpringDamperSpec {
-    /// The two bodies or frames that carry the points; either may be the world.
-    pub ends: [NodeId; 2],
-    /// Positions of the two points in the frames of the two ends, in their order `[m]`.
-    pub points: [[f64; 3]; 2],
-    /// Length at which the deflection is zero `[m]`; `None`: the distance of the points with all coordinates zero.
+    /// Path along which it acts.
+    pub path: PathSpec,
+    /// Length at which the deflection is zero `[m]`; `None`: the length with all coordinates zero.
     pub free_length: Option<f64>,
-    /// Force `[N]` over deflection (length less free length) `[m]` and rate `[m/s]`; positive forces push the points
-    /// apart.
+    /// Force `[N]` over deflection (length less free length) `[m]` and rate `[m/s]`; positive forces make the path
+    /// longer.
     pub law: ForceLaw<f64>,
     /// True for a rope, which never pushes.
     pub tension_only: bool,
@@ -237,10 +246,10 @@ pub struct SpringDamperSpec {
 }
 
 impl SpringDamperSpec {
-    /// Checks the numbers: for each fault the name of the field, a message about the element `name`, and a help; empty
-    /// if there is none.
+    /// Checks the numbers: for each fault the name of the field, a message about the element, and a help; empty if
+    /// there is none. `of` is the element as messages call it, with its name.
     #[must_use]
-    pub fn problems(&self, name: &str) -> Vec<(&'static str, String, &'static str)> {
+    pub fn problems(&self, of: &str) -> Vec<(&'static str, String, &'static str)> {
         let mut found = Vec::new();
         let not_negative = "give a finite number, zero or more";
         let numbers = [
@@ -249,25 +258,41 @@ impl SpringDamperSpec {
             ("free_length", self.free_length, "m"),
         ];
         for (key, x, unit) in numbers {
-            if let Some(x) = x.filter(|x| !(x.is_finite() && *x >= 0.0)) {
-                let message = format!("{key} {x} {unit} of spring_damper `{name}` is negative or not finite");
+            // a linear combination of coordinates may be negative
+            let may_be_negative = key == "free_length" && matches!(self.path, PathSpec::Joints(_));
+            if let Some(x) = x.filter(|x| !(x.is_finite() && (*x >= 0.0 || may_be_negative))) {
+                let message = format!("{key} {x} {unit} of {of} is negative or not finite");
                 found.push((key, message, not_negative));
             }
         }
         if !self.law.preload.is_finite() {
-            let message = format!("preload {} N of spring_damper `{name}` is not finite", self.law.preload);
-            found.push(("preload", message, "give a number in N; a positive one pushes the points apart"));
+            let message = format!("preload {} N of {of} is not finite", self.law.preload);
+            found.push(("preload", message, "give a number in N; a positive one makes the path longer"));
         } else if self.tension_only && self.law.preload > 0.0 {
-            let message = format!("spring_damper `{name}` pulls only, but its preload {} N pushes", self.law.preload);
+            let message = format!("{of} pulls only, but its preload {} N pushes", self.law.preload);
             found.push(("preload", message, "leave `tension_only` out, or give a preload that pulls, below zero"));
         }
         if let Some(x) = self.actuator.filter(|x| x.is_nan() || *x < 0.0) {
-            let message = format!("max_force {x} N of spring_damper `{name}` is negative or not a number");
+            let message = format!("max_force {x} N of {of} is negative or not a number");
             found.push(("actuator", message, "give zero or more, or inf for none"));
         }
-        if !self.points.iter().flatten().all(|x| x.is_finite()) {
-            let message = format!("points {:?} of spring_damper `{name}` are not finite", self.points);
-            found.push(("points", message, "give two points, three numbers in m each"));
+        match &self.path {
+            PathSpec::Points(points) if points.len() < 2 => {
+                let message = format!("{of} has no path: it goes through fewer than two points");
+                found.push(("through", message, "give two bodies or frames, or more"));
+            }
+            PathSpec::Points(points) if !points.iter().flat_map(|(_, x)| x).all(|x| x.is_finite()) => {
+                let points: Vec<_> = points.iter().map(|(_, x)| x).collect();
+                let message = format!("points {points:?} of {of} are not finite");
+                found.push(("points", message, "give three numbers in m each"));
+            }
+            PathSpec::Joints(joints) if !joints.iter().any(|(_, c)| *c != 0.0) => {
+                found.push(("coefficients", format!("the length of {of} never changes"), "give one that is not zero"));
+            }
+            PathSpec::Joints(joints) if !joints.iter().all(|(_, c)| c.is_finite()) => {
+                found.push(("coefficients", format!("a coefficient of {of} is not finite"), "give numbers in m/rad"));
+            }
+            _ => {}
         }
         found
     }
@@ -525,7 +550,8 @@ impl ModelBuilder {
         self.elastic_gears.push((name.into(), spec));
     }
 
-    /// Adds a spring, damper and actuator between two points; see [`SpringDamper`](crate::actuation::SpringDamper).
+    /// Adds a spring, damper and actuator between two points, or a tendon; see
+    /// [`SpringDamper`](crate::actuation::SpringDamper).
     pub fn spring_damper(&mut self, name: &str, spec: SpringDamperSpec) {
         self.spring_dampers.push((name.into(), spec));
     }

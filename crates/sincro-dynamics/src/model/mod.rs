@@ -28,7 +28,7 @@ pub use crate::geometry::{MassProperties, Shape};
 pub use crate::ids::{BodyId, JointId, MotorId, RotorId};
 pub use crate::joint::{Dof, Link};
 pub use builder::{
-    BodySpec, DragSpec, ElasticGearSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId,
+    BodySpec, DragSpec, ElasticGearSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, PathSpec,
     REST_SPEED, RotorDrive, RotorSpec, SpringDamperSpec,
 };
 pub(crate) use constraints::RESERVED_SLOTS;
@@ -251,7 +251,7 @@ impl<R: Real> Model<R> {
         &self.drags
     }
 
-    /// Springs, dampers and actuators between two points, in the order in which they were added.
+    /// Springs, dampers and actuators between two points, and tendons, in the order in which they were added.
     #[must_use]
     pub fn spring_dampers(&self) -> &[SpringDamper<R>] {
         &self.spring_dampers
@@ -263,7 +263,7 @@ impl<R: Real> Model<R> {
         &self.elastic_gears
     }
 
-    /// Returns true if there are springs and dampers that couple degrees of freedom: between points, of elastic gears.
+    /// Returns true if there are springs and dampers that couple degrees of freedom: along paths, of elastic gears.
     pub(crate) fn has_lines(&self) -> bool {
         !self.spring_dampers.is_empty() || !self.elastic_gears.is_empty()
     }
@@ -317,10 +317,12 @@ impl<R: Real> Model<R> {
         !self.wrenches.is_empty() || self.feels_air() || self.has_lines() || self.gravity_field.is_some()
     }
 
-    /// Returns true if joints have nonlinear springs, elastic gears, torques that are functions of time, or windings.
+    /// Returns true if joints have nonlinear springs, elastic gears, fixed tendons, torques that are functions of time,
+    /// or windings.
     pub(crate) fn has_special_joint_elements(&self) -> bool {
         let has_laws = !self.nonlinear_springs.is_empty() || !self.elastic_gears.is_empty();
-        has_laws || !self.applied.is_empty() || !self.windings.is_empty()
+        let has_shares = self.spring_dampers.iter().any(|element| !element.shares().is_empty());
+        has_laws || has_shares || !self.applied.is_empty() || !self.windings.is_empty()
     }
 
     /// Drives: joints with Coulomb friction, then motors in velocity and position mode, then locked force sensors.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sincro_math::{Dual, Real};
 
 use super::{Dof, Link, Model, ModelParams, Structure};
-use crate::actuation::spring_damper::{LineActuator, LinkPoint};
+use crate::actuation::spring_damper::{JointShare, LineActuator, LinkPoint, Path, Segment};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
 use crate::actuation::{ElasticGear, ForceLaw, SpringDamper, Winding};
 use crate::aero::AirDrag;
@@ -153,10 +153,25 @@ impl<R: Real> Model<R> {
             let of_first = &first.spring_dampers[i];
             let number = |f: &dyn Fn(&SpringDamper<f64>) -> f64| num(&|m| f(&m.spring_dampers[i]));
             SpringDamper {
-                ends: core::array::from_fn(|e| LinkPoint {
-                    link: of_first.ends[e].link,
-                    position: vec3(&|m| m.spring_dampers[i].ends[e].position),
-                }),
+                path: match &of_first.path {
+                    Path::Lines(segments) => {
+                        let segment = |s: usize| Segment {
+                            ends: core::array::from_fn(|e| LinkPoint {
+                                link: segments[s].ends[e].link,
+                                position: vec3(&|m| m.spring_dampers[i].segments()[s].ends[e].position),
+                            }),
+                        };
+                        Path::Lines((0..segments.len()).map(segment).collect())
+                    }
+                    Path::Joints(shares) => {
+                        let share = |(s, share): (usize, &JointShare<f64>)| JointShare {
+                            dof: share.dof,
+                            coordinate: share.coordinate,
+                            coefficient: number(&|x| x.shares()[s].coefficient),
+                        };
+                        Path::Joints(shares.iter().enumerate().map(share).collect())
+                    }
+                },
                 free_length: number(&|s| s.free_length),
                 law: ForceLaw {
                     stiffness: number(&|s| s.law.stiffness),
@@ -268,7 +283,9 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     let drags = |m: &Model<f64>| -> Vec<_> { m.drags.iter().map(|x| (x.link, x.density)).collect() };
     let lines = |m: &Model<f64>| -> Vec<_> {
         let structure = |s: &SpringDamper<f64>| {
-            (s.ends.map(|e| e.link), s.tension_only, s.law.nonlinear.clone(), s.actuator.map(|a| a.command))
+            let links: Vec<_> = s.segments().iter().map(|segment| segment.ends.map(|e| e.link)).collect();
+            let dofs: Vec<_> = s.shares().iter().map(|share| share.dof).collect();
+            (links, dofs, s.tension_only, s.law.nonlinear.clone(), s.actuator.map(|a| a.command))
         };
         m.spring_dampers.iter().map(structure).collect()
     };
@@ -283,7 +300,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (rotors(a) == rotors(b), "rotors"),
         (drags(a) == drags(b), "drag elements"),
         (gears(a) == gears(b), "elastic gears"),
-        (lines(a) == lines(b), "springs and dampers between two points"),
+        (lines(a) == lines(b), "springs and dampers between two points, and tendons"),
         (a.wind == b.wind, "wind"),
         (a.gravity_field == b.gravity_field, "gravity over the position"),
         (a.params.constraints == b.params.constraints, "loop joints, limits and contacts"),

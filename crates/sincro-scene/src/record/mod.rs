@@ -74,7 +74,7 @@ pub enum Probe {
     Rotor(RotorQuantity, usize),
     /// Component of the force of a drag element `[N]`: index of the element, component.
     Drag(usize, usize),
-    /// Quantity of a spring and damper between two points: quantity, index of the element.
+    /// Quantity of a spring and damper between two points, or of a tendon: quantity, index of the element.
     SpringDamper(LineQuantity, usize),
     /// Quantity of an elastic gear: quantity, index of the gear.
     ElasticGear(GearQuantity, usize),
@@ -133,14 +133,14 @@ pub enum RotorQuantity {
     Valid,
 }
 
-/// Quantity of a spring and damper between two points, for [`Probe::SpringDamper`].
+/// Quantity of a spring and damper between two points, or of a tendon, for [`Probe::SpringDamper`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineQuantity {
-    /// Distance of the points `[m]`.
+    /// Length of the path: the distance of two points `[m]`.
     Length,
-    /// Rate of the length, positive where the points move apart `[m/s]`.
+    /// Rate of the length, positive where it grows `[m/s]`.
     Rate,
-    /// Force along the line, positive where it pushes the points apart `[N]`.
+    /// Force along the path, positive where it makes it longer `[N]`.
     Force,
 }
 

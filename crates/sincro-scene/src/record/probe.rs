@@ -215,11 +215,11 @@ fn stored<R: Real>(at: &View<'_, R>) -> Energy<R> {
 
 fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
     let element = &at.model.spring_dampers()[k];
-    let line = element.line(|link| (at.scratch.twist(link), at.scratch.link_poses()[link]));
+    let path = element.length(at.q, at.v, |link| (at.scratch.twist(link), at.scratch.link_poses()[link]));
     match quantity {
-        LineQuantity::Length => line.length,
-        LineQuantity::Rate => line.rate,
-        LineQuantity::Force => element.forces(line.length, line.rate, at.commands).total(),
+        LineQuantity::Length => path.length,
+        LineQuantity::Rate => path.rate,
+        LineQuantity::Force => element.forces(path.length, path.rate, at.commands).total(),
     }
 }
 

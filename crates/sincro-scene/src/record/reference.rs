@@ -178,9 +178,9 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::Rotor(R::Power, _) => "power of the shaft",
         Probe::Rotor(R::Valid, _) => "1 where the theory holds, else 0",
         Probe::Drag(..) => "force of the air, world axes",
-        Probe::SpringDamper(LineQuantity::Length, _) => "distance of its ends",
+        Probe::SpringDamper(LineQuantity::Length, _) => "distance of its ends, or length of the tendon",
         Probe::SpringDamper(LineQuantity::Rate, _) => "rate of that distance",
-        Probe::SpringDamper(LineQuantity::Force, _) => "force along the line, positive where it pushes the ends apart",
+        Probe::SpringDamper(LineQuantity::Force, _) => "force along it, positive where it pushes the ends apart",
         Probe::ElasticGear(GearQuantity::MeshError, _) => {
             "mesh error, second − ratio·first − offset, the travel within the backlash included"
         }

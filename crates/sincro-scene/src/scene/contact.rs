@@ -169,11 +169,26 @@ pub(super) struct Joiner<'a> {
 impl Joiner<'_> {
     /// The two bodies or frames of `between`, notes what is none.
     pub fn ends(&mut self, between: &[String; 2], pointer: &str) -> Option<[NodeId; 2]> {
-        let fits =
-            |kind: &Object| matches!(kind.kind, ObjectKind::Body { .. } | ObjectKind::Frame | ObjectKind::Fixture);
-        let ends = [0, 1].map(|k| self.find(&between[k], &format!("{pointer}/between/{k}"), fits, "body or frame"));
+        let ends = [0, 1].map(|k| self.end(&between[k], &format!("{pointer}/between/{k}")));
         let [Some(a), Some(b)] = ends else { return None };
         Some([a, b])
+    }
+
+    /// The body or frame of a path.
+    pub fn end(&mut self, path: &str, pointer: &str) -> Option<NodeId> {
+        let fits =
+            |kind: &Object| matches!(kind.kind, ObjectKind::Body { .. } | ObjectKind::Frame | ObjectKind::Fixture);
+        self.find(path, pointer, fits, "body or frame")
+    }
+
+    /// The joint with one degree of freedom of a path.
+    pub fn scalar_joint(&mut self, path: &str, pointer: &str) -> Option<NodeId> {
+        use sincro_dynamics::joint::JointKind as K;
+        let fits = |o: &Object| {
+            let ObjectKind::Joint { kind, .. } = o.kind else { return false };
+            matches!(kind, K::Revolute { .. } | K::Prismatic { .. } | K::Screw { .. })
+        };
+        self.find(path, pointer, fits, "joint with one degree of freedom")
     }
 
     pub fn closure(&mut self, file: &ClosureFile, pointer: &str) -> Option<LoopJointSpec> {
@@ -267,13 +282,7 @@ impl Joiner<'_> {
     }
 
     pub fn coupling(&mut self, file: &CouplingFile, pointer: &str) -> Option<GearSpec> {
-        use sincro_dynamics::joint::JointKind as K;
-        let fits = |o: &Object| {
-            let ObjectKind::Joint { kind, .. } = o.kind else { return false };
-            matches!(kind, K::Revolute { .. } | K::Prismatic { .. } | K::Screw { .. })
-        };
-        let what = "joint with one degree of freedom";
-        let joints = [0, 1].map(|k| self.find(&file.joints[k], &format!("{pointer}/joints/{k}"), fits, what));
+        let joints = [0, 1].map(|k| self.scalar_joint(&file.joints[k], &format!("{pointer}/joints/{k}")));
         if file.joints[0] == file.joints[1] {
             let at = self.document.at(&format!("{pointer}/joints"));
             let diagnostic = Diagnostic::error(&at, format!("coupling `{}` is of a joint with itself", file.name));

@@ -17,6 +17,7 @@ use super::rotor::RotorFile;
 use super::sensor::SensorFile;
 use super::signal_file::SignalFile;
 use super::spring_damper::SpringDamperFile;
+use super::tendon::TendonFile;
 
 /// A scene: joints, bodies, frames and forces in a tree of named objects. SI units and radians; z is up.
 #[derive(Debug, Deserialize)]
@@ -86,6 +87,9 @@ pub(crate) struct SceneFile {
     /// Springs, dampers and actuators between two points.
     #[serde(default)]
     pub spring_damper: Vec<SpringDamperFile>,
+    /// Springs, dampers and actuators along paths through several bodies, or over several joints.
+    #[serde(default)]
+    pub tendon: Vec<TendonFile>,
     /// Pose of a body or frame in the world at the start, solved for the positions of joints; a list for several.
     pub initial_pose: Option<OneOrList<InitialPoseFile>>,
     /// Contact laws of pairs of bodies, where they are not the combination of the two surfaces.

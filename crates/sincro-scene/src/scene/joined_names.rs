@@ -1,4 +1,4 @@
-//! Names of what joins objects and is none itself: closures, couplings, lines with springs and dampers.
+//! Names of what joins objects and is none itself: closures, couplings, springs between points, tendons.
 
 use super::file::SceneFile;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -14,10 +14,12 @@ pub(super) fn check<'a>(
     let closures = file.closure.iter().map(|closure| closure.name.as_str()).enumerate();
     let couplings = file.coupling.iter().map(|coupling| coupling.name.as_str()).enumerate();
     let lines = file.spring_damper.iter().map(|line| line.name.as_str()).enumerate();
+    let tendons = file.tendon.iter().map(|tendon| tendon.name.as_str()).enumerate();
     let mut seen: Vec<(&str, String)> = Vec::new();
     let of_kind = |kind: &'static str| move |(k, name)| (name, format!("/{kind}/{k}"));
     let all = closures.map(of_kind("closure")).chain(couplings.map(of_kind("coupling")));
-    for (name, pointer) in all.chain(lines.map(of_kind("spring_damper"))) {
+    let all = all.chain(lines.map(of_kind("spring_damper")));
+    for (name, pointer) in all.chain(tendons.map(of_kind("tendon"))) {
         let at = document.at(&format!("{pointer}/name"));
         let is_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if name.is_empty() || !name.chars().all(is_of_name) {

@@ -29,6 +29,7 @@ mod source;
 mod spring_damper;
 mod start;
 mod stills;
+mod tendon;
 mod text;
 mod tree;
 mod visual;
@@ -428,7 +429,7 @@ impl Assembly {
         }
     }
 
-    /// Springs and dampers between points of objects, which are named by their paths.
+    /// Springs and dampers between points of objects, and tendons, which name objects by their paths.
     fn join_by_springs(
         &mut self,
         file: &SceneFile,
@@ -442,6 +443,17 @@ impl Assembly {
             let ends = contact::Joiner { objects, nodes, document, diagnostics }.ends(&own.between, &pointer);
             let mut signals = SignalReader { document, folder, diagnostics };
             let made = ends.and_then(|ends| spring_damper::spec(own, ends, &pointer, &mut signals));
+            let Some((spec, command)) = made else { continue };
+            let path = format!("/{}", own.name);
+            self.builder.spring_damper(&path, spec);
+            self.line_commands.extend(command.map(|command| (path, command)));
+        }
+        for (k, own) in file.tendon.iter().enumerate() {
+            let pointer = format!("/tendon/{k}");
+            let (objects, nodes) = (&self.objects, &self.nodes);
+            let path = contact::Joiner { objects, nodes, document, diagnostics }.tendon(own, &pointer);
+            let mut signals = SignalReader { document, folder, diagnostics };
+            let made = path.and_then(|path| tendon::spec(own, path, &pointer, &mut signals));
             let Some((spec, command)) = made else { continue };
             let path = format!("/{}", own.name);
             self.builder.spring_damper(&path, spec);

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::actuation::force_law::FORMULA_NAMES;
 use sincro_dynamics::actuation::{ForceLaw, ForceTable, NonlinearLaw};
-use sincro_dynamics::model::{Model, NodeId, SpringDamperSpec};
+use sincro_dynamics::model::{Model, NodeId, PathSpec, SpringDamperSpec};
 use sincro_dynamics::recursions::kinematics;
 use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::signal::Signal;
@@ -87,8 +87,7 @@ pub(super) fn spec(
         None => Signal::Constant(0.0),
     });
     let spec = SpringDamperSpec {
-        ends,
-        points: file.points,
+        path: PathSpec::Points(ends.into_iter().zip(file.points).collect()),
         free_length: file.free_length,
         law: ForceLaw { stiffness: file.stiffness, damping: file.damping, preload: file.preload, nonlinear },
         tension_only: file.tension_only,
@@ -104,12 +103,17 @@ pub(super) fn spec(
             return None;
         }
     }
-    let problems = spec.problems(&file.name);
+    check(&spec, &of, pointer, signals).then_some((spec, command))
+}
+
+/// Notes the faults of the numbers of an element that messages call `of`; true if there is none.
+pub(super) fn check(spec: &SpringDamperSpec, of: &str, pointer: &str, signals: &mut SignalReader<'_>) -> bool {
+    let problems = spec.problems(of);
     for (key, message, help) in &problems {
         let at = signals.document.at(&format!("{pointer}/{key}"));
         signals.diagnostics.push(Diagnostic::error(&at, message.clone()).with_help(*help));
     }
-    problems.is_empty().then_some((spec, command))
+    problems.is_empty()
 }
 
 /// Nonlinear part of the force law of `of`, from a formula or a table; none, with the reason noted, if it cannot be.
@@ -165,23 +169,28 @@ pub(super) fn set_free_lengths(
     }
     let mut scratch = Scratch::new(model);
     kinematics::motions(model, &initial.q, &initial.v, &initial.v, &mut scratch);
-    for (k, own) in file.spring_damper.iter().enumerate() {
-        let Some(k_model) = model.names().spring_dampers.iter().position(|name| *name == format!("/{}", own.name))
+    let lines = file.spring_damper.iter().map(|own| (own.name.as_str(), own.free_length)).enumerate();
+    let tendons = file.tendon.iter().map(|own| (own.name.as_str(), own.model_free_length())).enumerate();
+    let lines = lines.map(|(k, own)| (own, "spring_damper", format!("/spring_damper/{k}/between")));
+    let tendons = tendons.map(|(k, own)| (own, "tendon", format!("/tendon/{k}/through")));
+    for ((name, free_length), word, pointer) in lines.chain(tendons) {
+        let Some(k_model) = model.names().spring_dampers.iter().position(|known| known.strip_prefix('/') == Some(name))
         else {
             continue;
         };
         let element = &model.spring_dampers()[k_model];
-        let length = element.line(|link| (scratch.twist(link), scratch.link_poses()[link])).length;
+        let motion = |link: usize| (scratch.twist(link), scratch.link_poses()[link]);
+        let length = element.length(&initial.q, &initial.v, motion).length;
         let has_force =
-            element.actuator.is_some() || element.law.force(length - own.free_length.unwrap_or(length), 0.0) != 0.0;
-        if length < NO_LENGTH && has_force {
-            let at = document.at(&format!("/spring_damper/{k}/between"));
-            let message =
-                format!("the ends of spring_damper `{}` coincide at the start: its force has no direction", own.name);
-            let help = "move one of its `points`, or the joints; without force there (free_length = 0) it may start so";
+            element.actuator.is_some() || element.law.force(length - free_length.unwrap_or(length), 0.0) != 0.0;
+        let shortest = element.segments().iter().map(|segment| segment.line(motion).length).reduce(f64::min);
+        if shortest.is_some_and(|x| x < NO_LENGTH) && has_force {
+            let at = document.at(&pointer);
+            let message = format!("two points of {word} `{name}` coincide at the start: its force has no direction");
+            let help = "move one of its points, or the joints; without force there (free_length = 0) it may start so";
             diagnostics.push(Diagnostic::error(&at, message).with_help(help));
         }
-        if own.free_length.is_none() {
+        if free_length.is_none() {
             model.set_free_length(k_model, length);
         }
     }

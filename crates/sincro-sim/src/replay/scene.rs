@@ -288,11 +288,18 @@ impl Maker<'_> {
             objects.push(ObjectView { mover, pose, other_end, ..beside(&closure.name, kind) });
         }
         for (element, name) in self.model.spring_dampers().iter().zip(&self.model.names().spring_dampers) {
-            let [(mover, pose), other_end] = element.ends.map(|end| {
-                let mover = end.link.and_then(|link| self.links.iter().position(|l| *l == link));
-                (mover, seven(&Pose::translation(end.position)))
-            });
-            objects.push(ObjectView { mover, pose, other_end: Some(other_end), ..beside(name, "spring_damper") });
+            let is_tendon = element.segments().len() != 1;
+            for segment in element.segments() {
+                let [(mover, pose), other_end] = segment.ends.map(|end| {
+                    let mover = end.link.and_then(|link| self.links.iter().position(|l| *l == link));
+                    (mover, seven(&Pose::translation(end.position)))
+                });
+                let kind = if is_tendon { "tendon" } else { "spring_damper" };
+                objects.push(ObjectView { mover, pose, other_end: Some(other_end), ..beside(name, kind) });
+            }
+            if element.segments().is_empty() {
+                objects.push(beside(name, "tendon"));
+            }
         }
         objects.extend(set.gears.iter().map(|coupling| beside(&coupling.name, "coupling")));
     }
