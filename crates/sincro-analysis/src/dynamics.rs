@@ -5,8 +5,10 @@
 
 use sincro_dynamics::aba::Input;
 use sincro_dynamics::crba::mass_matrix;
+use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::Force;
 
 /// Terms of the equations of motion `M(q) v̇ + h(q, v) = τ` at one state, for comparison with other programs; result of
 /// [`equation_terms`]. Lists have one entry per degree of freedom, `n_v`, in the order of the model's velocities.
@@ -87,7 +89,6 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     let mut inverse = zeros();
     model.inverse_dynamics(&q, &v, &v_dot, None, &mut scratch, &mut inverse);
     for k in 0..n_v {
-        mass[k * n_v + k] += armature[k];
         inverse[k] += armature[k] * v_dot[k];
     }
     let input =
@@ -101,5 +102,44 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
             passive[i] = model.spring_torque(i, &q) + model.damping_torque(i, &q, &v);
         }
     }
+    add_path_forces(model, (&q, &v), &mut scratch, &mut passive);
     Ok(EquationTerms { mass_matrix: mass, inverse_dynamics: inverse, forward_dynamics: forward, passive })
+}
+
+/// Adds the generalized forces of springs and dampers between points, of tendons and of elastic gears, without those of
+/// actuators.
+fn add_path_forces(model: &Model<f64>, (q, v): (&[f64], &[f64]), scratch: &mut Scratch<f64>, passive: &mut [f64]) {
+    let zeros = vec![0.0; v.len()];
+    kinematics::motions(model, q, v, &zeros, scratch);
+    let mut wrenches = vec![Force::zero(); model.links().len()];
+    for element in model.spring_dampers() {
+        let motion = |link: usize| (scratch.twist(link), scratch.link_poses()[link]);
+        let path = element.length(q, v, motion);
+        let forces = element.forces(path.length, path.rate, &vec![0.0; model.n_commands()]);
+        let force = forces.elastic + forces.damping;
+        for share in element.shares() {
+            passive[share.dof] += share.coefficient * force;
+        }
+        for segment in element.segments() {
+            let line = segment.line(motion);
+            for (end, at) in segment.ends.iter().enumerate() {
+                if let Some(link) = at.link {
+                    wrenches[link] += segment.wrench(end, &line, force, &scratch.link_poses()[link]);
+                }
+            }
+        }
+    }
+    for gear in model.elastic_gears() {
+        let (x, rate) = gear.error(q, v);
+        let torque = gear.torque(x, rate);
+        passive[gear.dofs[1]] += torque;
+        passive[gear.dofs[0]] -= gear.ratio * torque;
+    }
+    // Σ Jᵀ W: what is less to be done with them than without
+    let (mut without, mut with) = (zeros.clone(), zeros.clone());
+    model.inverse_dynamics(q, v, &zeros, None, scratch, &mut without);
+    model.inverse_dynamics(q, v, &zeros, Some(&wrenches), scratch, &mut with);
+    for (passive, (without, with)) in passive.iter_mut().zip(without.iter().zip(&with)) {
+        *passive += without - with;
+    }
 }
