@@ -48,6 +48,7 @@ mod resolve;
 mod robot;
 mod sdf;
 mod source;
+mod tendon_mass;
 mod urdf;
 mod verify;
 mod writer;

@@ -123,6 +123,8 @@ pub(crate) struct Robot {
     pub loops: Vec<Loop>,
     /// Pairs of joints that move together.
     pub gears: Vec<Gear>,
+    /// Springs, dampers, stops and actuators along paths.
+    pub tendons: Vec<Tendon>,
     /// Motors.
     pub motors: Vec<Motor>,
     /// Sensors.
@@ -343,6 +345,49 @@ pub(crate) struct Gear {
     pub ratio: f64,
     /// Coordinate of the second where the first is zero.
     pub offset: f64,
+}
+
+/// A spring, damper, stop or actuator along a path.
+#[derive(Clone, Debug)]
+pub(crate) struct Tendon {
+    /// Name in the source.
+    pub name: String,
+    /// Place in the source.
+    pub at: Location,
+    /// Its path.
+    pub path: TendonPath,
+    /// Stiffness `[N/m]`.
+    pub stiffness: f64,
+    /// Damping `[N·s/m]`.
+    pub damping: f64,
+    /// Constant force `[N]`.
+    pub preload: f64,
+    /// Shortest and longest length without elastic force `[m]`.
+    pub free_length: [f64; 2],
+    /// Stops.
+    pub limits: Option<TendonLimits>,
+    /// Largest force of its actuator, infinite for none; none without actuator `[N]`.
+    pub actuator: Option<f64>,
+}
+
+/// Stops of a tendon, a spring and damper beyond each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TendonLimits {
+    /// Shortest and longest length, infinite for none `[m]`.
+    pub range: [f64; 2],
+    /// Stiffness `[N/m]`.
+    pub stiffness: f64,
+    /// Damping `[N·s/m]`.
+    pub damping: f64,
+}
+
+/// Paths of tendons.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum TendonPath {
+    /// Through the origins of these links.
+    Through(Vec<usize>),
+    /// Joints with one degree of freedom, and lengths for each unit of their coordinates.
+    Joints(Vec<(usize, f64)>),
 }
 
 /// A motor of a joint.

@@ -6,6 +6,7 @@ use sincro_dynamics::contact::Surface;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
+use super::mjcf_tendon::{self, Tendons};
 use super::{Joint, Piece, Tree, escaped, numbers, solid, wxyz};
 use crate::number::plain;
 
@@ -32,9 +33,11 @@ pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
         numbers(&tree.scene.model.gravity().0)
     );
     let mut world = String::new();
+    let tendons = mjcf_tendon::Tendons::of(tree);
+    tendons.sites_of(None, &mut world, "    ");
     let roots: Vec<usize> = (0..tree.links.len()).filter(|k| tree.links[*k].parent.is_none()).collect();
     for root in roots {
-        body(&mut world, tree, root, 2);
+        body(&mut world, tree, &tendons, root, 2);
     }
     if !tree.meshes.is_empty() {
         out += "  <asset>\n";
@@ -44,8 +47,9 @@ pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
         out += "  </asset>\n";
     }
     out += &format!("  <worldbody>\n{world}  </worldbody>\n");
+    tendons.write(&mut out, tree);
     equality(&mut out, tree);
-    actuators(&mut out, tree);
+    actuators(&mut out, tree, &tendons);
     out += "</mujoco>\n";
     Ok(out)
 }
@@ -54,13 +58,17 @@ fn place(pose: &Pose<f64>) -> String {
     format!("pos=\"{}\" quat=\"{}\"", numbers(&pose.pos.0), numbers(&wxyz(pose)))
 }
 
-fn body(out: &mut String, tree: &mut Tree<'_>, k: usize, depth: usize) {
+/// True for a frame that carries nothing, which is a site.
+pub(super) fn is_site(tree: &Tree<'_>, k: usize) -> bool {
+    tree.links[k].mass.is_none()
+        && tree.object(k).shown().next().is_none()
+        && !(0..tree.links.len()).any(|c| tree.links[c].parent == Some(k))
+}
+
+fn body(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons, k: usize, depth: usize) {
     let pad = "  ".repeat(depth);
     let (name, pose) = (tree.links[k].name.clone(), tree.links[k].pose);
-    let is_site = tree.links[k].mass.is_none()
-        && tree.object(k).shown().next().is_none()
-        && !(0..tree.links.len()).any(|c| tree.links[c].parent == Some(k));
-    if is_site {
+    if is_site(tree, k) {
         *out += &format!("{pad}<site name=\"{}\" {}/>\n", escaped(&name), place(&pose));
         return;
     }
@@ -86,6 +94,7 @@ fn body(out: &mut String, tree: &mut Tree<'_>, k: usize, depth: usize) {
             numbers(&[xx, yy, zz, xy, xz, yz])
         );
     }
+    tendons.sites_of(Some(k), out, &format!("{pad}  "));
     let (shown, touching) = tree.pieces(k);
     let own = tree.object(k).visuals.is_empty();
     let (group, friction) = tree.object(k).contact.as_ref().map_or((0, 1.0), |c| (c.group, c.friction));
@@ -106,7 +115,7 @@ fn body(out: &mut String, tree: &mut Tree<'_>, k: usize, depth: usize) {
     }
     let children: Vec<usize> = (0..tree.links.len()).filter(|c| tree.links[*c].parent == Some(k)).collect();
     for child in children {
-        body(out, tree, child, depth + 1);
+        body(out, tree, tendons, child, depth + 1);
     }
     *out += &format!("{pad}</body>\n");
 }
@@ -219,7 +228,7 @@ fn equality(out: &mut String, tree: &mut Tree<'_>) {
     }
 }
 
-fn actuators(out: &mut String, tree: &mut Tree<'_>) {
+fn actuators(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
     let joints: Vec<Joint> = tree.links.iter().flat_map(|l| l.joints.iter().cloned()).collect();
     let mut lines = String::new();
     for joint in joints {
@@ -239,6 +248,7 @@ fn actuators(out: &mut String, tree: &mut Tree<'_>) {
             _ => tree.note(&joint.path, "MJCF has no ideal motors: none is written"),
         }
     }
+    lines += &tendons.actuators(tree);
     if !lines.is_empty() {
         *out += &format!("  <actuator>\n{lines}  </actuator>\n");
     }

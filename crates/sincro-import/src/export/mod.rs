@@ -4,6 +4,7 @@
 //! from the link above, at zero coordinates. A writer a format does the rest.
 
 mod mjcf;
+mod mjcf_tendon;
 mod sdf;
 mod urdf;
 
@@ -48,7 +49,7 @@ pub struct Exported {
 /// Joints of types that the format does not have: a sentence for each, with its path.
 pub fn export(scene: &Scene, name: &str, format: Format) -> Result<Exported, Vec<String>> {
     let mut tree = Tree::new(scene, name);
-    tree.note_rest();
+    tree.note_rest(format);
     let text = match format {
         Format::Urdf => urdf::text(&mut tree)?,
         Format::Mjcf => mjcf::text(&mut tree)?,
@@ -204,7 +205,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Notes the objects that no format takes.
-    fn note_rest(&mut self) {
+    fn note_rest(&mut self, format: Format) {
         let scene = self.scene;
         for object in &scene.objects {
             let words = match object.kind {
@@ -217,8 +218,8 @@ impl<'a> Tree<'a> {
             };
             self.note(&object.path, &format!("{words} is not written"));
         }
-        for name in &scene.model.names().spring_dampers {
-            self.note(name, "a spring and damper between two points is not written");
+        for name in scene.model.names().spring_dampers.iter().filter(|_| format != Format::Mjcf) {
+            self.note(name, "springs between points and tendons are not written");
         }
         for spring in scene.model.nonlinear_springs() {
             let joint = scene.model.names().dof_joint[spring.dof];

@@ -1,16 +1,23 @@
-//! Actuators on joints: gain and bias become a torque motor or a spring-damper motor.
+//! Actuators: on joints gain and bias become a torque motor or a spring-damper motor, on tendons a tendon with an
+//! actuator.
 
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
 use crate::findings::Findings;
-use crate::robot::{Motor, MotorLaw, Robot};
+use crate::robot::{Motor, MotorLaw, Robot, Tendon};
 use crate::source::Element;
 
 /// Force = gain·u + bias₀ + bias₁·length + bias₂·rate.
-struct Law {
-    gain: f64,
-    bias: [f64; 3],
+pub(super) struct Law {
+    pub gain: f64,
+    pub bias: [f64; 3],
+}
+
+/// What an actuator becomes.
+enum Made {
+    Motor(Motor),
+    Tendon(Tendon),
 }
 
 impl<'d> Reader<'d> {
@@ -24,7 +31,8 @@ impl<'d> Reader<'d> {
             element.keep();
             element.attribute("name");
             match findings.take(self.actuator(element, robot)) {
-                Some(Ok(motor)) => robot.motors.push(motor),
+                Some(Ok(Made::Motor(motor))) => robot.motors.push(motor),
+                Some(Ok(Made::Tendon(tendon))) => robot.tendons.push(tendon),
                 Some(Err(why)) => {
                     findings.warn(element.error(format!("actuator is left out: {why}")));
                     element.drop(&why);
@@ -34,10 +42,20 @@ impl<'d> Reader<'d> {
         }
     }
 
-    fn actuator(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Motor, String>, Diagnostic> {
+    fn actuator(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
         let d = &self.defaults;
+        if e.peek("tendon").is_some() {
+            let gear = d.number(e, "main", "gear")?.unwrap_or(1.0);
+            return Ok(match self.law(e)? {
+                Ok(law) => {
+                    let limits = self.force_limits(e, &law, gear)?;
+                    self.tendon_actuator(e, (&law, gear), limits)?.map(Made::Tendon)
+                }
+                Err(why) => Err(why),
+            });
+        }
         let Some(name) = e.attribute("joint").or_else(|| e.attribute("jointinparent")) else {
-            let on = ["tendon", "site", "body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
+            let on = ["site", "body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
             return Ok(Err(format!(
                 "it acts on a {}, and motors here act on joints",
                 on.unwrap_or("thing without name")
@@ -57,7 +75,9 @@ impl<'d> Reader<'d> {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
-        let limit = self.limit(e, &law, gear)?;
+        let (force, control) = self.force_limits(e, &law, gear)?;
+        let control = control.filter(|_| law.bias == [0.0; 3]);
+        let limit = force.into_iter().chain(control).reduce(f64::min);
         let reference = self.references[joint];
         let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
         let made = if law.bias == [0.0; 3] {
@@ -69,7 +89,7 @@ impl<'d> Reader<'d> {
         } else {
             return Ok(Err(format!("its bias {:?} is no spring and damper", law.bias)));
         };
-        Ok(Ok(Motor { joint, law: made.0, max_torque: limit, command: made.1 }))
+        Ok(Ok(Made::Motor(Motor { joint, law: made.0, max_torque: limit, command: made.1 })))
     }
 
     fn law(&self, e: Element<'d>) -> Result<Result<Law, String>, Diagnostic> {
@@ -114,8 +134,8 @@ impl<'d> Reader<'d> {
         }))
     }
 
-    /// Largest torque: from the range of the force, or of the control of a motor.
-    fn limit(&self, e: Element<'d>, law: &Law, gear: f64) -> Result<Option<f64>, Diagnostic> {
+    /// Largest forces: from the range of the force, and from that of the control.
+    fn force_limits(&self, e: Element<'d>, law: &Law, gear: f64) -> Result<(Option<f64>, Option<f64>), Diagnostic> {
         let d = &self.defaults;
         let largest = |name: &str, flag: &str| -> Result<Option<f64>, Diagnostic> {
             let range = d.numbers(e, "main", name)?;
@@ -130,12 +150,7 @@ impl<'d> Reader<'d> {
             })
         };
         let force = largest("forcerange", "forcelimited")?.map(|f| f * gear.abs());
-        let control = largest("ctrlrange", "ctrllimited")?.filter(|_| law.bias == [0.0; 3]);
-        let control = control.map(|u| (u * law.gain * gear).abs());
-        Ok(match (force, control) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (a, b) => a.or(b),
-        }
-        .filter(|x| *x > 0.0))
+        let control = largest("ctrlrange", "ctrllimited")?.map(|u| (u * law.gain * gear).abs());
+        Ok((force.filter(|x| *x > 0.0), control.filter(|x| *x > 0.0)))
     }
 }

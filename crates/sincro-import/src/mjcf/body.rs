@@ -6,8 +6,11 @@ use sincro_scene::diagnostic::Diagnostic;
 use super::Reader;
 use super::orientation::{placement, rotation};
 use crate::findings::Findings;
-use crate::robot::{Inertial, Joint, JointKind, Link, Optics, Placement, Robot, Sensor, SensorKind, turned_inertia};
+use crate::robot::{
+    Inertial, Joint, JointKind, Link, Optics, Placement, Robot, Sensor, SensorKind, TendonPath, turned_inertia,
+};
 use crate::source::Element;
+use crate::tendon_mass::tendon_mass;
 
 /// Deepest nesting of bodies.
 const MAX_DEPTH: usize = 200;
@@ -201,7 +204,7 @@ impl<'d> Reader<'d> {
         let (mut carrier, n) = (carrier, made.len());
         let mut before = [0.0; 3];
         for (k, (made, wanted)) in made.into_iter().enumerate() {
-            let JointRead { mut joint, position, reference } = made;
+            let JointRead { mut joint, position, reference, tuned } = made;
             let last = k + 1 == n;
             let step: [f64; 3] = std::array::from_fn(|c| position[c] - before[c]);
             joint.pose =
@@ -228,13 +231,14 @@ impl<'d> Reader<'d> {
             }
             self.order.push(robot.joints.len());
             self.references.push(reference);
+            self.tuned.extend(tuned.map(|tuned| (robot.joints.len(), tuned)));
             robot.joints.push(joint);
             before = position;
         }
         robot.links.len() - 1
     }
 
-    fn joint(&self, e: Element<'d>, frame: Placement, name: &str, class: &str) -> Result<JointRead, Diagnostic> {
+    fn joint(&self, e: Element<'d>, frame: Placement, name: &str, class: &str) -> Result<JointRead<'d>, Diagnostic> {
         let d = &self.defaults;
         let free = e.name() == "freejoint";
         let kind = match if free { Some("free") } else { d.text(e, class, "type") } {
@@ -261,7 +265,7 @@ impl<'d> Reader<'d> {
         }
         joint.axis = axis;
         if free {
-            return Ok(JointRead { joint, position, reference: 0.0 });
+            return Ok(JointRead { joint, position, reference: 0.0, tuned: None });
         }
         let angle = |x: f64| if kind == JointKind::Revolute { self.angles.radians(x) } else { x };
         let reference = angle(d.number(e, class, "ref")?.unwrap_or(0.0));
@@ -283,15 +287,33 @@ impl<'d> Reader<'d> {
         }
         let stiffness = d.number(e, class, "stiffness")?.unwrap_or(0.0);
         let rest = angle(d.number(e, class, "springref")?.unwrap_or(0.0)) - reference;
-        if stiffness > 0.0 && n == 1 {
-            joint.spring = Some([stiffness, rest]);
-        } else if stiffness > 0.0 {
-            return Err(
-                e.error(format!("a spring in a joint with {n} degrees of freedom (`{name}`) has no counterpart"))
-            );
+        if stiffness > 0.0 {
+            joint.spring = Some([stiffness, if n == 1 { rest } else { 0.0 }]);
         }
+        let tuned = match d.numbers(e, class, "springdamper")?.as_deref() {
+            Some(&[time, ratio]) if time > 0.0 && ratio > 0.0 => Some(Tuned { element: e, time, ratio, rest }),
+            _ => None,
+        };
         self.limits(e, class, &mut joint, reference, &angle)?;
-        Ok(JointRead { joint, position, reference })
+        Ok(JointRead { joint, position, reference, tuned })
+    }
+
+    /// Gives joints with `springdamper` the stiffness and damping of their inertia at the reference.
+    pub(super) fn tune(&self, robot: &mut Robot) {
+        for (joint, Tuned { element, time, ratio, rest }) in &self.tuned {
+            let inertia = match robot.joints[*joint].kind.dofs() {
+                1 => tendon_mass(robot, &TendonPath::Joints(vec![(*joint, 1.0)])),
+                _ => None,
+            };
+            let Some(inertia) = inertia else {
+                element.change("its `springdamper` is left out: the joint has not one degree of freedom with inertia");
+                continue;
+            };
+            let stiffness = inertia / (time * time * ratio * ratio);
+            robot.joints[*joint].spring = Some([stiffness, *rest]);
+            robot.joints[*joint].damping = vec![2.0 * inertia / time];
+            element.change("`springdamper` as the stiffness and damping that it means with the inertia of this joint");
+        }
     }
 
     fn limits(
@@ -427,10 +449,22 @@ impl<'d> Reader<'d> {
 }
 
 /// A joint as it is read: its place in the body comes with the chain.
-struct JointRead {
+struct JointRead<'d> {
     joint: Joint,
     position: [f64; 3],
     reference: f64,
+    tuned: Option<Tuned<'d>>,
+}
+
+/// Spring and damper of a joint as time constant and damping ratio, with the inertia at the reference.
+pub(super) struct Tuned<'d> {
+    element: Element<'d>,
+    /// Time constant `[s]`.
+    time: f64,
+    /// Damping ratio.
+    ratio: f64,
+    /// Rest coordinate.
+    rest: f64,
 }
 
 /// A link with nothing on it.

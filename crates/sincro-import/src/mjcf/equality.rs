@@ -1,4 +1,4 @@
-//! Equalities as loop joints and gears; tendons, which are refused if they act.
+//! Equalities as loop joints, gears, and stiff tendons.
 
 use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_scene::diagnostic::Diagnostic;
@@ -12,34 +12,6 @@ use crate::source::Element;
 const OPEN: f64 = 1e-6;
 
 impl<'d> Reader<'d> {
-    /// Tendons without springs, limits and friction only measure; others are refused.
-    pub(super) fn tendons(&self, tendons: Element<'d>, findings: &mut Findings) {
-        for element in self.files.elements(tendons) {
-            let name = element.peek("name").unwrap_or("tendon").to_owned();
-            let mut acts = None;
-            for key in ["stiffness", "damping", "frictionloss", "armature"] {
-                let given = findings.take(self.defaults.numbers(element, "main", key)).flatten();
-                if given.is_some_and(|n| n.iter().any(|x| *x != 0.0)) {
-                    acts = Some(key);
-                }
-            }
-            let has_range = self.defaults.holder(element, "main", "range").is_some();
-            let limited = match self.defaults.text(element, "main", "limited") {
-                Some("true") => true,
-                Some("false") => false,
-                _ => self.settings.autolimits && has_range,
-            };
-            if limited {
-                acts = Some("range");
-            }
-            match acts {
-                Some(key) => findings
-                    .error(element.error(format!("tendon `{name}` acts (`{key}`): tendons have no counterpart"))),
-                None => element.drop("a tendon without spring, damping and limits exerts no force"),
-            }
-        }
-    }
-
     /// All equalities.
     pub(super) fn equalities(&mut self, equality: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
         for element in self.files.elements(equality) {
@@ -53,6 +25,7 @@ impl<'d> Reader<'d> {
                 "connect" => self.connect(element, robot),
                 "weld" => self.weld(element, robot),
                 "joint" => self.coupled(element, robot),
+                "tendon" => self.held_tendon(element, robot, findings),
                 other => Err(element.error(format!("equality of `{other}` has no counterpart"))),
             };
             findings.take(made);

@@ -2,7 +2,7 @@
 //!
 //! Source: key `mjcf`. Includes are put in place, defaults are resolved, several joints of a body become a chain, mass
 //! properties come from the geoms where the format says so. Features of the dynamics without a counterpart are refused
-//! by name: tendons that act, fluid forces, plugins, soft bodies.
+//! by name: tendons that wrap or run over pulleys and act, fluid forces, plugins, soft bodies.
 
 mod actuator;
 mod body;
@@ -12,6 +12,7 @@ mod geom;
 mod include;
 mod orientation;
 mod state;
+mod tendon;
 
 use std::collections::BTreeMap;
 
@@ -44,7 +45,7 @@ pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
         [.., "@user"] | [.., "@group"] => Some("data of other programs"),
         [.., "site", "@rgba" | "@size" | "@type" | "@material"] => Some("a frame does not show"),
         [.., "compiler", _] => Some("setting of MuJoCo's compiler that changes nothing here"),
-        _ if path.contains(&"tendon") => Some("it exerts no force"),
+        _ if path.contains(&"tendon") => Some("it neither exerts a force nor changes a length"),
         _ => None,
     }
 }
@@ -67,8 +68,12 @@ struct Reader<'d> {
     sites: BTreeMap<String, usize>,
     /// Joints by name.
     joints: BTreeMap<String, usize>,
+    /// Tendons by name.
+    tendons: BTreeMap<String, tendon::KnownTendon>,
     /// Reference coordinate of each joint of the robot.
     references: Vec<f64>,
+    /// Joints of the robot whose springs follow from their inertia.
+    tuned: Vec<(usize, body::Tuned<'d>)>,
     /// Joints of the tree in the order of the coordinates.
     order: Vec<usize>,
 }
@@ -109,7 +114,9 @@ pub(crate) fn read<'d>(
         bodies: BTreeMap::new(),
         sites: BTreeMap::new(),
         joints: BTreeMap::new(),
+        tendons: BTreeMap::new(),
         references: Vec::new(),
+        tuned: Vec::new(),
         order: Vec::new(),
     };
     for option in all("option") {
@@ -138,9 +145,10 @@ pub(crate) fn read<'d>(
     if reader.settings.total_mass > 0.0 {
         scale_mass(&mut robot, reader.settings.total_mass);
     }
+    reader.tune(&mut robot);
     for tendon in all("tendon") {
         tendon.keep();
-        reader.tendons(tendon, findings);
+        reader.tendons(tendon, &mut robot, findings);
     }
     for equality in all("equality") {
         equality.keep();

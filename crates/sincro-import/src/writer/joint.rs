@@ -110,7 +110,11 @@ impl Writer<'_> {
         }
         if let Some([stiffness, rest]) = joint.spring {
             let rest = if rest == 0.0 { String::new() } else { format!(", rest = {}", number(rest)) };
-            self.line(&format!("spring = {{ stiffness = {}{rest} }}", number(stiffness)));
+            let one = format!("{{ stiffness = {}{rest} }}", number(stiffness));
+            match joint.kind.dofs() {
+                1 => self.line(&format!("spring = {one}")),
+                n => self.line(&format!("spring = [{}]", vec![one; n].join(", "))),
+            }
         }
     }
 

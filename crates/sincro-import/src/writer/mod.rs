@@ -6,6 +6,7 @@
 mod body;
 mod experiment;
 mod joint;
+mod tendon;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -139,6 +140,7 @@ impl Writer<'_> {
         self.sensors();
         self.loops();
         self.gears();
+        self.tendons();
     }
 
     fn choices(&mut self) {

@@ -151,3 +151,66 @@ fn what_a_format_cannot_say_is_said() {
     let exported = export(&own.scene, "own", Format::Sdf).unwrap();
     assert!(exported.notes.iter().any(|(path, words)| path.ends_with("slide") && words.contains("motors")));
 }
+
+/// Springs between points and tendons that pass through MJCF.
+const TENDONS: &str = r#"
+[[spring_damper]]
+name = "line"
+between = ["/", "/base/turn/arm"]
+points = [[0.5, 0.2, 0.3], [0.0, 0.1, 0.0]]
+free_length = 0.2
+stiffness = 20.0
+damping = 1.5
+
+[[tendon]]
+name = "cord"
+through = ["/", "/base/turn/arm", "/base/turn/arm/slide/tool/tip"]
+stiffness = 30.0
+free_length = 0.4
+tension_only = true
+actuator = { command = 0.0, max_force = 7.0 }
+
+[[tendon]]
+name = "sum"
+joints = ["/base/turn", "/base/turn/arm/slide"]
+coefficients = [0.2, 1.0]
+free_length = [0.01, 0.05]
+stiffness = 12.0
+damping = 0.8
+"#;
+
+#[test]
+fn springs_and_tendons_come_back_from_mjcf() {
+    let folder = Folder::new();
+    folder.file("own/scene.toml", [SCENE, TENDONS].concat());
+    folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
+    let own =
+        sincro_scene::open::open(&folder.path().join("own"), &[], sincro_scene::fmu::Loaders::default(), true).unwrap();
+    let exported = export(&own.scene, "own", Format::Mjcf).unwrap();
+    let imported = folder.import("r.xml", &exported.text).unwrap_or_else(|found| panic!("{found}\n{}", exported.text));
+    let back = folder.open(&imported).scene;
+    // the actuator of the cord is a tendon of its own
+    let found = |name: &str| {
+        let names = &back.model.names().spring_dampers;
+        &back.model.spring_dampers()[names.iter().position(|n| n == name).unwrap()]
+    };
+    assert_eq!(back.model.spring_dampers().len(), 4, "{}", imported.scene());
+    assert_eq!(found("/cord-2").actuator.unwrap().max_force, 7.0);
+    for draw in 0..20 {
+        let number = |k: usize| ((draw * 4 + k) as f64 * 0.618_033_988_749_895).fract() - 0.3;
+        let (q, v) = ([number(0), number(1)], [number(2), number(3)]);
+        let force = |model: &Model<f64>, name: &str| {
+            let mut scratch = Scratch::new(model);
+            sincro_dynamics::kinematics::motions(model, &q, &v, &v, &mut scratch);
+            let k = model.names().spring_dampers.iter().position(|n| n == name).unwrap();
+            let element = &model.spring_dampers()[k];
+            let at = element.length(&q, &v, |link| (scratch.twist(link), scratch.link_poses()[link]));
+            (at, element.forces(at.length, at.rate, &vec![0.0; model.n_commands()]).total())
+        };
+        for name in ["/line", "/cord", "/sum"] {
+            let ((at, expected), (there, found)) = (force(&own.scene.model, name), force(&back.model, name));
+            assert!((at.length - there.length).abs() < 1e-14 && (at.rate - there.rate).abs() < 1e-13, "{name}");
+            assert!((expected - found).abs() < 1e-12, "draw {draw}, {name}: {expected} {found}");
+        }
+    }
+}

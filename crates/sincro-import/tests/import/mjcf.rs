@@ -1,5 +1,10 @@
 //! MJCF.
 
+use sincro_dynamics::crba::mass_matrix;
+use sincro_dynamics::model::Model;
+use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::state::State;
+
 use crate::folder::{Folder, dropped, entry};
 
 const HOPPER: &str = r#"<mujoco model="hopper">
@@ -94,10 +99,16 @@ fn features_without_counterpart_are_refused_by_name() {
         ("<option density=\"1.2\"/>", "", "fluid forces"),
         ("<extension><plugin plugin=\"x\"/></extension>", "", "plugins"),
         (
-            "<tendon><fixed name=\"t\" stiffness=\"3\"><joint joint=\"knee\" coef=\"1\"/></fixed></tendon>",
+            "<tendon><spatial name=\"t\" stiffness=\"3\"><site site=\"imu\"/><pulley divisor=\"2\"/></spatial></tendon>",
             "",
-            "tendon `t` acts",
+            "tendon `t` acts (`stiffness`), and it runs over a pulley",
         ),
+        (
+            "<tendon><fixed name=\"t\" stiffness=\"3 1\"><joint joint=\"knee\" coef=\"1\"/></fixed></tendon>",
+            "",
+            "polynomial",
+        ),
+        ("<tendon><fixed name=\"t\"><joint joint=\"nee\" coef=\"1\"/></fixed></tendon>", "", "there is no joint `nee`"),
         ("<equality><joint joint1=\"knee\" joint2=\"pitch\" polycoef=\"0 1 2 0 0\"/></equality>", "", "polynomial"),
         ("", "<flexcomp name=\"f\"/>", "flexcomp"),
     ] {
@@ -107,6 +118,100 @@ fn features_without_counterpart_are_refused_by_name() {
         let refused = folder.import("hopper.xml", &text).unwrap_err().to_string();
         assert!(refused.contains(words), "{words}: {refused}");
     }
+}
+
+/// 1/(j M⁻¹ jᵀ) at zero coordinates for a row of coefficients.
+fn mass_along(model: &Model<f64>, row: &[(usize, f64)]) -> f64 {
+    let n = model.n_v();
+    let mut mass = vec![0.0; n * n];
+    mass_matrix(model, &State::new(model).q, &mut Scratch::new(model), &mut mass);
+    let mut j = vec![0.0; n];
+    row.iter().for_each(|(k, c)| j[*k] = *c);
+    // Gauss without pivots: the matrix is positive definite
+    let mut x = j.clone();
+    for k in 0..n {
+        for i in k + 1..n {
+            let factor = mass[i * n + k] / mass[k * n + k];
+            (k..n).for_each(|l| mass[i * n + l] -= factor * mass[k * n + l]);
+            x[i] -= factor * x[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let sum: f64 = (k + 1..n).map(|l| mass[k * n + l] * x[l]).sum();
+        x[k] = (x[k] - sum) / mass[k * n + k];
+    }
+    1.0 / j.iter().zip(&x).map(|(a, b)| a * b).sum::<f64>()
+}
+
+#[test]
+fn a_spring_given_by_its_time_constant_has_the_inertia_of_its_joint() {
+    let folder = Folder::new();
+    let text = HOPPER.replace("springref=\"-10\"", "springref=\"-10\" springdamper=\"0.2 0.5\"");
+    let imported = folder.import("hopper.xml", &text).unwrap();
+    let model = &folder.open(&imported).scene.model;
+    let knee = model.names().joint("/x/z/pitch/torso/knee").unwrap();
+    let (dof, inertia) = (model.dofs()[knee.v_idx], mass_along(model, &[(knee.v_idx, 1.0)]));
+    assert!((dof.stiffness - inertia / 0.01).abs() < 1e-9 * dof.stiffness, "{} {inertia}", dof.stiffness);
+    assert!((dof.damping - inertia / 0.1).abs() < 1e-9 * dof.damping);
+    assert!((dof.rest + 10.0_f64.to_radians()).abs() < 1e-15);
+}
+
+#[test]
+fn tendons_keep_their_forces() {
+    let folder = Folder::new();
+    let text = HOPPER
+        .replace(
+            "<site name=\"imu\" pos=\"0 0 0.1\"/>",
+            "<site name=\"imu\" pos=\"0 0 0.1\"/><site name=\"hip\" pos=\"0.1 0 0\"/>",
+        )
+        .replace("<geom type=\"box\"", "<site name=\"heel\" pos=\"0.05 0 -0.3\"/><geom type=\"box\"")
+        .replace(
+            "</mujoco>",
+            r#"<tendon>
+                <fixed name="f" stiffness="30" damping="2" springlength="0.1 0.2" range="-1 1" solreflimit="0.01 2">
+                  <joint joint="z" coef="2"/><joint joint="knee" coef="-0.5"/></fixed>
+                <spatial name="s" stiffness="40"><site site="imu"/><site site="hip"/><site site="heel"/></spatial>
+                <fixed name="silent"><joint joint="knee" coef="3"/></fixed>
+              </tendon>
+              <actuator><position name="servo" tendon="silent" kp="50" gear="2" ctrlrange="-1 1"/>
+                <general name="pull" tendon="s" gainprm="7" gear="-1" forcerange="-5 5"/></actuator>
+              <equality><tendon name="held" tendon1="silent" polycoef="0.3 0 0 0 0" solref="-1000 -20"/></equality></mujoco>"#,
+        );
+    let imported = folder.import("hopper.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    let scene = folder.open(&imported).scene;
+    let model = &scene.model;
+    let names: Vec<&str> = model.names().spring_dampers.iter().map(String::as_str).collect();
+    assert_eq!(names, ["/f", "/s", "/held", "/servo", "/pull"]);
+    let [fixed, spatial, held, servo, pull] = model.spring_dampers() else { panic!() };
+    let knee = model.names().joint("/x/z/pitch/torso/knee").unwrap();
+    let z = model.names().joint("/x/z").unwrap();
+    // z has the reference 1.25: the length is 2 (z + 1.25) − 0.5 knee
+    let shares: Vec<_> = fixed.shares().iter().map(|share| (share.dof, share.coefficient)).collect();
+    assert_eq!(shares, [(z.v_idx, 2.0), (knee.v_idx, -0.5)]);
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * (1.0 + b.abs()), "{a} {b}");
+    let force = |length: f64, rate: f64| fixed.forces(length - 2.5, rate, &[0.0; 8]).total();
+    close(force(0.15, 0.0), 0.0);
+    close(force(0.3, 0.5), -30.0 * 0.1 - 2.0 * 0.5);
+    close(force(-0.2, 0.0), 30.0 * 0.3);
+    // mass along it: M at zero coordinates by the difference of the stop's force, stiffness m/(T ζ)²
+    let (stop, spring) = (force(1.1, 0.0), -30.0 * 0.9);
+    let mass = (spring - stop) / 0.1 * (0.01 * 2.0_f64).powi(2);
+    close(mass, mass_along(model, &[(z.v_idx, 2.0), (knee.v_idx, -0.5)]));
+    close(force(1.1, 3.0), -30.0 * 0.9 - 6.0 - mass / 4e-4 * 0.1 - 2.0 * mass / 0.01 * 3.0);
+    assert_eq!(spatial.segments().len(), 2);
+    let length = f64::sqrt(0.1_f64.powi(2) + 0.1_f64.powi(2)) + f64::sqrt(0.05_f64.powi(2) + 0.5_f64.powi(2));
+    close(spatial.forces(length + 0.1, 0.0, &[0.0; 8]).total(), -4.0);
+    // held: stiffness 1000 m, damping 20 m with the mass along the knee
+    let mass = mass_along(model, &[(knee.v_idx, 3.0)]);
+    close(held.law.stiffness, 1000.0 * mass);
+    close(held.law.damping, 20.0 * mass);
+    close(held.free_length, 0.3);
+    close(servo.law.stiffness, 200.0);
+    close(servo.free_length, 0.0);
+    close(servo.actuator.unwrap().max_force, 100.0);
+    close(pull.actuator.unwrap().max_force, 5.0);
+    assert!(entry(&imported, "position[servo]").words.contains("100 times the control"));
+    assert!(entry(&imported, "general[pull]").words.contains("-7 times the control"));
 }
 
 #[test]

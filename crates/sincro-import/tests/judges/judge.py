@@ -146,9 +146,33 @@ def joints_of_mujoco(model, head):
     return found
 
 
+def without_soft_constraints(folder):
+    """Takes stops of tendons, and tendons that stand for equalities, out of a scene: they are soft constraints there."""
+    with open(os.path.join(folder, "import-report.json")) as text:
+        elements = json.load(text)["elements"]
+    held = {str(e["line"]) for e in elements if e["words"].startswith("a stiff [[tendon]]")}
+    path = os.path.join(folder, "scene.toml")
+    with open(path) as text:
+        blocks = text.read().split("\n\n")
+    kept = []
+    for block in blocks:
+        if "[[tendon]]" in block:
+            if block.lstrip().split("\n")[0].rsplit(":", 1)[-1] in held:
+                continue
+            lines = [line for line in block.split("\n") if not line.startswith("limits = ")]
+            block = "\n".join(lines)
+            if not re.search("^(stiffness|damping|preload|actuator) = ", block, re.M):
+                continue
+        kept.append(block)
+    with open(path, "w") as text:
+        text.write("\n\n".join(kept))
+
+
 def against_mujoco(sincro, file, folder):
     """Largest difference of the inverse dynamics, without contacts, limits, equalities and Coulomb friction."""
     import mujoco
+
+    without_soft_constraints(folder)
 
     model = mujoco.MjModel.from_xml_path(file)
     data = mujoco.MjData(model)

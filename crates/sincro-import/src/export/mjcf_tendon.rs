@@ -1,0 +1,143 @@
+//! Tendons of MJCF: springs, dampers and actuators between points, and tendons.
+
+use sincro_dynamics::actuation::NonlinearLaw;
+
+use super::mjcf::is_site;
+use super::{Tree, escaped, numbers};
+use crate::number::plain;
+
+/// A site that a tendon runs through.
+struct Site {
+    name: String,
+    /// Link of the tree that carries it; none for the world.
+    link: Option<usize>,
+    /// In the frame of that link `[m]`.
+    position: [f64; 3],
+}
+
+/// Tendons of a scene with their sites.
+pub(super) struct Tendons {
+    sites: Vec<Site>,
+    /// Sites of each element of the model; empty for one over joints.
+    of_elements: Vec<Vec<usize>>,
+}
+
+/// Name of an element in the file.
+fn name_of(path: &str) -> String {
+    escaped(path.trim_start_matches('/'))
+}
+
+impl Tendons {
+    /// The sites that the elements of a scene need.
+    pub fn of(tree: &Tree<'_>) -> Self {
+        let model = &tree.scene.model;
+        let (mut sites, mut of_elements) = (Vec::new(), Vec::new());
+        for (element, path) in model.spring_dampers().iter().zip(&model.names().spring_dampers) {
+            let ends = element.segments().first().map(|s| s.ends[0]);
+            let points = ends.into_iter().chain(element.segments().iter().map(|s| s.ends[1]));
+            let mut own = Vec::new();
+            for (k, point) in points.enumerate() {
+                let carrier = point.link.and_then(|link| {
+                    (0..tree.links.len()).filter(|k| !is_site(tree, *k)).find_map(|k| {
+                        let path = &tree.scene.objects[tree.links[k].object].path;
+                        let info = model.names().frames.iter().find(|frame| frame.name == *path)?;
+                        (info.link == Some(link)).then(|| (k, info.pose.inverse().point(point.position).0))
+                    })
+                });
+                let (link, position) = carrier.map_or((None, point.position.0), |(k, p)| (Some(k), p));
+                own.push(sites.len());
+                sites.push(Site { name: format!("{}-{}", name_of(path), k + 1), link, position });
+            }
+            of_elements.push(own);
+        }
+        Self { sites, of_elements }
+    }
+
+    /// Writes the sites on a link, or in the world.
+    pub fn sites_of(&self, link: Option<usize>, out: &mut String, pad: &str) {
+        for site in self.sites.iter().filter(|site| site.link == link) {
+            *out += &format!("{pad}<site name=\"{}\" pos=\"{}\"/>\n", site.name, numbers(&site.position));
+        }
+    }
+
+    /// Writes the section of tendons; notes what they cannot say.
+    pub fn write(&self, out: &mut String, tree: &mut Tree<'_>) {
+        let scene = tree.scene;
+        let model = &scene.model;
+        let mut lines = String::new();
+        for (k, (element, path)) in model.spring_dampers().iter().zip(&model.names().spring_dampers).enumerate() {
+            let mut keys = format!("name=\"{}\"", name_of(path));
+            let law = &element.law;
+            if law.stiffness != 0.0 {
+                let free = plain(element.free_length);
+                let lengths = if element.tension_only { format!("0 {free}") } else { free };
+                keys += &format!(" stiffness=\"{}\" springlength=\"{lengths}\"", plain(law.stiffness));
+                if element.free_length < 0.0 {
+                    tree.note(path, "MJCF takes a negative free length for that at the start");
+                }
+            }
+            if law.damping != 0.0 {
+                keys += &format!(" damping=\"{}\"", plain(law.damping));
+                if element.tension_only {
+                    tree.note(path, "its damper acts in MJCF when it is slack, too");
+                }
+            }
+            if law.preload != 0.0 {
+                tree.note(path, "MJCF has no preload: it is not written");
+            }
+            match law.nonlinear.as_deref() {
+                None => {}
+                Some(NonlinearLaw::Ranges(ranges)) => {
+                    for range in ranges {
+                        let [low, high] = [range.low, range.high].map(|x| x + element.free_length);
+                        if range.damping == 0.0 && law.stiffness == 0.0 && !keys.contains("springlength") {
+                            let lengths = numbers(&[low, high]);
+                            keys += &format!(" stiffness=\"{}\" springlength=\"{lengths}\"", plain(range.stiffness));
+                        } else {
+                            let [low, high] = [low.max(-1e9), high.min(1e9)];
+                            keys += &format!(" range=\"{}\"", numbers(&[low, high]));
+                            tree.note(path, "stops of MJCF have a softness of their own");
+                        }
+                    }
+                }
+                Some(_) => tree.note(path, "its law or table is not written"),
+            }
+            let parts: String = if element.shares().is_empty() {
+                let site = |s: &usize| format!("      <site site=\"{}\"/>\n", self.sites[*s].name);
+                self.of_elements[k].iter().map(site).collect()
+            } else {
+                let joint = |dof: usize| {
+                    let path = &model.names().joint_of(dof).name;
+                    tree.links.iter().flat_map(|l| &l.joints).find(|j| j.path == *path).map(|j| escaped(&j.name))
+                };
+                let share = |share: &sincro_dynamics::actuation::spring_damper::JointShare<f64>| {
+                    let name = joint(share.dof)?;
+                    Some(format!("      <joint joint=\"{name}\" coef=\"{}\"/>\n", plain(share.coefficient)))
+                };
+                element.shares().iter().filter_map(share).collect()
+            };
+            let word = if element.shares().is_empty() { "spatial" } else { "fixed" };
+            lines += &format!("    <{word} {keys}>\n{parts}    </{word}>\n");
+        }
+        if !lines.is_empty() {
+            *out += &format!("  <tendon>\n{lines}  </tendon>\n");
+        }
+    }
+
+    /// Lines of the actuators on tendons.
+    pub fn actuators(&self, tree: &Tree<'_>) -> String {
+        let model = &tree.scene.model;
+        let mut lines = String::new();
+        for (element, path) in model.spring_dampers().iter().zip(&model.names().spring_dampers) {
+            let Some(actuator) = element.actuator else { continue };
+            let (name, max) = (name_of(path), actuator.max_force);
+            let limit = if max.is_finite() && max > 0.0 {
+                format!(" forcerange=\"{0} {1}\"", plain(-max), plain(max))
+            } else {
+                String::new()
+            };
+            lines += &format!("    <motor name=\"{name}\" tendon=\"{name}\"{limit}/>\n");
+        }
+        lines
+    }
+}

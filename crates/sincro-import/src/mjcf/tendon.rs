@@ -1,0 +1,294 @@
+//! Tendons: fixed and spatial ones without wrapping, their springs, dampers and stops, equalities that hold them, and
+//! actuators on them.
+//!
+//! Stops and equalities are soft in the source: with the time constant T and the damping ratio ζ of `solref` a
+//! constraint with the mass m behaves as a spring of stiffness m/(T ζ)² with a damper 2 m/T, and with negative numbers
+//! −k, −c as m k and m c. Source: key `mjcf`, solver parameters; m is that of the robot along the tendon at its
+//! reference ([`tendon_mass`]).
+
+use sincro_scene::diagnostic::Diagnostic;
+
+use super::Reader;
+use super::actuator::Law;
+use crate::findings::Findings;
+use crate::robot::{Robot, Tendon, TendonLimits, TendonPath};
+use crate::source::Element;
+use crate::tendon_mass::tendon_mass;
+
+/// Time constant `[s]` and damping ratio of soft constraints where the source gives none.
+const SOLREF: [f64; 2] = [0.02, 1.0];
+
+/// A tendon as equalities and actuators refer to it.
+pub(super) struct KnownTendon {
+    /// Its path; the reason if it has none here.
+    pub path: Result<TendonPath, String>,
+    /// Length at zero coordinates in the source, less that of the path here: of references `[m]`.
+    pub offset: f64,
+    /// Length at the reference of the source `[m]`.
+    pub reference: f64,
+}
+
+impl<'d> Reader<'d> {
+    /// All tendons. One without force only measures, and is kept for actuators on it.
+    pub(super) fn tendons(&mut self, tendons: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
+        for element in self.files.elements(tendons) {
+            element.keep();
+            let made = self.tendon(element, robot, findings);
+            findings.take(made);
+        }
+    }
+
+    fn tendon(&mut self, e: Element<'d>, robot: &mut Robot, findings: &mut Findings) -> Result<(), Diagnostic> {
+        let name = e.attribute("name").map_or_else(|| format!("tendon{}", self.tendons.len() + 1), str::to_owned);
+        let known = self.known_tendon(e, robot)?;
+        let acts = self.acting(e)?;
+        match (&known.path, &acts) {
+            (_, None) => e.change("it exerts no force of its own: actuators and equalities on it are elements"),
+            (Err(why), Some(key)) => {
+                return Err(e.error(format!("tendon `{name}` acts (`{key}`), and {why}: it has no counterpart")));
+            }
+            (Ok(path), Some(_)) => {
+                let mut tendon = Tendon {
+                    name: name.clone(),
+                    at: e.location(),
+                    path: path.clone(),
+                    stiffness: self.linear(e, "stiffness")?,
+                    damping: self.linear(e, "damping")?,
+                    preload: 0.0,
+                    free_length: [known.reference - known.offset; 2],
+                    limits: None,
+                    actuator: None,
+                };
+                if let Some(lengths) = self.defaults.numbers(e, "main", "springlength")?
+                    && lengths.first().is_some_and(|x| *x >= 0.0)
+                {
+                    let [low, high] = [lengths[0], *lengths.last().unwrap_or(&lengths[0])];
+                    tendon.free_length = [low - known.offset, high.max(low) - known.offset];
+                }
+                for key in ["frictionloss", "armature"] {
+                    if self.defaults.number(e, "main", key)?.is_some_and(|x| x != 0.0) {
+                        let words = format!("`{key}` of tendons has no counterpart: it is left out");
+                        findings.warn(e.error(format!("tendon `{name}`: {words}")));
+                        e.change(&words);
+                    }
+                }
+                if let Some([low, high]) = self.tendon_range(e)? {
+                    match tendon_mass(robot, path) {
+                        Some(mass) => {
+                            let (stiffness, damping) = self.softness(e, "solreflimit", mass)?;
+                            let range = [low - known.offset, high - known.offset];
+                            tendon.limits = Some(TendonLimits { range, stiffness, damping });
+                            e.change(&format!("stops with the stiffness and damping of {mass:.4} kg along it"));
+                        }
+                        None => {
+                            findings.warn(e.error(format!("`range` of tendon `{name}` is left out: it moves nothing")));
+                            e.drop("it moves nothing");
+                        }
+                    }
+                }
+                let has_force = tendon.limits.is_some() || tendon.stiffness != 0.0 || tendon.damping != 0.0;
+                if has_force {
+                    robot.tendons.push(tendon);
+                }
+            }
+        }
+        self.tendons.insert(name, known);
+        Ok(())
+    }
+
+    /// The key by which a tendon exerts a force of its own.
+    fn acting(&self, e: Element<'d>) -> Result<Option<&'static str>, Diagnostic> {
+        for key in ["stiffness", "damping", "frictionloss", "armature"] {
+            if self.defaults.numbers(e, "main", key)?.is_some_and(|n| n.iter().any(|x| *x != 0.0)) {
+                return Ok(Some(key));
+            }
+        }
+        Ok(self.tendon_range(e)?.map(|_| "range"))
+    }
+
+    /// Range of lengths, if it is one that limits.
+    fn tendon_range(&self, e: Element<'d>) -> Result<Option<[f64; 2]>, Diagnostic> {
+        let Some(range) = self.defaults.numbers(e, "main", "range")? else { return Ok(None) };
+        let limited = match self.defaults.text(e, "main", "limited") {
+            Some("true") => true,
+            Some("false") => false,
+            _ => self.settings.autolimits,
+        };
+        match range[..] {
+            [low, high] if limited && low < high => Ok(Some([low, high])),
+            [_, _] => Ok(None),
+            _ => Err(e.error(format!("`range` has {} numbers, not two", range.len()))),
+        }
+    }
+
+    /// A stiffness or damping, which is a polynomial in the source, of which here the first number may be given.
+    fn linear(&self, e: Element<'d>, key: &str) -> Result<f64, Diagnostic> {
+        let numbers = self.defaults.numbers(e, "main", key)?.unwrap_or_default();
+        if numbers.iter().skip(1).any(|x| *x != 0.0) {
+            return Err(e.error(format!("`{key}` of a tendon is a polynomial, which has no counterpart")));
+        }
+        Ok(numbers.first().copied().unwrap_or(0.0))
+    }
+
+    /// Stiffness and damping of a soft constraint with a mass `[kg]`.
+    fn softness(&self, e: Element<'d>, key: &str, mass: f64) -> Result<(f64, f64), Diagnostic> {
+        let given = self.defaults.numbers(e, "main", key)?.unwrap_or_default();
+        let [one, two] = [0, 1].map(|k| given.get(k).copied().unwrap_or(SOLREF[k]));
+        if one <= 0.0 && two <= 0.0 {
+            return Ok((-mass * one, -mass * two));
+        }
+        let [time, ratio] = [one.max(1e-6), two.max(1e-3)];
+        Ok((mass / (time * time * ratio * ratio), 2.0 * mass / time))
+    }
+
+    /// Path of a tendon, and its lengths.
+    fn known_tendon(&self, e: Element<'d>, robot: &Robot) -> Result<KnownTendon, Diagnostic> {
+        let parts = self.files.elements(e);
+        parts.iter().for_each(|part| part.keep());
+        if e.name() == "fixed" {
+            let mut shares: Vec<(usize, f64)> = Vec::new();
+            let mut offset = 0.0;
+            for part in parts {
+                let name = part.attribute("joint").unwrap_or_default();
+                let Some(&joint) = self.joints.get(name) else {
+                    return Err(part.error(format!("there is no joint `{name}`")));
+                };
+                if robot.joints[joint].kind.dofs() != 1 {
+                    return Err(part.error(format!("joint `{name}` has not one degree of freedom")));
+                }
+                let coefficient = part.number("coef")?.unwrap_or(0.0);
+                offset += coefficient * self.references[joint];
+                match shares.iter_mut().find(|(known, _)| *known == joint) {
+                    Some((_, sum)) => *sum += coefficient,
+                    None => shares.push((joint, coefficient)),
+                }
+            }
+            return Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), offset, reference: offset });
+        }
+        let mut through = Vec::new();
+        let mut reason = None;
+        for part in parts {
+            match part.name() {
+                "site" => {
+                    let name = part.attribute("site").unwrap_or_default();
+                    let Some(&site) = self.sites.get(name) else {
+                        return Err(part.error(format!("there is no site `{name}`")));
+                    };
+                    through.push(site);
+                }
+                "geom" => reason = Some("it wraps around a geom".to_owned()),
+                "pulley" => reason = Some("it runs over a pulley".to_owned()),
+                other => return Err(part.error(format!("a tendon has no `{other}`"))),
+            }
+        }
+        if through.len() < 2 && reason.is_none() {
+            return Err(e.error("a spatial tendon runs through two sites or more"));
+        }
+        let places: Vec<_> = through.iter().map(|site| robot.link_pose(Some(*site), &[]).pos).collect();
+        let reference = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let path = reason.map_or_else(|| Ok(TendonPath::Through(through)), Err);
+        Ok(KnownTendon { path, offset: 0.0, reference })
+    }
+
+    fn tendon_of(&self, e: Element<'d>, key: &str) -> Result<Option<&KnownTendon>, Diagnostic> {
+        let Some(name) = e.attribute(key) else { return Ok(None) };
+        self.tendons.get(name).map(Some).ok_or_else(|| e.error(format!("there is no tendon `{name}`")))
+    }
+
+    /// ℓ₁ − ℓ₁₀ = c₀ + c₁·(ℓ₂ − ℓ₂₀), as a stiff tendon.
+    pub(super) fn held_tendon(
+        &mut self,
+        e: Element<'d>,
+        robot: &mut Robot,
+        findings: &mut Findings,
+    ) -> Result<(), Diagnostic> {
+        let c = self.defaults.numbers(e, "main", "polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
+        let get = |k: usize| c.get(k).copied().unwrap_or(0.0);
+        let Some(first) = self.tendon_of(e, "tendon1")? else { return Err(e.error("it names no tendon")) };
+        let second = self.tendon_of(e, "tendon2")?;
+        let no_path = |why: &String| e.error(format!("a tendon that is held has no counterpart: {why}"));
+        let path = first.path.as_ref().map_err(no_path)?;
+        let mut length = first.reference - first.offset + get(0);
+        let path = match second {
+            None => path.clone(),
+            Some(second) => {
+                let other = second.path.as_ref().map_err(no_path)?;
+                let (TendonPath::Joints(one), TendonPath::Joints(two)) = (path, other) else {
+                    return Err(e.error("two tendons through sites that are coupled have no counterpart"));
+                };
+                if (2..5).any(|k| get(k) != 0.0) {
+                    return Err(e
+                        .error("tendons coupled by a polynomial have no counterpart")
+                        .with_help("a linear one has"));
+                }
+                length -= get(1) * (second.reference - second.offset);
+                let mut shares = one.clone();
+                for (joint, coefficient) in two {
+                    match shares.iter_mut().find(|(known, _)| known == joint) {
+                        Some((_, sum)) => *sum -= get(1) * coefficient,
+                        None => shares.push((*joint, -get(1) * coefficient)),
+                    }
+                }
+                TendonPath::Joints(shares)
+            }
+        };
+        let name = e.peek("name").map_or_else(|| format!("held{}", robot.tendons.len() + 1), str::to_owned);
+        let Some(mass) = tendon_mass(robot, &path) else {
+            findings.warn(e.error(format!("equality `{name}` is left out: its tendon moves nothing")));
+            e.drop("it moves nothing");
+            return Ok(());
+        };
+        let (stiffness, damping) = self.softness(e, "solref", mass)?;
+        e.change(&format!("a stiff [[tendon]], with the stiffness and damping of {mass:.4} kg along it"));
+        let name = if robot.tendons.iter().any(|t| t.name == name) { format!("{name}-held") } else { name };
+        robot.tendons.push(Tendon {
+            name,
+            at: e.location(),
+            path,
+            stiffness,
+            damping,
+            preload: 0.0,
+            free_length: [length; 2],
+            limits: None,
+            actuator: None,
+        });
+        Ok(())
+    }
+
+    /// Actuator on a tendon with a law: a tendon of its own, whose command is a force; the reason if it is left out.
+    pub(super) fn tendon_actuator(
+        &self,
+        e: Element<'d>,
+        (law, gear): (&Law, f64),
+        limits: (Option<f64>, Option<f64>),
+    ) -> Result<Result<Tendon, String>, Diagnostic> {
+        let Some(known) = self.tendon_of(e, "tendon")? else { return Ok(Err("it names no tendon".into())) };
+        let path = match &known.path {
+            Ok(path) => path.clone(),
+            Err(why) => return Ok(Err(format!("its tendon has no counterpart: {why}"))),
+        };
+        let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
+        if stiffness < 0.0 || damping < 0.0 {
+            return Ok(Err(format!("its bias {:?} is no spring and damper", law.bias)));
+        }
+        let (force, control) = limits;
+        let is_servo = law.bias != [0.0; 3];
+        let max_force = if is_servo { control } else { force.into_iter().chain(control).reduce(f64::min) };
+        let what = if is_servo { "a spring and damper with an actuator" } else { "an actuator" };
+        let without = if is_servo && force.is_some() { "; `forcerange` is left out" } else { "" };
+        e.change(&format!("{what}: its command, a force, is {} times the control{without}", law.gain * gear));
+        let name =
+            e.peek("name").map_or_else(|| format!("{}-actuator", e.peek("tendon").unwrap_or("tendon")), str::to_owned);
+        Ok(Ok(Tendon {
+            name,
+            at: e.location(),
+            path,
+            stiffness,
+            damping,
+            preload: gear * law.bias[0],
+            free_length: [-known.offset; 2],
+            limits: None,
+            actuator: Some(max_force.unwrap_or(f64::INFINITY)),
+        }))
+    }
+}
