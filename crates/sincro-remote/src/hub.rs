@@ -4,14 +4,14 @@
 //! step is made, by whichever thread completes the condition, as soon as every such client has asked and nobody holds a
 //! lock. Without any such client the simulation runs by itself, between the calls of the others.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use sincro_access::{ConnectionLimits, Connections};
-use sincro_coppelia::api::{ApiError, LegacyPorts, Phase};
+use sincro_coppelia::api::{ApiError, LegacyPorts, Phase, PortRequest};
 use sincro_coppelia::session::{Finished, Session};
 
 use crate::limits::{self, Deadlines};
@@ -62,6 +62,8 @@ pub struct SessionGuard {
     backlog: VecDeque<Finished>,
     publish: Option<Box<dyn FnMut(u64) + Send>>,
     open_port: Option<OpenPort>,
+    /// Ports of the legacy API that a script started without a trigger: their clients do not step.
+    untriggered: BTreeSet<u16>,
 }
 
 /// Opens a port that a script asked for; gives the line for the terminal.
@@ -69,6 +71,8 @@ pub(crate) type OpenPort = Box<dyn FnMut(u16) -> Result<String, String> + Send>;
 
 struct Client {
     key: String,
+    /// Port of the legacy API that it came by; none for the other APIs.
+    legacy_port: Option<u16>,
     /// Nesting level of stepping: it steps while above 0.
     level: u32,
     desired: u64,
@@ -103,6 +107,7 @@ impl Hub {
             backlog: VecDeque::new(),
             publish: None,
             open_port: None,
+            untriggered: BTreeSet::new(),
         };
         Arc::new(Self {
             guard: Mutex::new(guard),
@@ -274,6 +279,13 @@ impl Hub {
     }
 }
 
+/// Reason why clients of a port do not step.
+pub(crate) fn no_trigger(port: u16) -> String {
+    format!(
+        "synchronous mode has no effect on port {port}, which a script started without a trigger, as in V-REP: simRemoteApi.start({port}, 1300, false, true) has one, and port 19997"
+    )
+}
+
 impl SessionGuard {
     /// A connection of the client of a key; connections of the same key are one client.
     pub(crate) fn attach(&mut self, key: &str) -> ClientId {
@@ -284,8 +296,25 @@ impl SessionGuard {
         let id = ClientId(self.next_client);
         self.next_client += 1;
         let (desired, last_seen) = (self.step, Instant::now());
-        self.clients.insert(id, Client { key: key.to_owned(), level: 0, desired, locks: 0, last_seen, connections: 1 });
+        let (key, legacy_port) = (key.to_owned(), None);
+        let client = Client { key, legacy_port, level: 0, desired, locks: 0, last_seen, connections: 1 };
+        self.clients.insert(id, client);
         id
+    }
+
+    /// A connection of a client of the legacy API, by one of its ports.
+    pub(crate) fn attach_legacy(&mut self, key: &str, port: Option<u16>) -> ClientId {
+        let id = self.attach(key);
+        if let Some(client) = self.clients.get_mut(&id) {
+            client.legacy_port = port;
+        }
+        id
+    }
+
+    /// Port of a client that may not step, because a script started it without a trigger; else none.
+    pub(crate) fn untriggered_port(&self, id: ClientId) -> Option<u16> {
+        let port = self.clients.get(&id)?.legacy_port?;
+        self.untriggered.contains(&port).then_some(port)
     }
 
     /// Notes a sign of life of a client.
@@ -422,9 +451,13 @@ impl SessionGuard {
         self.open_port = Some(open);
     }
 
-    /// Opens the ports that scripts have asked for since the last call.
+    /// Opens the ports that scripts have asked for since the last call, and notes which have a trigger.
     fn open_ports(&mut self) {
-        for port in self.session.registry().take_port_requests() {
+        for PortRequest { port, is_new, has_trigger } in self.session.registry().take_port_requests() {
+            self.set_trigger(port, has_trigger);
+            if !is_new {
+                continue;
+            }
             let Some(open) = &mut self.open_port else { continue };
             let opened = open(port);
             self.session.note_port(port, opened.is_ok());
@@ -433,6 +466,19 @@ impl SessionGuard {
                 Err(line) => (300, line),
             };
             self.session.registry().log(level, line);
+        }
+    }
+
+    /// Lets the clients of a port of the legacy API step, or not; those that do are let go then.
+    fn set_trigger(&mut self, port: u16, has_trigger: bool) {
+        if has_trigger {
+            self.untriggered.remove(&port);
+            return;
+        }
+        self.untriggered.insert(port);
+        for client in self.clients.values_mut().filter(|c| c.legacy_port == Some(port) && c.level > 0) {
+            client.level = 0;
+            self.session.registry().log(300, no_trigger(port));
         }
     }
 

@@ -126,6 +126,11 @@ impl Connection {
         self.stream.peer_addr().map_or_else(|_| "unknown".to_owned(), |a| a.to_string())
     }
 
+    /// Port of this machine that the peer came by; none if the connection has ended already.
+    pub fn local_port(&self) -> Option<u16> {
+        self.stream.local_addr().ok().map(|address| address.port())
+    }
+
     /// Another handle of the stream, for a thread that only writes.
     pub fn try_clone_stream(&self) -> io::Result<TcpStream> {
         self.stream.try_clone()

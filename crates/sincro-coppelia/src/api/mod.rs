@@ -57,7 +57,7 @@ pub use error::ApiError;
 pub use find::Search;
 pub(crate) use motions::Motion;
 pub use pairs::ContactOverride;
-pub use ports::LegacyPorts;
+pub use ports::{LegacyPorts, PortRequest};
 pub(crate) use registry::Request;
 pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry};
 pub use signals::Signals;

@@ -1,4 +1,4 @@
-//! Ports of the legacy API as scripts know them: which are open, and which may be opened for them.
+//! Ports of the legacy API as scripts know them: which are open, which may be opened for them, and where clients step.
 
 use std::collections::BTreeSet;
 
@@ -8,6 +8,19 @@ use super::ApiError;
 const MAX_SCRIPT_PORTS: usize = 8;
 /// The smallest port that is opened for a script.
 const MIN_PORT: u16 = 1_024;
+/// Port of V-REP's own service, on which clients may always step: a script does not start it again.
+const CONTINUOUS_PORT: u16 = 19_997;
+
+/// What a script asks of a TCP port of the legacy API with `simRemoteApi.start`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PortRequest {
+    /// TCP port.
+    pub port: u16,
+    /// True if it is to be opened; false if it is open already.
+    pub is_new: bool,
+    /// True if `simxSynchronous` has effect for the clients of this port (`preEnableTrigger`).
+    pub has_trigger: bool,
+}
 
 /// TCP ports of the legacy remote API of one server: those that it opened by itself, and those that scripts asked for
 /// with `simRemoteApi.start`, at most eight.
@@ -31,14 +44,16 @@ impl LegacyPorts {
         self.of_server.contains(&port) || self.of_scripts.contains(&port)
     }
 
-    /// Adds a TCP port for a script, to be opened before the next step; returns false if it is open already.
+    /// Adds a TCP port for a script, to be opened before the next step; returns what the server has to do. Port 19997,
+    /// V-REP's own, keeps its trigger whatever the script says.
     ///
     /// # Errors
     ///
     /// The legacy API is not served, the port is below 1024, or scripts have eight ports already.
-    pub fn add(&mut self, port: u16) -> Result<bool, ApiError> {
+    pub fn add(&mut self, port: u16, has_trigger: bool) -> Result<PortRequest, ApiError> {
+        let has_trigger = has_trigger || port == CONTINUOUS_PORT;
         if self.contains(port) {
-            return Ok(false);
+            return Ok(PortRequest { port, is_new: false, has_trigger });
         }
         if self.of_server.is_empty() {
             return Err(ApiError::new("the server runs without the legacy API"));
@@ -48,7 +63,7 @@ impl LegacyPorts {
             return Err(ApiError(format!("scripts may have up to {MAX_SCRIPT_PORTS} ports above {below} opened")));
         }
         self.of_scripts.insert(port);
-        Ok(true)
+        Ok(PortRequest { port, is_new: true, has_trigger })
     }
 
     /// Removes a TCP port that could not be opened for a script; nothing if it is none of those.
@@ -64,14 +79,17 @@ mod tests {
     #[test]
     fn scripts_have_a_few_ports_above_those_of_the_system() {
         let mut ports = LegacyPorts::new([19_997]);
-        assert!(!ports.add(19_997).unwrap(), "it is open already");
-        assert!(ports.add(80).unwrap_err().0.contains("above 1023"));
+        let open = PortRequest { port: 19_997, is_new: false, has_trigger: true };
+        assert_eq!(ports.add(19_997, false).unwrap(), open, "it is open already, with its trigger");
+        assert!(ports.add(80, true).unwrap_err().0.contains("above 1023"));
         for port in 0..8 {
-            assert!(ports.add(20_000 + port).unwrap());
+            let request = ports.add(20_000 + port, false).unwrap();
+            assert!(request.is_new && !request.has_trigger);
         }
-        assert!(ports.add(20_008).is_err() && !ports.contains(20_008));
+        assert!(ports.add(20_008, true).is_err() && !ports.contains(20_008));
         ports.remove(20_000);
-        assert!(ports.add(20_008).unwrap() && ports.contains(20_008) && !ports.contains(20_000));
-        assert!(LegacyPorts::default().add(20_000).unwrap_err().0.contains("without the legacy API"));
+        assert!(ports.add(20_008, true).unwrap().has_trigger);
+        assert!(ports.contains(20_008) && !ports.contains(20_000));
+        assert!(LegacyPorts::default().add(20_000, true).unwrap_err().0.contains("without the legacy API"));
     }
 }

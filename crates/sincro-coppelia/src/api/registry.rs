@@ -22,7 +22,7 @@ use super::graphs::Graphs;
 use super::motions::{JointMotion, Motions};
 use super::note::Notes;
 use super::pairs::{self, Pair};
-use super::ports::LegacyPorts;
+use super::ports::{LegacyPorts, PortRequest};
 use super::scene_objects::handle_of_id;
 use super::senses::Senses;
 use super::signals::Signals;
@@ -250,7 +250,7 @@ pub struct ObjectRegistry {
     /// TCP ports of the legacy remote API; none if no clients are served.
     pub legacy_ports: Option<LegacyPorts>,
     /// Ports of the legacy API that scripts want to be open.
-    port_requests: Vec<u16>,
+    port_requests: Vec<PortRequest>,
     /// Scene that the world is of now.
     pub(super) scene: Arc<Scene>,
     /// Objects of the scene that clients and scripts have added to it.
@@ -700,24 +700,23 @@ impl ObjectRegistry {
     }
 
     /// Requests a TCP port of the legacy remote API for a script; it is opened between two steps. A port that is open
-    /// already is accepted.
+    /// already is accepted. Without `has_trigger` (V-REP's `preEnableTrigger`) clients of the port do not step.
     ///
     /// # Errors
     ///
     /// No clients are served in this run, the legacy API is not, the port is below 1024, or scripts have eight ports
     /// already.
-    pub fn ask_port(&mut self, port: u16) -> Result<(), ApiError> {
+    pub fn ask_port(&mut self, port: u16, has_trigger: bool) -> Result<(), ApiError> {
         let served = self.legacy_ports.as_mut();
         let ports = served.ok_or_else(|| ApiError::new("nothing is served in this run (`sincro serve` opens it)"))?;
-        if ports.add(port)? {
-            self.port_requests.push(port);
-        }
+        let request = ports.add(port, has_trigger)?;
+        self.port_requests.push(request);
         Ok(())
     }
 
     /// Takes the TCP ports that scripts have requested since the last call, in the order of the requests; the server
     /// opens them.
-    pub fn take_port_requests(&mut self) -> Vec<u16> {
+    pub fn take_port_requests(&mut self) -> Vec<PortRequest> {
         std::mem::take(&mut self.port_requests)
     }
 

@@ -281,7 +281,7 @@ impl Session {
         let note = |ports: &mut LegacyPorts| {
             if is_open {
                 // it is there already, or was allowed when the script asked
-                let _ = ports.add(port);
+                let _ = ports.add(port, true);
             } else {
                 ports.remove(port);
             }

@@ -117,15 +117,17 @@ fn port_of(port: i64, function: &str) -> mlua::Result<u16> {
     })
 }
 
-/// The table `simRemoteApi`: `start(port)` has a port of the legacy API opened, where clients are served. A port is
-/// closed when the server ends, not before.
+/// The table `simRemoteApi`: `start(port, maxPacketSize, debug, preEnableTrigger)` has a port of the legacy API opened,
+/// where clients are served. A port is closed when the server ends, not before.
 fn remote_api(context: &ApiContext<'_>) -> mlua::Result<Table> {
     let (lua, globals) = (context.lua, context.lua.globals());
     let module = lua.create_table()?;
     let (shared, own, index) = (context.shared.clone(), context.own, context.index);
-    let start = lua.create_function(move |_, (port, _): (i64, MultiValue)| {
+    type Start = (i64, LuaValue, LuaValue, LuaValue);
+    let start = lua.create_function(move |_, (port, _, _, trigger): Start| {
         let port = port_of(port, "start")?;
-        let asked = shared.with_sim(own, |sim| Ok(sim.registry.ask_port(port)));
+        let has_trigger = !matches!(trigger, LuaValue::Nil | LuaValue::Boolean(false) | LuaValue::Integer(0));
+        let asked = shared.with_sim(own, |sim| Ok(sim.registry.ask_port(port, has_trigger)));
         match asked.map_err(|error| super::refused("simRemoteApi.start", &error))? {
             Ok(()) => Ok(1),
             Err(why) => {

@@ -10,7 +10,7 @@ use sincro_coppelia::api::{ApiError, Phase};
 use super::commands::{self, FINISH, GET_HANDLE, LAST_ERRORS, SYNCHRONOUS_OFF, SYNCHRONOUS_ON, TAKE_STRING, TRIGGER};
 use super::functions::Call;
 use super::message::{self, Command, Head, Mode, ReplyHead};
-use crate::hub::{ClientId, Hub, SessionGuard};
+use crate::hub::{self, ClientId, Hub, SessionGuard};
 use crate::limits;
 
 /// Errors that are kept for `simxGetLastErrors`.
@@ -112,6 +112,9 @@ impl Client {
     }
 
     fn ready_to_step(&self, guard: &mut SessionGuard) -> Result<(), ApiError> {
+        if let Some(port) = guard.untriggered_port(self.id) {
+            return Err(ApiError(hub::no_trigger(port)));
+        }
         if !guard.is_stepping(self.id) {
             return Err(ApiError::new("synchronous mode is off: a trigger does nothing"));
         }
@@ -243,6 +246,10 @@ impl Client {
 
     fn execute(&mut self, guard: &mut SessionGuard, function: u16, ident: &[u8], data: &[u8]) -> Answer {
         let result = match function {
+            SYNCHRONOUS_ON | SYNCHRONOUS_OFF if guard.untriggered_port(self.id).is_some() => {
+                let port = guard.untriggered_port(self.id).unwrap_or_default();
+                Err(ApiError(hub::no_trigger(port)))
+            }
             SYNCHRONOUS_ON => {
                 if !guard.is_stepping(self.id) {
                     guard.set_stepping(self.id, true);

@@ -55,7 +55,7 @@ pub(crate) fn serve(mut connection: Connection, hub: &Arc<Hub>) {
     let key = format!("legacy {}", connection.peer());
     // there is no handshake: a client may connect and say nothing for a while
     connection.next_message();
-    let id = hub.enter().attach(&key);
+    let id = hub.enter().attach_legacy(&key, connection.local_port());
     let mut client = Client::new(hub.clone(), id);
     let (mut incoming, mut outgoing) = (Vec::new(), Vec::new());
     while packet::receive(&mut connection, &mut incoming).is_ok() {

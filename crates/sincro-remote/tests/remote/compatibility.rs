@@ -141,3 +141,28 @@ fn a_script_has_a_port_of_the_legacy_api_opened() {
     assert!(lines.iter().any(|line| line.contains("answers\t1\t-1\t1\t-1\t-1")), "{lines:?}");
     assert!(lines.iter().any(|line| line.contains("port 80") && line.contains("is not opened")), "{lines:?}");
 }
+
+#[test]
+fn clients_of_a_port_without_a_trigger_do_not_step() {
+    let free = || std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let (plain, triggered) = (free(), free());
+    let folder = scenes::two_link_arm("");
+    let script = format!(
+        "[[script]]\nobject = \"/joint1\"\ncode = '''\nfunction sysCall_init()\n  simRemoteApi.start({plain})\n  simRemoteApi.start({triggered}, 1300, false, true)\nend\n'''\n"
+    );
+    folder.write("scene.toml", &format!("{}\n{script}", scenes::TWO_LINK_ARM));
+    let server = folder.session(with_scripts(), None).serve(&options());
+    let mut first = Legacy::connect(server.ports().legacy[0]);
+    first.start();
+    first.trigger().unwrap();
+    let mut stepping = Legacy::connect(([127, 0, 0, 1], triggered).into());
+    stepping.call(0x0001, &[], &[]).unwrap();
+    let mut free = Legacy::connect(([127, 0, 0, 1], plain).into());
+    assert!(free.call(0x0001, &[], &[]).is_err() && free.trigger().is_err());
+    let why = free.last_errors();
+    assert!(why.iter().all(|line| line.contains("started without a trigger")) && why.len() == 2, "{why:?}");
+    // nothing waits for it: the one that steps goes on
+    first.call(0x0002, &[], &[]).unwrap();
+    let before = stepping.trigger().unwrap().time;
+    assert!(stepping.trigger().unwrap().time > before);
+}
