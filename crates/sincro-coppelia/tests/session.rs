@@ -223,3 +223,17 @@ fn what_means_nothing_is_refused_with_a_reason() {
         assert!(message.contains(expected), "{name}: {message}");
     }
 }
+
+#[test]
+fn a_time_step_that_is_set_in_a_run_stays_as_it_is() {
+    let mut arm = arm();
+    let before = arm.call("sim.getSimulationTimeStep", &[]).unwrap();
+    arm.start().unwrap();
+    arm.registry().take_log();
+    for _ in 0..2 {
+        arm.call("sim.setFloatParam", &[Value::Int(1), Value::Real(0.003)]).unwrap();
+    }
+    let told: Vec<String> = arm.registry().take_log().into_iter().map(|line| line.text).collect();
+    assert_eq!(told.iter().filter(|line| line.contains("0.003 s is not taken")).count(), 1, "{told:?}");
+    assert_eq!(arm.call("sim.getSimulationTimeStep", &[]).unwrap(), before);
+}

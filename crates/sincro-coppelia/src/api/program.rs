@@ -208,19 +208,32 @@ impl SimApi<'_> {
     }
 
     /// Sets the real parameter of the simulator with V-REP's number `id` (`sim.floatparam_…`): 1, the step of clients
-    /// `[s]`, while stopped.
+    /// `[s]`, while stopped. In a run it stays as it is, as in V-REP, and a message says so once.
     ///
     /// # Errors
     ///
-    /// There is no real parameter of that number, it is the base step (set `step` of the experiment), a run is on, or
-    /// the value is no whole multiple of the base step.
+    /// There is no real parameter of that number, it is the base step (set `step` of the experiment), or the value is
+    /// no whole multiple of the base step while stopped.
     pub fn set_float_parameter(&mut self, id: i64, value: f64) -> Result<(), ApiError> {
         match id {
+            TIME_STEP if self.is_running() => {
+                self.tell_of_step(value);
+                Ok(())
+            }
             TIME_STEP => self.registry.set_sample_time(value),
             _ if PHYSICS_STEP.contains(&id) => {
                 Err(ApiError::new("the physics step is the scene's base step: set `step` in experiment.toml"))
             }
             _ => Err(unknown("float", id)),
+        }
+    }
+
+    /// Says once in a run that its step stays as it is, if another one is asked for.
+    fn tell_of_step(&mut self, dt: f64) {
+        let now = self.registry.sample_time();
+        if (dt - now).abs() > 1e-6 * now && !std::mem::replace(&mut self.registry.is_told_of_step, true) {
+            let why = "it is set while the simulation is stopped";
+            self.log(300, &format!("a time step of {dt} s is not taken, it stays {now} s in this run: {why}"));
         }
     }
 

@@ -271,6 +271,8 @@ pub struct ObjectRegistry {
     pub(super) resets: BTreeMap<Handle, (u64, [f64; 6])>,
     /// Folder for files of clients, from which models may be loaded; none if they may send none.
     pub(crate) sent_folder: Option<PathBuf>,
+    /// True once somebody was told in this run that the step of clients and scripts stays as it is.
+    pub(super) is_told_of_step: bool,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
     pub(super) script_parser: Option<&'static dyn ScriptParser>,
 }
@@ -328,6 +330,7 @@ impl ObjectRegistry {
             interfaces: BTreeSet::new(),
             n_interfaces: 0,
             recorded_frames: BTreeSet::new(),
+            is_told_of_step: false,
             left_out: BTreeSet::new(),
             flags: Flags::default(),
             legacy_ports: None,
@@ -472,17 +475,14 @@ impl ObjectRegistry {
         self.step
     }
 
-    /// Sets the step of clients and scripts `[s]`, while stopped.
+    /// Sets the step of clients and scripts `[s]`.
     ///
     /// # Errors
     ///
-    /// A run is on, or it is no whole multiple of the base step.
+    /// It is no whole multiple of the base step.
     pub(crate) fn set_sample_time(&mut self, dt: f64) -> Result<(), ApiError> {
         let ticks = (dt / self.step).round();
         let fits = (ticks * self.step - dt).abs() <= 1e-6 * dt;
-        if self.phase != Phase::Stopped {
-            return Err(ApiError::new("the time step can be set while the simulation is stopped"));
-        }
         if !(fits && (1.0..1e9).contains(&ticks)) {
             let step = self.step;
             return Err(ApiError(format!(
@@ -729,7 +729,7 @@ impl ObjectRegistry {
         self.tubes = Tubes::default();
         self.images.clear();
         self.notes = Notes::default();
-        (self.has_stepped, self.has_begun) = (false, false);
+        (self.has_stepped, self.has_begun, self.is_told_of_step) = (false, false, false);
         self.vision.forget();
         self.reset_looks();
     }

@@ -8,9 +8,8 @@ use sincro_testing::clients::zmq::map;
 pub const ELSEWHERE: [&str; 5] = ["startSimulation", "stopSimulation", "closeScene", "loadScene", "pauseSimulation"];
 
 /// Functions that need what is not here: a script, sensors, bodies that touch, stops, couplings, groups, a motion, mesh
-/// files, a simulation that stands still.
-pub const NEEDS_MORE: [&str; 23] = [
-    "setFloatParam",
+/// files.
+pub const NEEDS_MORE: [&str; 20] = [
     "setJointDependency",
     "getContactInfo",
     "readForceSensor",
@@ -31,8 +30,6 @@ pub const NEEDS_MORE: [&str; 23] = [
     "rmlMoveToJointPositions",
     "rmlMoveToPosition",
     "moveToPosition",
-    "setFloatingParameter",
-    "setFloatParameter",
 ];
 
 /// Objects to call functions with.
