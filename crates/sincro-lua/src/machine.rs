@@ -5,6 +5,7 @@
 //! | old (V-REP up to 3.4) | the whole text is run again, `sim_call_type` is the phase; globals stay |
 //! | new | `sysCall_init`, `sysCall_actuation`, `sysCall_sensing`, `sysCall_cleanup`, those that are there |
 //! | thread | `sysCall_thread` (an old thread: the whole text) is a coroutine, resumed at each step before any actuation |
+//! | thread of V-REP 3.6 to 4.2 | the text is a coroutine, too, and may wait; when it has ended, `sysCall_threadmain` is the thread |
 //!
 //! The first run decides the style: it is new if there is a function `sysCall_…` after it.
 
@@ -35,6 +36,9 @@ pub(crate) const CALL_TYPES: [(&str, i64); 10] = [
     ("firstaftersimulation", 9),
 ];
 
+/// Function of a thread of V-REP 3.6 to 4.2: it is called when the text, which is part of the thread, has ended.
+const THREAD_MAIN: &str = "sysCall_threadmain";
+
 /// Callbacks of CoppeliaSim that are not called here, and why.
 const NOT_CALLED: [(&str, &str); 3] = [
     ("sysCall_trigger", "sensors trigger nothing"),
@@ -54,6 +58,8 @@ pub(crate) struct Machine {
     style: Style,
     entries: Entries,
     thread: Option<Thread>,
+    /// True while the thread is the text itself, after which come the functions that it has made.
+    is_text_pending: bool,
     /// True if `sysCall_joint` has been called.
     is_joint_called: bool,
     /// True if it has failed while there was no run.
@@ -113,6 +119,7 @@ impl Machine {
             style,
             entries,
             thread: None,
+            is_text_pending: false,
             is_joint_called: false,
             has_failed: false,
             is_initialized: false,
@@ -209,15 +216,21 @@ impl Machine {
         self.within(Self::update_entries)
     }
 
-    /// Calls an old script as a whole, a new one by a function.
+    /// Calls an old script as a whole, a new one and a thread by a function.
     fn call_either(&mut self, call_type: &str, name: &str) -> Result<(), ScriptError> {
-        if self.style == Style::Old { self.within(|m| m.call_whole(call_type)) } else { self.call_named(name) }
+        let is_whole = self.style == Style::Old && self.thread.is_none();
+        if is_whole { self.within(|m| m.call_whole(call_type)) } else { self.call_named(name) }
     }
 
     fn initialize(&mut self, phase: Phase) -> mlua::Result<()> {
-        if self.script().is_threaded {
+        let script = self.script();
+        let has_main = self.style != Style::Old && script.text.contains(THREAD_MAIN);
+        if script.is_threaded || has_main {
             self.style = Style::Old;
-            return self.become_thread(self.chunk.clone());
+            self.is_text_pending = true;
+            self.become_thread(self.chunk.clone())?;
+            // one that is declared a thread begins with the first step
+            return if script.is_threaded { Ok(()) } else { self.begin_text(phase) };
         }
         if self.style == Style::New {
             self.chunk.call::<()>(())?;
@@ -231,6 +244,31 @@ impl Machine {
             self.lua.globals().set("sim_call_type", Value::Nil)?;
         }
         self.begin_new(phase)
+    }
+
+    /// Runs the text of a script with `sysCall_threadmain` until it ends or waits for the first time.
+    fn begin_text(&mut self, phase: Phase) -> mlua::Result<()> {
+        let init = CALL_TYPES.iter().find(|(name, _)| *name == "init").map(|(_, number)| *number);
+        self.lua.globals().set("sim_call_type", init)?;
+        self.resume_thread(phase)
+    }
+
+    /// Resumes the thread; if that was the text and it has ended, its functions come to life.
+    fn resume_thread(&mut self, phase: Phase) -> mlua::Result<()> {
+        let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
+        thread.resume::<()>(())?;
+        if thread.is_resumable() || !std::mem::take(&mut self.is_text_pending) {
+            return Ok(());
+        }
+        if self.has_entries()? {
+            (self.style, self.thread) = (Style::New, None);
+            self.lua.globals().set("sim_call_type", Value::Nil)?;
+            return self.begin_new(phase);
+        }
+        if !self.script().is_threaded {
+            self.thread = None;
+        }
+        Ok(())
     }
 
     /// Returns true if any function `sysCall_…` is there.
@@ -278,7 +316,7 @@ impl Machine {
             function.call::<()>(())?;
         }
         self.update_entries()?;
-        match self.entry(&["sysCall_thread", "sysCall_threadmain"])? {
+        match self.entry(&["sysCall_thread", THREAD_MAIN])? {
             Some(function) => self.become_thread(function),
             None => Ok(()),
         }
@@ -327,8 +365,16 @@ impl Machine {
 
     /// Resumes the script's thread, if it is one and has not ended.
     pub fn resume(&mut self) -> Result<(), ScriptError> {
-        let Some(thread) = self.thread.clone().filter(Thread::is_resumable) else { return Ok(()) };
-        self.within(|_| thread.resume(()))
+        if !self.thread.as_ref().is_some_and(Thread::is_resumable) {
+            return Ok(());
+        }
+        let phase = if self.is_customization() { Phase::Open } else { Phase::Initialization };
+        self.within(|m| {
+            let was_text = m.is_text_pending;
+            m.resume_thread(phase)?;
+            // what follows the text goes on in the same step
+            if was_text && !m.is_text_pending { m.resume_thread(phase) } else { Ok(()) }
+        })
     }
 
     /// Calls `sysCall_dyn` before or after the world's step.

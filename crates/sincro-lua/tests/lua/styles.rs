@@ -76,6 +76,45 @@ fn an_old_thread_runs_its_text_once_also_through_pcall() {
     assert_eq!(said, ["0.0", "0.01", "0.02", "0.03", "0.04"]);
 }
 
+/// A text of V-REP 3.6 to 4.2 that waits outside of functions, and its main function.
+const WAITING_TEXT: &str = "
+        function sysCall_threadmain() print('main', sim.getSimulationTime()) sim.wait(0.01) print('end', sim.getSimulationTime()) end
+        function sysCall_cleanup() print('cleanup') end
+        print('text', sim.getSimulationTime())
+        sim.wait(0.02)
+        print('text', sim.getSimulationTime())";
+
+#[test]
+fn the_text_of_a_script_with_a_thread_may_wait_before_its_main_function() {
+    let wanted = ["text\t0.0", "text\t0.02", "main\t0.02", "end\t0.03", "cleanup"];
+    let messages = |more: &str| {
+        let run = run(&with_script(WAITING_TEXT, more).unwrap());
+        assert_eq!(run.status, Status::Completed);
+        run.messages.into_iter().map(|m| m.text).collect::<Vec<_>>()
+    };
+    assert_eq!(messages("threaded = true"), wanted);
+    // the first wait is left at the first step after the initialization
+    assert_eq!(messages(""), wanted);
+}
+
+#[test]
+fn a_text_that_waits_to_the_end_of_the_run_is_cleaned_up() {
+    let code = "
+        function sysCall_threadmain() print('never') end
+        function sysCall_cleanup() print('cleanup', n) end
+        n = 0
+        while true do n = n + 1 sim.wait(0.01) end";
+    assert_eq!(said(code), ["cleanup\t5"]);
+}
+
+#[test]
+fn a_main_function_that_is_only_mentioned_leaves_an_old_script_as_it_is() {
+    let code = "-- sysCall_threadmain is for threads
+        if sim_call_type == sim_childscriptcall_initialization then print('init') end
+        if sim_call_type == sim_childscriptcall_cleanup then print('cleanup') end";
+    assert_eq!(said(code), ["init", "cleanup"]);
+}
+
 #[test]
 fn a_thread_that_never_waits_is_made_to() {
     let code = "
