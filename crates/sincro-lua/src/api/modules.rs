@@ -1,6 +1,9 @@
 //! Modules beside `sim`: `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, by `require` and, but
 //! for `dkjson`, as globals; files of the scene that a script is given, by `require`.
 
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
 use mlua::chunk::ChunkMode;
 use mlua::{Error, Function, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::functions;
@@ -29,6 +32,8 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     modules.set("matrix", matrix)?;
     let environment: Function = lua.load(include_str!("../environment.lua")).set_name("=sincro").call(())?;
     let (script, guard) = (context.shared.script(context.index), context.guard.clone());
+    // files whose text is running: one of them that is asked for again is a loop
+    let loading = Mutex::new(BTreeSet::<String>::new());
     let require = lua.create_function(move |lua, name: String| {
         let package: Table = lua.globals().get("package")?;
         let loaded: Table = package.get("loaded")?;
@@ -54,12 +59,21 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 "there is no module '{name}': scripts have `sim`, `simIK`, `simUI`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
             )));
         };
+        let files = || loading.lock().unwrap_or_else(PoisonError::into_inner);
+        if files().contains(file) {
+            return Err(Error::RuntimeError(format!(
+                "loop of modules: `{file}` is asked for while it is being loaded; call `require` of it within the function that needs it"
+            )));
+        }
         sandbox::charge_text(lua, &guard, &source.text)?;
         let text = power::with_calls(&source.text);
         let is_old = text.contains("module");
         let chunk = lua.load(text).set_name(format!("={file}")).set_mode(ChunkMode::Text);
         let chunk = if is_old { chunk.set_environment(environment.call::<Table>(())?) } else { chunk };
-        let module = chunk.call::<LuaValue>(&*name)?;
+        files().insert(file.clone());
+        let module = chunk.call::<LuaValue>(&*name);
+        files().remove(file);
+        let module = module?;
         // as in Lua: what a file leaves under its name counts, then what it returns, then true
         let module = if module.is_nil() { loaded.get(&*name)? } else { module };
         let module = if module.is_nil() { LuaValue::Boolean(true) } else { module };

@@ -198,3 +198,18 @@ fn one_that_fails_while_stopped_leaves_the_others_alone() {
     session.stop().unwrap();
     assert!(session.idle().is_err());
 }
+
+#[test]
+fn a_thread_that_waits_across_runs_waits_for_the_rest() {
+    // the pendulum's step is 0.01 s: three steps of the first run and two of the second are waited for
+    let code = "function sysCall_thread() sim.wait(1) end
+        function sysCall_init() end";
+    let waiting = code.replace("sim.wait(1)", "sim.step() sim.wait(0.05) print('done', sim.getSimulationTime())");
+    let mut session = session(&waiting, "");
+    session.start().unwrap();
+    (0..4).for_each(|_| session.step().unwrap());
+    session.stop().unwrap();
+    session.start().unwrap();
+    (0..4).for_each(|_| session.step().unwrap());
+    assert_eq!(told(&mut session), ["done\t0.03"]);
+}

@@ -288,3 +288,21 @@ fn a_module_that_is_no_file_of_the_script_says_where_it_would_stand() {
     let endless = with_files("function sysCall_init() require 'helper' end", &[("helper.lua", "while true do end")]);
     assert!(endless.unwrap_err().contains("instructions"), "it counts as the script that loads it");
 }
+
+#[test]
+fn modules_that_ask_for_each_other_are_a_loop() {
+    let scene =
+        format!("{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nfile = \"s.lua\"\nfiles = [\"a.lua\", \"b.lua\"]\n");
+    let a = "local b = require 'b' return { name = 'a' }";
+    let b = "local a = require 'a' return { name = 'b' }";
+    let code = "function sysCall_init()
+            local ok, why = pcall(require, 'a')
+            print(ok, why:match('loop of modules: `[ab].lua`'))
+            -- and again: what failed is no module
+            print((pcall(require, 'a')))
+        end";
+    let files = [("scene.toml", &*scene), ("experiment.toml", EXPERIMENT), ("s.lua", code), ("a.lua", a), ("b.lua", b)];
+    let run = run(&open(&files).unwrap_or_else(|p| panic!("{p}")));
+    let said: Vec<&str> = run.messages.iter().map(|m| m.text.as_str()).collect();
+    assert_eq!(said, ["false\tloop of modules: `a.lua`", "false"]);
+}
