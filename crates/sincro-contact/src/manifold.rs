@@ -39,9 +39,12 @@ impl std::fmt::Debug for Manifolds {
 
 impl Manifolds {
     pub fn new(colliders: &[Collider], pairs: &[Pair]) -> Self {
-        let general = |k: usize| pairs.iter().any(|p| p.kind == PairKind::General && (p.a == k || p.b == k));
+        let mut is_general = vec![false; colliders.len()];
+        for pair in pairs.iter().filter(|p| p.kind == PairKind::General) {
+            (is_general[pair.a], is_general[pair.b]) = (true, true);
+        }
         let shapes =
-            colliders.iter().enumerate().map(|(k, c)| general(k).then(|| ParryShape::of(&c.surface)).flatten());
+            colliders.iter().zip(is_general).map(|(c, general)| general.then(|| ParryShape::of(&c.surface)).flatten());
         Self { shapes: shapes.collect(), pairs: vec![Vec::new(); pairs.len()], workspace: None, found: Vec::new() }
     }
 

@@ -300,7 +300,7 @@ impl Controller for ApiController {
     }
 
     fn take_restructured(&mut self) -> Vec<Restructured> {
-        self.registry.as_mut().map_or_else(Vec::new, |registry| registry.take_restructured())
+        self.registry.as_mut().and_then(|registry| registry.take_restructured()).into_iter().collect()
     }
 
     fn restructured(&mut self, change: &Restructured) -> Result<(), String> {

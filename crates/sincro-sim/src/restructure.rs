@@ -10,7 +10,7 @@
 //! to the lock-step ([`Controller::take_restructured`](crate::controller::Controller::take_restructured)), which tells
 //! the others. Recorded columns are those of the start: signals of objects that have gone are NaN.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sincro_dynamics::kinematics::Attached;
@@ -18,6 +18,8 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::transfer::{Origin, Transferred, transfer};
 use sincro_dynamics::world::World;
 use sincro_scene::scene::{Scene, frame_of};
+
+use crate::trace::scene_hash;
 
 /// Change of the structure that has been made in a world.
 #[derive(Clone, Debug)]
@@ -30,17 +32,29 @@ pub struct Restructured {
     pub renamed: Renamed,
     /// State and what it was made of.
     pub transferred: Transferred,
+    /// Changes that this one is made of, in their order.
+    pub steps: Vec<StructureStep>,
+}
+
+/// One change of the structure, as the trace of the run counts it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StructureStep {
+    /// Hash of the scene after it.
+    pub hash: u64,
+    /// Energy that it has brought in or taken out `[J]`.
+    pub energy: f64,
 }
 
 impl Restructured {
-    /// Joins a change with one that was made at the same time after it and only put objects elsewhere (all of them are
-    /// there before and after, with the same paths): one change, from before the first to after the second.
+    /// Joins a change with one that was made at the same time after it: one change, from before the first to after the
+    /// second, which the trace counts as both. If the second only put objects elsewhere that the first has put
+    /// (`is_placement`), they are one for the trace, too.
     ///
     /// # Panics
     ///
     /// `next` is of a model with other commands than this change leads to.
     #[must_use]
-    pub fn then_placed(self, next: Self) -> Self {
+    pub fn then(self, next: Self, is_placement: bool) -> Self {
         let (first, second) = (self.transferred, next.transferred);
         let commands = second.commands.iter().map(|middle| middle.and_then(|k| first.commands[k])).collect();
         let transferred = Transferred {
@@ -51,7 +65,15 @@ impl Restructured {
             energy_change: first.energy_change + second.energy_change,
             joining_loss: first.joining_loss + second.joining_loss,
         };
-        Self { scene: next.scene, former: self.former, renamed: self.renamed, transferred }
+        let mut steps = self.steps;
+        let mut added = next.steps;
+        if let (true, Some(last), Some(first)) = (is_placement, steps.last().copied(), added.first_mut()) {
+            first.energy += last.energy;
+            steps.pop();
+        }
+        steps.append(&mut added);
+        let renamed = self.renamed.then(&next.renamed);
+        Self { scene: next.scene, former: self.former, renamed, transferred, steps }
     }
 }
 
@@ -105,9 +127,9 @@ pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restruc
         }
     }
     // what joins objects is no object: it is known by its name
-    let is_object = |name: &str| to.objects.iter().any(|object| object.path == name);
+    let objects: BTreeSet<&str> = to.objects.iter().map(|object| object.path.as_str()).collect();
     let origin = |name: &str| match origins.get(name) {
-        None if !is_object(name) => Some(Origin { name: name.to_owned(), is_same: true }),
+        None if !objects.contains(name) => Some(Origin { name: name.to_owned(), is_same: true }),
         found => found.cloned(),
     };
     let mut model = (*to.model).clone();
@@ -117,7 +139,8 @@ pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restruc
     let (links, renamed) = (links_of(from, &to), Renamed::new(from, &to));
     *world = world.continued(model, transferred.state.clone(), &|link| links.get(&link).copied());
     to.initial = transferred.state.clone();
-    Restructured { scene: Arc::new(to), former, renamed, transferred }
+    let steps = vec![StructureStep { hash: scene_hash(&to), energy: transferred.energy_change }];
+    Restructured { scene: Arc::new(to), former, renamed, transferred, steps }
 }
 
 /// New place of each former link: where an object on it is now.
@@ -147,6 +170,12 @@ impl Renamed {
         let present: BTreeMap<usize, &str> = now.objects.iter().map(|o| (o.id, o.path.as_str())).collect();
         let path = |id: &usize| present.get(id).map(|path| (*path).to_owned());
         Self { paths: earlier.objects.iter().map(|o| (o.path.clone(), path(&o.id))).collect() }
+    }
+
+    /// Paths after a further change.
+    fn then(&self, next: &Self) -> Self {
+        let path = |middle: &Option<String>| middle.as_ref().and_then(|middle| next.path(middle));
+        Self { paths: self.paths.iter().map(|(earlier, middle)| (earlier.clone(), path(middle))).collect() }
     }
 
     /// Returns the path now of an object that had the path `earlier`; `None` if it has gone. What is no object, such as

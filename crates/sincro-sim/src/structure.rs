@@ -5,7 +5,6 @@ use std::sync::Arc;
 use sincro_scene::scene::Scene;
 
 use crate::restructure::Restructured;
-use crate::trace::model_hash;
 
 /// Structure that differs from that of the start of a run, in a lock-step and in snapshots.
 #[derive(Clone, Debug)]
@@ -27,13 +26,13 @@ impl PartialEq for Structure {
 }
 
 impl Structure {
-    /// Structure after one more change.
+    /// Structure after a further change.
     #[must_use]
     pub fn after(before: Option<&Self>, change: &Restructured) -> Self {
         let (hash, energy, count) = before.map_or((0, 0.0, 0), |s| (s.hash, s.energy_added, s.count));
-        let model = u64::from_str_radix(&model_hash(&change.scene.model), 16).unwrap_or(0);
-        let energy_added = energy + change.transferred.energy_change;
-        let hash = sincro_math::random::splitmix64(hash, model);
-        Self { scene: change.scene.clone(), hash, energy_added, count: count + 1 }
+        let energy_added = change.steps.iter().fold(energy, |sum, step| sum + step.energy);
+        let hash = change.steps.iter().fold(hash, |hash, step| sincro_math::random::splitmix64(hash, step.hash));
+        let count = count + change.steps.len() as u64;
+        Self { scene: change.scene.clone(), hash, energy_added, count }
     }
 }

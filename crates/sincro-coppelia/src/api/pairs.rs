@@ -1,6 +1,8 @@
 //! Pairs of bodies that may touch: who is near, and what a script says that a pair is to do in the coming step
 //! (`sysCall_contact`).
 
+use std::collections::BTreeMap;
+
 use sincro_dynamics::contact::Material;
 
 use super::registry::{Handle, ObjectRegistry};
@@ -30,12 +32,14 @@ pub struct ContactOverride {
 /// The pairs of a scene, in the model's order.
 pub(super) fn pairs_of(scene: &Scene, registry: &ObjectRegistry) -> Vec<Pair> {
     let set = scene.model.constraints();
-    let body = |k: usize| {
-        let name = &set.colliders[k].name;
-        registry.entries().find(|e| e.path == *name).map_or(Handle(-1), |e| e.handle)
-    };
+    let mut handles: BTreeMap<&str, Handle> = BTreeMap::new();
+    for entry in registry.entries() {
+        handles.entry(&entry.path).or_insert(entry.handle);
+    }
+    let bodies: Vec<Handle> =
+        set.colliders.iter().map(|c| handles.get(&*c.name).copied().unwrap_or(Handle(-1))).collect();
     let both = |a: usize, b: usize| {
-        let mut bodies = [body(a), body(b)];
+        let mut bodies = [bodies[a], bodies[b]];
         bodies.sort_unstable();
         bodies
     };

@@ -260,7 +260,7 @@ pub struct ObjectRegistry {
     /// Needs of the diagram.
     pub(super) needed: Arc<Needed>,
     /// Changes of the structure that the lock-step has not taken yet.
-    pub(super) restructured: Vec<Restructured>,
+    pub(super) restructured: Option<Restructured>,
     /// True if the last of these only put objects elsewhere.
     pub(super) is_last_placement: bool,
     /// Pictures that scripts have saved in this run, by the names of their files.
@@ -339,7 +339,7 @@ impl ObjectRegistry {
             added: BTreeSet::new(),
             parked: BTreeMap::new(),
             needed: Arc::new(Needed::new(loaded)),
-            restructured: Vec::new(),
+            restructured: None,
             is_last_placement: false,
             images: BTreeMap::new(),
             initial_velocities: BTreeMap::new(),
@@ -666,10 +666,10 @@ impl ObjectRegistry {
         Ok(())
     }
 
-    /// Takes the changes of the structure that were made since the last call.
-    pub(crate) fn take_restructured(&mut self) -> Vec<Restructured> {
+    /// Takes the change of the structure that was made since the last call, of all changes one.
+    pub(crate) fn take_restructured(&mut self) -> Option<Restructured> {
         self.is_last_placement = false;
-        std::mem::take(&mut self.restructured)
+        self.restructured.take()
     }
 
     /// Goes on with a structure that another controller has made, or that comes with a snapshot.
@@ -741,7 +741,7 @@ impl ObjectRegistry {
 
     /// A run has ended: the commands of joints are as they were `before` it, the rest stays.
     pub(crate) fn end_run(&mut self, before: Self) {
-        self.restructured.clear();
+        self.restructured = None;
         self.is_last_placement = false;
         (self.initial_velocities, self.resets) = (BTreeMap::new(), BTreeMap::new());
         if !Arc::ptr_eq(&self.scene, &before.scene) {

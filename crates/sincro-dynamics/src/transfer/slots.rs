@@ -60,6 +60,9 @@ pub(super) fn transfer_contacts(
     }
     contacts.truncate(1);
     contacts[0] = *fallback;
+    if records.is_empty() {
+        return contacts;
+    }
     let old: BTreeMap<Place, usize> = places(former, &|name| Some(name.to_owned()))
         .into_iter()
         .enumerate()

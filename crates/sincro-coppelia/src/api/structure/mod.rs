@@ -51,8 +51,6 @@ struct Rebuild {
     is_placement: bool,
 }
 
-/// Changes of the structure that may wait for the lock-step; each keeps the model before it.
-const MAX_CHANGES: usize = 1024;
 /// Scripts that a scene may have at once; each has a state of its own.
 const MAX_SCRIPTS: usize = 1_000;
 
@@ -71,11 +69,6 @@ impl SimApi<'_> {
     ///
     /// The scene cannot be: nothing has changed then.
     fn rebuild(&mut self, edit: Rebuild) -> Result<(), ApiError> {
-        let joins_last = edit.is_placement && self.registry.is_last_placement;
-        if self.registry.restructured.len() >= MAX_CHANGES && !joins_last {
-            let words = "more than 1024 changes of the structure in one call: let the simulation step in between";
-            return Err(ApiError::new(words));
-        }
         let Rebuild { mut draft, copies, joined, conserves_momentum, is_placement } = edit;
         for (path, handle) in &joined {
             draft.set_id(path, handle.0 as usize - 1);
@@ -111,10 +104,13 @@ impl SimApi<'_> {
             self.registry.take_parameters(script, ids.get(&script.object).map(|id| handle_of_id(*id)));
         }
         self.note_change(&from, &change);
-        let last = if joins_last { self.registry.restructured.pop() } else { None };
-        // where objects were for no time is nothing that the lock-step has to follow
-        let change = if let Some(last) = last { last.then_placed(change) } else { change };
-        self.registry.restructured.push(change);
+        // where objects were for no time is nothing that the trace has to follow, and models between nobody has to keep
+        let joins_last = is_placement && self.registry.is_last_placement;
+        let last = self.registry.restructured.take();
+        self.registry.restructured = Some(match last {
+            Some(last) => last.then(change, joins_last),
+            None => change,
+        });
         self.registry.is_last_placement = is_placement;
         self.restore_pairs();
         self.moved();
