@@ -83,7 +83,7 @@ impl ObjectRegistry {
     }
 
     /// Returns true if vision sensors see an object: it is renderable, on a layer that is shown, and no model hides it.
-    pub(super) fn is_seen(&self, handle: Handle) -> bool {
+    pub(crate) fn is_seen(&self, handle: Handle) -> bool {
         let is_hidden =
             self.visibility_layer(handle) & SHOWN_LAYERS == 0 || self.flags_of_models(handle) & NOT_VISIBLE != 0;
         !is_hidden && self.takes_part(handle, RENDERABLE)

@@ -71,6 +71,19 @@ const PROPERTIES: &[Property] = &[
 /// Flags of objects that are truth values, and their bits in `sim.objectspecialproperty_…`.
 const FLAGS: [(&str, i64); 4] = [("collidable", 1), ("measurable", 2), ("detectable", 0x1f0), ("renderable", 0x200)];
 
+/// Flags of objects in the windows of CoppeliaSim, and their bits in `sim.objectproperty_…`: kept, and of no effect.
+const KEPT_FLAGS: [(&str, i64); 7] = [
+    ("collapsed", 0x10),
+    ("selectable", 0x20),
+    ("selectModelBase", 0x40),
+    ("dontShowAsInsideModel", 0x80),
+    ("selectInvisible", 0x400),
+    ("depthInvisible", 0x800),
+    ("ignoreViewFitting", 0x4000),
+];
+/// Property of an object that vision sensors see it, by its layer.
+const VISIBLE: &str = "visible";
+
 /// Properties of the scene.
 const OF_SCENE: &[Property] = &[
     of("gravity", ("getArrayParam", &[0]), Some(("setArrayParam", &[0], &[]))),
@@ -207,7 +220,10 @@ fn known(target: Handle, name: &str) -> Result<&'static Property, ApiError> {
         let names: Vec<&str> = match target {
             APPLICATION => Vec::new(),
             SCENE => list.iter().map(|p| p.name).collect(),
-            _ => list.iter().map(|p| p.name).chain(FLAGS.map(|(flag, _)| flag)).collect(),
+            _ => {
+                let flags = FLAGS.iter().chain(&KEPT_FLAGS).map(|(flag, _)| *flag);
+                list.iter().map(|p| p.name).chain(flags).chain([VISIBLE]).collect()
+            }
         };
         let short: String = name.chars().take(60).collect();
         ApiError(format!("there is no property `{short}` here: {}, customData.…, signal.…", names.join(", ")))
@@ -218,6 +234,36 @@ fn known(target: Handle, name: &str) -> Result<&'static Property, ApiError> {
 fn flags_of(target: Handle, name: &str) -> Option<i64> {
     let is_object = ![SCENE, APPLICATION].contains(&target);
     FLAGS.iter().find(|(known, _)| is_object && *known == name).map(|(_, flags)| *flags)
+}
+
+/// Value of a property that is a flag of an object, or its visibility; none if it is neither.
+fn flag(sim: &SimApi<'_>, target: Handle, name: &str) -> Option<bool> {
+    if let Some(flags) = flags_of(target, name) {
+        return Some(sim.registry.special_property(target) & flags != 0);
+    }
+    let is_object = ![SCENE, APPLICATION].contains(&target);
+    if is_object && name == VISIBLE {
+        return Some(sim.registry.is_seen(target));
+    }
+    let (_, bit) = KEPT_FLAGS.iter().find(|(known, _)| is_object && *known == name)?;
+    Some(sim.registry.common_property(target) & bit != 0)
+}
+
+/// Sets a flag of an object, or its visibility.
+fn set_flag(sim: &mut SimApi<'_>, target: Handle, name: &str, is_set: bool) -> Outcome {
+    if let Some(flags) = flags_of(target, name) {
+        return sim.set_special_flags(target, flags, is_set).and_then(|()| done());
+    }
+    if name == VISIBLE {
+        let layers = i64::from(is_set);
+        return call(sim, "setObjectInt32Param", &[target.into(), Value::Int(10), Value::Int(layers)])
+            .and_then(|_| done());
+    }
+    if let Some((_, bit)) = KEPT_FLAGS.iter().find(|(known, _)| *known == name) {
+        let now = sim.registry.common_property(target);
+        sim.registry.set_common_property(target, if is_set { now | bit } else { now & !bit });
+    }
+    done()
 }
 
 fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
@@ -237,8 +283,8 @@ fn value(sim: &mut SimApi<'_>, target: Handle, name: &str) -> Result<Option<Valu
         check_tag(tag)?;
         return sim.registry.data.get(&(target, tag.to_owned())).map(Stored::value).transpose();
     }
-    if let Some(flags) = flags_of(target, name) {
-        return Ok(Some(Value::Bool(sim.registry.special_property(target) & flags != 0)));
+    if let Some(is_set) = flag(sim, target, name) {
+        return Ok(Some(Value::Bool(is_set)));
     }
     let property = known(target, name)?;
     let own = (target != SCENE).then(|| Value::from(target));
@@ -279,9 +325,9 @@ fn set(sim: &mut SimApi<'_>, a: Arguments<'_>, kind: Option<Type>) -> Outcome {
     if let Some(tag) = name.strip_prefix("customData.") {
         return super::objects::store(sim, (target, tag), Stored::from_value(&value));
     }
-    if let Some(flags) = flags_of(target, name) {
+    if flag(sim, target, name).is_some() {
         let is_set = value.as_bool().ok_or_else(|| ApiError(format!("property `{name}` is a truth value")))?;
-        return sim.set_special_flags(target, flags, is_set).and_then(|()| done());
+        return set_flag(sim, target, name, is_set);
     }
     let property = known(target, name)?;
     let Some((setter, before, behind)) = property.set else {
