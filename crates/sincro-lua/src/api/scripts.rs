@@ -20,10 +20,14 @@ const ALL: i64 = -2;
 const TREE: i64 = -6;
 const CUSTOMIZATION: i64 = 6;
 
-/// The place of a script, by its own handle or `sim.handle_self`.
+/// The place of a script, by its own handle, `sim.handle_self`, or its object, which is the script itself in CoppeliaSim
+/// 4.7 and later.
 pub(super) fn place_of(shared: &Shared, index: usize, handle: i64) -> Option<usize> {
     if handle == SELF {
         return Some(index);
+    }
+    if (1..FIRST_SCRIPT).contains(&handle) {
+        return shared.script_on(Handle(i32::try_from(handle).ok()?), None);
     }
     let k = usize::try_from(handle.checked_sub(FIRST_SCRIPT)?).ok()?;
     shared.has(k).then_some(k)
