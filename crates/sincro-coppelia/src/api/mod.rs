@@ -33,6 +33,7 @@ mod parameters;
 mod ports;
 mod program;
 mod proximity;
+mod radio;
 mod registry;
 mod rotors;
 mod runtime_objects;

@@ -134,6 +134,10 @@ const SCENE_NAME: i64 = 15;
 const STOP_REQUESTS: i64 = 29;
 /// Base steps in a step of clients.
 const STEP_DIVIDER: i64 = 7;
+/// A random number.
+const RANDOM: i64 = 0;
+/// Seed of these random numbers.
+const RANDOM_SEED: u64 = 0x5eed;
 /// The simulation time step `[s]`.
 const TIME_STEP: i64 = 1;
 /// The physics step `[s]`, in 3.x and later.
@@ -145,6 +149,7 @@ const GRAVITY: i64 = 0;
 const NAMES: &[(&str, i64)] = &[
     ("intparam_stop_request_counter", STOP_REQUESTS),
     ("intparam_dynamic_step_divider", STEP_DIVIDER),
+    ("floatparam_rand", RANDOM),
     ("floatparam_simulation_time_step", TIME_STEP),
     ("floatparam_dynamic_step_size", PHYSICS_STEP[0]),
     ("floatparam_physicstimestep", PHYSICS_STEP[1]),
@@ -194,13 +199,18 @@ impl SimApi<'_> {
     }
 
     /// Real parameter of the simulator by V-REP's number `id` (`sim.floatparam_…`): 1 step of clients `[s]`, 3 and 5
-    /// base step `[s]`.
+    /// base step `[s]`, 0 a random number from 0 to 1, another one at each call and the same ones in each run.
     ///
     /// # Errors
     ///
     /// There is no real parameter of that number.
-    pub fn float_parameter(&self, id: i64) -> Result<f64, ApiError> {
+    pub fn float_parameter(&mut self, id: i64) -> Result<f64, ApiError> {
         match id {
+            RANDOM => {
+                self.registry.n_random += 1;
+                let bits = sincro_math::random::splitmix64(RANDOM_SEED, self.registry.n_random);
+                Ok((bits >> 11) as f64 / (1_u64 << 53) as f64)
+            }
             TIME_STEP => Ok(self.registry.sample_time()),
             _ if PHYSICS_STEP.contains(&id) => Ok(self.registry.base_step()),
             _ => Err(unknown("float", id)),

@@ -23,6 +23,7 @@ use super::motions::{JointMotion, Motions};
 use super::note::Notes;
 use super::pairs::{self, Pair};
 use super::ports::{LegacyPorts, PortRequest};
+use super::radio::Radio;
 use super::scene_objects::handle_of_id;
 use super::senses::Senses;
 use super::signals::Signals;
@@ -271,6 +272,12 @@ pub struct ObjectRegistry {
     pub(super) resets: BTreeMap<Handle, (u64, [f64; 6])>,
     /// Folder for files of clients, from which models may be loaded; none if they may send none.
     pub(crate) sent_folder: Option<PathBuf>,
+    /// Random numbers that clients and scripts were given in this run.
+    pub(super) n_random: u64,
+    /// Objects that clients and scripts have selected, in their order.
+    pub(super) selection: Vec<Handle>,
+    /// Wireless data on their way.
+    pub(super) radio: Radio,
     /// True once somebody was told in this run that the step of clients and scripts stays as it is.
     pub(super) is_told_of_step: bool,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
@@ -330,6 +337,9 @@ impl ObjectRegistry {
             interfaces: BTreeSet::new(),
             n_interfaces: 0,
             recorded_frames: BTreeSet::new(),
+            n_random: 0,
+            selection: Vec::new(),
+            radio: Radio::default(),
             is_told_of_step: false,
             left_out: BTreeSet::new(),
             flags: Flags::default(),
@@ -576,7 +586,7 @@ impl ObjectRegistry {
         let of_widget =
             |((own, ..), value): (&(String, i64, &str), &Value)| own.len() + value.as_text().map_or(0, str::len);
         let widgets = self.widgets.iter().map(of_widget).sum::<usize>();
-        let stored = self.strings.total() + signals + self.tubes.total() + data + named + widgets;
+        let stored = self.strings.total() + signals + self.tubes.total() + self.radio.total() + data + named + widgets;
         if stored + n > MAX_BYTES {
             let mib = MAX_BYTES >> 20;
             return Err(ApiError(format!("signals and data of clients would take more than {mib} MiB: clear some")));
@@ -694,6 +704,12 @@ impl ObjectRegistry {
         &self.scene
     }
 
+    /// Objects that clients and scripts have selected, in their order, of those that are there.
+    #[must_use]
+    pub fn selected(&self) -> Vec<Handle> {
+        self.selection.iter().copied().filter(|own| self.entry(*own).is_ok()).collect()
+    }
+
     /// Takes what was asked for.
     pub(crate) fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
@@ -726,10 +742,11 @@ impl ObjectRegistry {
         self.floats.forget_run();
         self.strings.forget_run();
         self.graphs.forget_run();
-        self.tubes = Tubes::default();
+        (self.tubes, self.radio) = (Tubes::default(), Radio::default());
         self.images.clear();
         self.notes = Notes::default();
         (self.has_stepped, self.has_begun, self.is_told_of_step) = (false, false, false);
+        self.n_random = 0;
         self.vision.forget();
         self.reset_looks();
     }
@@ -787,6 +804,7 @@ impl ObjectRegistry {
         std::mem::swap(&mut self.requests, &mut new.requests);
         std::mem::swap(&mut self.graphs, &mut new.graphs);
         std::mem::swap(&mut self.tubes, &mut new.tubes);
+        std::mem::swap(&mut self.radio, &mut new.radio);
         std::mem::swap(&mut self.legacy_ports, &mut new.legacy_ports);
         std::mem::swap(&mut self.port_requests, &mut new.port_requests);
         new.stop_requests = self.stop_requests;

@@ -13,6 +13,7 @@ mod modules;
 mod motion;
 mod names;
 mod parity;
+mod paths;
 mod pictures;
 mod placing;
 mod propeller;

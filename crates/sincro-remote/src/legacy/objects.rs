@@ -23,9 +23,9 @@ pub(super) fn of_type(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     counted(&sim.objects_of_type(call.ident_int(0)?.into()))
 }
 
-/// Nothing is ever selected.
-pub(super) fn selection(_: &mut SimApi<'_>, _: &Call<'_>) -> Reply {
-    counted(&[])
+/// Objects that are selected.
+pub(super) fn selection(sim: &mut SimApi<'_>, _: &Call<'_>) -> Reply {
+    counted(&sim.registry.selected())
 }
 
 /// Takes a selection, without effect.

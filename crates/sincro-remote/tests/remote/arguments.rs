@@ -48,6 +48,7 @@ pub struct Made {
     collection: Value,
     drawing: Value,
     motion: Value,
+    path: Value,
 }
 
 impl Made {
@@ -59,7 +60,8 @@ impl Made {
         let sensor = make("sim.createProximitySensor", &sensor_arguments());
         let collection = make("sim.createCollection", &[Value::Int(0)]);
         let drawing = make("sim.addDrawingObject", &drawing_arguments());
-        Self { point, shapes, sensor, collection, drawing, motion: make("sim.ruckigPos", &motion_arguments()) }
+        let (motion, path) = (make("sim.ruckigPos", &motion_arguments()), make("sim.createPath", &path_arguments()));
+        Self { point, shapes, sensor, collection, drawing, motion, path }
     }
 }
 
@@ -82,6 +84,11 @@ fn drawing_arguments() -> Vec<Value> {
     vec![Value::Int(1), Value::Real(2.0), Value::Real(0.0), Value::Int(-1), Value::Int(10)]
 }
 
+/// A path of two control points.
+fn path_arguments() -> Vec<Value> {
+    vec![Value::reals([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])]
+}
+
 /// A motion of one number.
 fn motion_arguments() -> Vec<Value> {
     let three = || Value::reals([0.1, 0.2, 0.3]);
@@ -91,8 +98,8 @@ fn motion_arguments() -> Vec<Value> {
 
 /// Arguments that fit where none of the others do.
 pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
-    let Things { joint, body, eye, made: Made { point, shapes: [shape, other], sensor, collection, drawing, motion } } =
-        things;
+    let Things { joint, body, eye, made } = things;
+    let Made { point, shapes: [shape, other], sensor, collection, drawing, motion, path } = made;
     let three = || Value::reals([0.1, 0.2, 0.3]);
     let turn = || Value::reals([0.0, 0.0, 0.0, 1.0]);
     let pose = || Value::reals([1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0]);
@@ -180,6 +187,17 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "addForceAndTorque" | "addForce" => vec![body.clone(), three(), three()],
         "getShapeMassAndInertia" => vec![body.clone(), matrix()],
         "getPathInterpolatedConfig" => vec![Value::reals([0.0, 1.0]), Value::reals([0.0, 1.0]), Value::Real(0.5)],
+        "createPath" => path_arguments(),
+        "resamplePath" => vec![Value::reals([0.0, 1.0]), Value::reals([0.0, 1.0]), int(5)],
+        "getClosestPosOnPath" => vec![Value::reals([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]), Value::reals([0.0, 1.0]), three()],
+        "insertPathCtrlPoints" => vec![path.clone(), int(0), int(0), int(1), Value::reals([0.5; 6])],
+        "cutPathCtrlPoints" => vec![path.clone(), int(-1), int(0)],
+        "getClosestPositionOnPath" => vec![path.clone(), three()],
+        "getPathLength" | "getPathPosition" => vec![path.clone()],
+        "setPathPosition" | "getPositionOnPath" | "getOrientationOnPath" => vec![path.clone(), Value::Real(0.5)],
+        "sendData" => vec![int(-2), int(0), text(), Value::Bytes(vec![1])],
+        "setObjectSel" | "setObjectSelection" => vec![Value::List(vec![body.clone()])],
+        "addObjectToSelection" | "removeObjectFromSelection" => vec![int(-8), body.clone()],
         "unpackTable" => vec![Value::Bytes(vec![0xf6])],
         _ if name.starts_with("unpack") => vec![Value::Bytes(vec![1; 8])],
         "createVisionSensor" => {

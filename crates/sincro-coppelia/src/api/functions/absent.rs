@@ -3,8 +3,8 @@
 /// Functions that are not offered: their names, and the reason that callers are given.
 const ABSENT: &[(&[&str], &str)] = &[
     (
-        &["createPath", "createScript", "addScript", "createTexture"],
-        "paths, scripts and textures are made in the scene file, or in a model that is loaded",
+        &["createScript", "addScript", "createTexture"],
+        "scripts and textures are made in the scene file, or in a model that is loaded",
     ),
     (&["loadUI", "saveUI"], "there are no windows: values of widgets are kept by simUI"),
     (
@@ -169,28 +169,19 @@ const ABSENT: &[(&[&str], &str)] = &[
     ),
     (
         &[
-            "cutPathCtrlPoints",
             "findIkPath",
             "generateIkPath",
             "generateShapeFromPath",
-            "getClosestPosOnPath",
-            "getClosestPositionOnPath",
             "getDataOnPath",
-            "getOrientationOnPath",
-            "getPathLength",
             "getPathPlanningHandle",
-            "getPathPosition",
-            "getPositionOnPath",
             "handlePath",
             "initializePathSearch",
-            "insertPathCtrlPoints",
             "performPathSearchStep",
             "resetPath",
             "searchPath",
-            "setPathPosition",
             "setPathTargetNominalVelocity",
         ],
-        "there are no path objects: sim.getPathLengths and sim.getPathInterpolatedConfig work on lists of points",
+        "paths of sim.createPath have points and control points: sim.getPathLengths and sim.getPathInterpolatedConfig work on lists of them",
     ),
     (
         &[
@@ -288,8 +279,8 @@ const ABSENT: &[(&[&str], &str)] = &[
         "what a body looks like stands in the scene file, and pictures are drawn from it",
     ),
     (
-        &["receiveData", "sendData", "serialCheck", "serialSend"],
-        "scripts tell each other by signals, tubes and sim.callScriptFunction; there is no radio and no serial port",
+        &["serialCheck", "serialSend"],
+        "scripts tell each other by signals, tubes and sim.callScriptFunction; there is no serial port",
     ),
     (&["handleMill", "resetMill", "resetMilling"], "nothing is milled here: the shapes of a scene keep their form"),
     (
@@ -308,17 +299,8 @@ const ABSENT: &[(&[&str], &str)] = &[
         "data are stored with sim.writeCustomDataBlock, properties `customData.…` and parameters of scripts",
     ),
     (
-        &[
-            "addObjectToSelection",
-            "copyPasteSelectedObjects",
-            "deleteSelectedObjects",
-            "getObjectLastSelection",
-            "getObjectSelectionSize",
-            "isObjectInSelection",
-            "removeObjectFromSelection",
-            "scaleSelectedObjects",
-        ],
-        "nothing is ever selected: give the handles to sim.copyPasteObjects and sim.removeObjects",
+        &["copyPasteSelectedObjects", "deleteSelectedObjects", "scaleSelectedObjects"],
+        "what is selected is a list: give it to sim.copyPasteObjects and sim.removeObjects (sim.getObjectSel)",
     ),
     (
         &[

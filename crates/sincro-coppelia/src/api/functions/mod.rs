@@ -23,10 +23,13 @@ mod moves;
 mod names;
 mod objects;
 mod partly;
+mod path_objects;
 mod paths;
 mod poses;
 mod properties;
+mod radio;
 mod rotations;
+mod selection;
 mod sensing;
 mod shapes;
 mod signals;
@@ -98,6 +101,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         signals::FUNCTIONS,
         touching::FUNCTIONS,
         paths::FUNCTIONS,
+        path_objects::FUNCTIONS,
         graphs::FUNCTIONS,
         ik_groups::FUNCTIONS,
         buffers::FUNCTIONS,
@@ -113,6 +117,8 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         shapes::FUNCTIONS,
         bits::FUNCTIONS,
         tubes::FUNCTIONS,
+        radio::FUNCTIONS,
+        selection::FUNCTIONS,
         properties::TYPED,
         properties::FUNCTIONS,
     ];

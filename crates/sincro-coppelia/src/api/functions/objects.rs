@@ -52,12 +52,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "int[] objects=sim.getObjectsInTree(int treeBaseHandle,int objectType=sim.handle_all,int options=0)",
         run: in_tree,
     },
-    Function {
-        name: "getObjectSel",
-        tip: "int[] objectHandles=sim.getObjectSel()",
-        run: |_, _| Ok(vec![Value::List(Vec::new())]),
-    },
-    Function { name: "setObjectSel", tip: "sim.setObjectSel(int[] objectHandles)", run: |_, _| done() },
     Function { name: "createDummy", tip: "int objectHandle=sim.createDummy(float size)", run: create_dummy },
     Function { name: "removeObject", tip: "int result=sim.removeObject(int objectHandle)", run: remove },
     Function { name: "removeModel", tip: "int objectCount=sim.removeModel(int objectHandle)", run: remove_model },

@@ -53,7 +53,7 @@ const PARTLY: &[(&[&str], &str)] = &[
         &["getModelProperty", "setModelProperty"],
         "not collidable, measurable, detectable, renderable, visible hold for the whole model; not dynamic, respondable or reset and scripts inactive are refused",
     ),
-    (&["getObjectSel", "setObjectSel"], "nothing is ever selected"),
+    (&["getObjectSel", "setObjectSel"], "nothing shows what is selected"),
     (&["getExtensionString"], "always empty"),
     (&["getSimulatorMessage"], "there are none: −1"),
     (&["setJointDependency"], "of joints that have a coupling in the scene"),
@@ -63,7 +63,8 @@ const PARTLY: &[(&[&str], &str)] = &[
         "settings of windows are taken without effect; parts of the step cannot be switched off",
     ),
     (&["tubeRead"], "never waits"),
-    (&["getPathInterpolatedConfig"], "linear interpolation"),
+    (&["insertPathCtrlPoints"], "positions and orientations of control points, straight lines between them"),
+    (&["sendData"], "antennas send in all directions"),
     (&["saveImage"], "PNG and BMP; a script's files are kept with the run, a client's need `--grant files`"),
     (&["resetDynamicObject"], "an initial velocity that was set takes effect; there is nothing else to reset"),
     (
