@@ -308,13 +308,21 @@ fn logarithm(x: f64, base: Option<f64>) -> f64 {
     }
 }
 
-/// Seeds the generator; `math.randomseed` without a number seeds it so again.
+/// Seeds the generator; `math.randomseed` without a number seeds it so again. A number with a fraction, as older Lua
+/// takes it, counts as the whole number below.
 fn seeded(lua: &Lua, math: &Table, seed: u64) -> mlua::Result<()> {
     let own: Function = math.get("randomseed")?;
     let seed = i64::from_ne_bytes(seed.to_ne_bytes());
     own.call::<()>((seed, 0))?;
     let again = move |_: &Lua, given: Variadic<Value>| {
-        if given.is_empty() { own.call::<()>((seed, 0)) } else { own.call::<()>(given) }
+        let whole = |value: Value| match value {
+            Value::Number(x) if x.is_finite() => Value::Integer(x.floor() as i64),
+            other => other,
+        };
+        if given.is_empty() {
+            return own.call::<()>((seed, 0));
+        }
+        own.call::<()>(given.into_iter().map(whole).collect::<MultiValue>())
     };
     math.set("randomseed", lua.create_function(again)?)
 }

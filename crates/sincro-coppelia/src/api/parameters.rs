@@ -94,6 +94,7 @@ impl SimApi<'_> {
     /// Real parameter of an object by V-REP's number `id`, in SI units.
     ///
     /// - Any object: 11–13 velocity x, y, z, world axes, and 14 its magnitude `[m/s]`.
+    /// - Body or shape: 15–17 smallest and 18–20 largest x, y, z of what it consists of, in its frame `[m]`.
     /// - Joint: 2002 position gain `[1/s]`, 2012 velocity and 2017 its limit `[rad/s]` or `[m/s]`, 2018 stiffness
     ///   `[N·m/rad]` or `[N/m]`, 2019 damping `[N·m·s/rad]` or `[N·s/m]`.
     /// - Body: 3005 mass `[kg]`, 3000–3002 velocity `[m/s]` and 3020–3022 angular velocity `[rad/s]` of its centre of
@@ -115,6 +116,10 @@ impl SimApi<'_> {
             14 => {
                 let [x, y, z] = self.velocity(handle)?.0;
                 Ok((x * x + y * y + z * z).sqrt())
+            }
+            15..=20 => {
+                let [low, high] = self.shape_box(handle)?;
+                Ok(if id < 18 { low[(id - 15) as usize] } else { high[(id - 18) as usize] })
             }
             2002 => Ok(motor(self)?.kp),
             2012 => self.joint_velocity(handle),

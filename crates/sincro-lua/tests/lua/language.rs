@@ -70,3 +70,15 @@ fn caught_errors_are_texts_with_their_line() {
     assert!(said[4].starts_with("false\tscript:5: inside"), "{said:?}");
     assert_eq!(said[5], "false\tcannot resume dead coroutine");
 }
+
+#[test]
+fn a_seed_with_a_fraction_is_taken_as_older_lua_does() {
+    let code = "
+        function sysCall_init()
+            math.randomseed(1234.7)
+            local a = math.random()
+            math.randomseed(1234)
+            print(a == math.random(), (pcall(math.randomseed, 0 / 0)))
+        end";
+    assert_eq!(said(code), ["true\tfalse"]);
+}

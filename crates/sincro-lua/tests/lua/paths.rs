@@ -163,3 +163,14 @@ fn a_script_is_meant_by_its_object_too() {
     assert_eq!(said[0], "8\t10");
     assert!(said[1].contains("there is no script"), "{said:?}");
 }
+
+#[test]
+fn the_box_around_a_shape_is_told_side_by_side() {
+    let code = "
+        function sysCall_init()
+            local cube = sim.createPureShape(0, 16, { 0.2, 0.4, 0.6 }, 1)
+            local r, low = sim.getObjectFloatParameter(cube, sim.objfloatparam_objbbox_min_y)
+            print(r, low, sim.getObjectFloatParam(cube, sim.objfloatparam_objbbox_max_z))
+        end";
+    assert_eq!(said(code), ["1\t-0.2\t0.3"]);
+}
