@@ -19,6 +19,11 @@ use crate::limits::{self, Deadlines};
 /// Longest wait before the state of the server is looked at again.
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
+/// Ratio of the time that steps take to the time that they simulate, and time that they have taken, from which on the
+/// operator is told that the simulation is slow.
+const SLOW: f64 = 4.0;
+const SLOW_AFTER: Duration = Duration::from_secs(5);
+
 /// Runs that wait to be taken.
 const MAX_RUNS: usize = 64;
 
@@ -62,6 +67,10 @@ pub struct SessionGuard {
     backlog: VecDeque<Finished>,
     publish: Option<Box<dyn FnMut(u64) + Send>>,
     open_port: Option<OpenPort>,
+    /// Time that the steps of the run have taken.
+    busy: Duration,
+    /// True if the operator was told in this run that it is slow.
+    is_told_of_pace: bool,
     /// Ports of the legacy API that a script started without a trigger: their clients do not step.
     untriggered: BTreeSet<u16>,
 }
@@ -107,6 +116,8 @@ impl Hub {
             backlog: VecDeque::new(),
             publish: None,
             open_port: None,
+            busy: Duration::ZERO,
+            is_told_of_pace: false,
             untriggered: BTreeSet::new(),
         };
         Arc::new(Self {
@@ -279,6 +290,11 @@ impl Hub {
     }
 }
 
+/// Returns true if steps that simulate `t` seconds together have taken far longer than that.
+fn is_slow(busy: Duration, t: f64) -> bool {
+    busy >= SLOW_AFTER && busy.as_secs_f64() > SLOW * t
+}
+
 /// Reason why clients of a port do not step.
 pub(crate) fn no_trigger(port: u16) -> String {
     format!(
@@ -420,8 +436,10 @@ impl SessionGuard {
     }
 
     fn advance(&mut self) -> Result<(), ApiError> {
+        let begin = Instant::now();
         let advanced = self.session.step();
         self.step += 1;
+        self.watch_pace(begin.elapsed());
         if let Err(error) = &advanced {
             self.failure = Some(error.clone());
             self.run_ended();
@@ -429,6 +447,18 @@ impl SessionGuard {
         self.announce();
         self.forward_events();
         advanced
+    }
+
+    /// Tells the operator once in a run that its steps take much longer than what they simulate.
+    fn watch_pace(&mut self, taken: Duration) {
+        self.busy += taken;
+        let (t, busy) = (self.session.t(), self.busy.as_secs_f64());
+        if !self.is_told_of_pace && is_slow(self.busy, t) {
+            self.is_told_of_pace = true;
+            let help = "`integrator = \"semi-implicit-euler\"` in experiment.toml is faster where bodies touch, and so is a `stiffness` of their contacts";
+            let line = format!("the simulation falls behind the clock: {t:.2} s of it took {busy:.0} s; {help}");
+            self.session.registry().log(300, line);
+        }
     }
 
     /// Tells the subscribers of version 1 where the run is.
@@ -501,6 +531,7 @@ impl SessionGuard {
         match (before, self.session.phase()) {
             (Phase::Stopped, Phase::Running) => {
                 (self.step, self.failure) = (0, None);
+                (self.busy, self.is_told_of_pace) = (Duration::ZERO, false);
                 self.clients.values_mut().for_each(|c| c.desired = 0);
                 self.announce();
             }
@@ -544,5 +575,17 @@ impl SessionGuard {
         while self.backlog.len() > MAX_RUNS {
             self.backlog.pop_front();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_simulation_is_slow_once_it_has_taken_long_and_far_longer_than_it_simulates() {
+        assert!(is_slow(Duration::from_secs(6), 1.0));
+        assert!(!is_slow(Duration::from_secs(4), 0.1), "it has just begun");
+        assert!(!is_slow(Duration::from_secs(60), 30.0), "it is half as fast as the clock");
     }
 }
