@@ -300,7 +300,7 @@ fn an_initial_velocity_that_is_set_after_a_reset_is_the_whole_velocity() {
 }
 
 #[test]
-fn flags_stay_as_they_are_when_the_run_keeps_no_more_changes() {
+fn flags_and_stops_stay_as_they_are_when_the_run_keeps_no_more_changes() {
     let mut session = session(&[]);
     session.start().unwrap();
     let mut n = 0;
@@ -322,5 +322,13 @@ fn flags_stay_as_they_are_when_the_run_keeps_no_more_changes() {
         let told = call(&mut session, set, "/ball", &[Value::Int(value)]).unwrap_err();
         assert!(told.contains("10000 times"), "{told}");
         assert_eq!(call(&mut session, get, "/ball", &[]), Ok(before), "{get}");
+    }
+    // so are the stops of a joint
+    let before = call(&mut session, "sim.getJointInterval", "/hinge", &[]).unwrap();
+    for (is_cyclic, interval) in [(false, [-3.0, 6.0]), (true, [0.0, 0.0])] {
+        let arguments = [Value::Bool(is_cyclic), Value::reals(interval)];
+        let told = call(&mut session, "sim.setJointInterval", "/hinge", &arguments).unwrap_err();
+        assert!(told.contains("10000 times"), "{told}");
+        assert_eq!(call(&mut session, "sim.getJointInterval", "/hinge", &[]), Ok(before.clone()));
     }
 }

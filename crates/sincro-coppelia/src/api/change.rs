@@ -17,6 +17,11 @@ const TRIANGLE_SLACK: f64 = 1e-9;
 /// A coupling may be that far from its new law `[rad]` or `[m]`.
 const FITS: f64 = 1e-9;
 
+/// Error of a change that is one too many.
+fn too_many() -> ApiError {
+    ApiError(format!("the model was changed {MAX_CHANGES} times already"))
+}
+
 impl ObjectRegistry {
     /// Keeps a change; a later one of the same number at the same time takes its place.
     pub(super) fn keep_change(&mut self, change: Change) -> Result<(), ApiError> {
@@ -24,11 +29,17 @@ impl ObjectRegistry {
         let is_full = self.changes.len() >= MAX_CHANGES;
         match self.changes.iter().position(same) {
             Some(k) => self.changes[k] = change,
-            None if is_full => return Err(ApiError(format!("the model was changed {MAX_CHANGES} times already"))),
+            None if is_full => return Err(too_many()),
             None => self.changes.push(change),
         }
         self.is_model_changed |= self.phase == Phase::Stopped;
         Ok(())
+    }
+
+    /// Returns true if a change of a number at a time can still be kept.
+    fn can_keep(&self, t: f64, object: &str, quantity: &str) -> bool {
+        let same = |c: &Change| (c.t, &*c.object, c.quantity) == (t, object, quantity);
+        self.changes.len() < MAX_CHANGES || self.changes.iter().any(same)
     }
 
     /// Differences from the scene.
@@ -49,6 +60,16 @@ impl SimApi<'_> {
         let object = self.registry.entry(handle)?.path.clone();
         let t = self.acts_at();
         self.registry.keep_change(Change { t, object, quantity, value })
+    }
+
+    /// Checks that a change of a number of an object can be kept, before it is made.
+    ///
+    /// # Errors
+    ///
+    /// There is no such object, or the model was changed 10,000 times already.
+    fn check_change(&self, handle: Handle, quantity: &str) -> Result<(), ApiError> {
+        let object = &self.registry.entry(handle)?.path;
+        if self.registry.can_keep(self.acts_at(), object, quantity) { Ok(()) } else { Err(too_many()) }
     }
 
     /// Changes the world; the energy that this adds before the first step of a run that has begun counts as work, as it
@@ -138,6 +159,7 @@ impl SimApi<'_> {
         if is_parked {
             return self.replace_stops(handle, Some([lower, upper]));
         }
+        self.check_change(handle, "limits")?;
         if !self.world.set_limits(dof, [Some(lower), Some(upper)]) {
             self.replace_stops(handle, Some([lower, upper]))?;
         }
@@ -156,6 +178,7 @@ impl SimApi<'_> {
         match self.joint_interval(handle)? {
             (true, _) => Ok(()),
             _ if matches!(self.registry.joint(handle)?.kind, JointKind::Revolute { .. }) => {
+                self.check_change(handle, "no_limits")?;
                 self.replace_stops(handle, None)?;
                 self.change(handle, "no_limits", Vec::new())
             }
@@ -190,6 +213,7 @@ impl SimApi<'_> {
             let help = "couplings are changed, not made: add a [[coupling]] to the scene";
             return Err(ApiError(format!("the scene does not couple `{path}` with `{master}`: {help}")));
         };
+        self.check_change(handle, "coupling")?;
         let q = &mut self.world.state.q;
         let wanted = factor * q[of.q_idx] + offset;
         if !wanted.is_finite() {
