@@ -246,6 +246,8 @@ pub struct ObjectRegistry {
     pub(super) recorded_frames: BTreeSet<Handle>,
     /// Free joints, and frames that were free joints: clients do not see them as parents.
     pub(super) left_out: BTreeSet<Handle>,
+    /// First body on each of these.
+    pub(super) body_on: BTreeMap<Handle, Handle>,
     /// Flags of objects that were set.
     pub(super) flags: Flags,
     /// TCP ports of the legacy remote API; none if no clients are served.
@@ -342,6 +344,7 @@ impl ObjectRegistry {
             radio: Radio::default(),
             is_told_of_step: false,
             left_out: BTreeSet::new(),
+            body_on: BTreeMap::new(),
             flags: Flags::default(),
             legacy_ports: None,
             port_requests: Vec::new(),

@@ -45,6 +45,7 @@ impl ObjectRegistry {
             self.solids.extend(unit_mass(object).map(|mass| (handle, mass)));
             self.put(object, kind, parent, (frame, moving));
         }
+        self.body_on = self.bodies_on_joints();
     }
 
     /// Kind of an object with its frame and that of its children; `beside` is its frame by its parent.

@@ -5,7 +5,7 @@
 //! their own names and paths, and stand in no other list. A frame that was a free joint, of a body that was joined to
 //! another one, is left out as well.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value};
 use sincro_dynamics::joint::JointKind;
@@ -38,7 +38,18 @@ impl ObjectRegistry {
 
     /// First body on a free joint, which takes the joint's place in the tree.
     pub(super) fn body_on(&self, joint: Handle) -> Option<Handle> {
-        self.children(Some(joint)).find(|entry| matches!(entry.kind, Kind::Body(_))).map(|entry| entry.handle)
+        self.body_on.get(&joint).copied()
+    }
+
+    /// First body on each joint that clients do not see, by the joint; bodies change their parents with the structure only.
+    pub(super) fn bodies_on_joints(&self) -> BTreeMap<Handle, Handle> {
+        let mut found = BTreeMap::new();
+        for entry in self.entries().filter(|entry| matches!(entry.kind, Kind::Body(_))) {
+            if let Some(joint) = entry.parent.filter(|parent| self.is_left_out(*parent)) {
+                found.entry(joint).or_insert(entry.handle);
+            }
+        }
+        found
     }
 
     /// Joint, or frame that was one, whose place a body takes in the tree; none for other objects.
