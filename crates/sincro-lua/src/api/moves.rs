@@ -27,6 +27,14 @@ pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()>
     host.set("switch", &waits.switch)?;
     let stepping: Function = context.sim.get("setStepping")?;
     host.set("stepping", stepping)?;
+    host.set("sim", &context.sim)?;
+    let along = lua.create_table()?;
+    for (name, function) in
+        [("length", "getPathLength"), ("position", "getPositionOnPath"), ("orientation", "getOrientationOnPath")]
+    {
+        along.set(name, context.sim.get::<Function>(function)?)?;
+    }
+    host.set("path", along)?;
     let coroutine: Table = lua.globals().get("coroutine")?;
     let yieldable: Function = coroutine.get("isyieldable")?;
     host.set("yieldable", yieldable)?;

@@ -438,7 +438,7 @@ fn what_cannot_be_done_is_refused_in_words() {
             "sim.setJointTargetVelocity(sim.getObject('/b'), 0 / 0, { 1, 2 })",
             "its target velocity is NaN, expected a finite number",
         ),
-        ("sim.followPath()", "there are no path objects"),
+        ("sim.followPath()", "waits for the simulation"),
         ("sim.generateTimeOptimalTrajectory()", "paths are not timed here"),
     ];
     for (text, expected) in cases {

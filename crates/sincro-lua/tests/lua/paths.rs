@@ -174,3 +174,14 @@ fn the_box_around_a_shape_is_told_side_by_side() {
         end";
     assert_eq!(said(code), ["1\t-0.2\t0.3"]);
 }
+
+#[test]
+fn an_object_follows_a_path_in_a_thread() {
+    let code = "
+        function sysCall_thread()
+            local path, point = sim.createPath({ 0, 0, 0, 0, 0, 0, 1, 3, 0, 0, 0, 0, 0, 1 }, 0, 10, 0), sim.createDummy(0.01)
+            sim.followPath(point, path, 3, 0, 100)
+            print(sim.getSimulationTime(), sim.getObjectPosition(point, -1)[1])
+        end";
+    assert_eq!(said(code), ["0.03\t3.0"]);
+}

@@ -52,8 +52,8 @@ const ABSENT: &[(&[&str], &str)] = &[
         "say how fast: sim.moveToConfig and sim.moveToPose take limits of velocity, acceleration and jerk",
     ),
     (
-        &["moveToObject", "followPath"],
-        "there are no path objects: sim.moveToPose goes to a pose, sim.getPathInterpolatedConfig gives points of a list",
+        &["moveToObject"],
+        "give the pose: sim.moveToPose goes to the pose of another object, sim.followPath along a path",
     ),
     (
         &["generateTimeOptimalTrajectory"],

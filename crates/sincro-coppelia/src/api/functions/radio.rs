@@ -43,11 +43,11 @@ fn antenna(sim: &mut SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Option<[f
 fn send(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (target, header, name, bytes) = (a.handle(0)?, a.int(1)?, a.text(2)?, a.bytes(3)?);
     let range = if a.has(5) { a.real(5)? } else { RANGE };
-    if !(range >= 0.0) {
+    if range.is_nan() || range < 0.0 {
         return Err(ApiError(format!("argument 6, the range, is {range} m, expected 0 or more")));
     }
     for (k, whole) in [(6, std::f64::consts::PI), (7, std::f64::consts::TAU)] {
-        if a.has(k) && !(a.real(k)? >= whole - 1e-6) {
+        if a.has(k) && (a.real(k)?.is_nan() || a.real(k)? < whole - 1e-6) {
             let words = "antennas send in all directions here: leave the angle away";
             return Err(ApiError(format!("argument {} is an angle of emission: {words}", k + 1)));
         }
