@@ -45,8 +45,13 @@ struct Served {
 
 impl Served {
     fn start(folder: &Path, more: &[&str]) -> Self {
+        Self::with(folder, &[&["--no-legacy"], more].concat())
+    }
+
+    /// With the legacy API, unless it is left out.
+    fn with(folder: &Path, more: &[&str]) -> Self {
         let mut child = SINCRO
-            .command(&["serve", folder.to_str().unwrap(), "--no-legacy", "--no-zmq", "--ws-port", "0"])
+            .command(&["serve", folder.to_str().unwrap(), "--no-zmq", "--ws-port", "0"])
             .args(more)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -196,4 +201,18 @@ fn the_first_interrupt_ends_the_server_while_a_script_does_not_return() {
     // not a measurement: without the abort it would take the hours of 10¹² instructions
     assert!(took < Duration::from_secs(60), "{took:?}");
     assert!(out.join("run-1/run.json").is_file(), "what was recorded is kept");
+}
+
+#[test]
+fn a_run_that_starts_with_the_server_may_open_ports() {
+    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let code =
+        format!("function sysCall_init() opened = simRemoteApi.start({port}) end\nfunction told() return opened end");
+    let folder = pendulum(&format!("[[frame]]\nname = \"s\"\n[[script]]\nobject = \"/s\"\ncode = '''\n{code}\n'''\n"));
+    let mut served = Served::with(&folder, &["--legacy-port", "0", "--record", "none", "--start"]);
+    let handle = served.call("sim.getObject", "\"/s\"");
+    let handle: String = handle.chars().filter(char::is_ascii_digit).collect();
+    let told = served.call("sim.callScriptFunction", &format!("\"told\",{handle}"));
+    assert!(told.contains("[1]"), "{told}");
+    TcpStream::connect(("127.0.0.1", port)).unwrap();
 }

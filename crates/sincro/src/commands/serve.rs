@@ -138,16 +138,16 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         evaluation: arguments.grant.contains(&Grant::Scripts),
     });
     diagnostics::print_diagnostics(&session.loaded().warnings);
-    if arguments.start
-        && let Err(error) = session.start()
-    {
-        return diagnostics::refuse(&error.0, None);
-    }
     let title = session.loaded().experiment.title.clone();
     let server = match Server::start(session, &options) {
         Ok(server) => server,
         Err(error) => return diagnostics::refuse(&error.message, Some(&error.help)),
     };
+    // once the ports are open: scripts may open further ones
+    let started = if arguments.start { server.hub().enter().act(Session::start) } else { Ok(()) };
+    if let Err(error) = started {
+        return diagnostics::refuse(&error.0, None);
+    }
     print_ports(&title, &server);
     let interrupt = interrupt();
     let recorder = RunArchive::new(out, arguments.record.into(), arguments.keep);
