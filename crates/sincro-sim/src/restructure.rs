@@ -11,6 +11,7 @@
 //! the others. Recorded columns are those of the start: signals of objects that have gone are NaN.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::hash::Hasher;
 use std::sync::Arc;
 
 use sincro_dynamics::kinematics::Attached;
@@ -18,8 +19,7 @@ use sincro_dynamics::model::Model;
 use sincro_dynamics::transfer::{Origin, Transferred, transfer};
 use sincro_dynamics::world::World;
 use sincro_scene::scene::{Scene, frame_of};
-
-use crate::trace::scene_hash;
+use twox_hash::XxHash3_64;
 
 /// Change of the structure that has been made in a world.
 #[derive(Clone, Debug)]
@@ -141,6 +141,17 @@ pub fn restructure(world: &mut World, mut to: Scene, edit: &Edit<'_>) -> Restruc
     to.initial = transferred.state.clone();
     let steps = vec![StructureStep { hash: scene_hash(&to), energy: transferred.energy_change }];
     Restructured { scene: Arc::new(to), former, renamed, transferred, steps }
+}
+
+/// Hash of an edited scene: of the text that it was compiled from, or of its model if it knows none. A model has a
+/// number for each pair of colliders, a text only for each object.
+fn scene_hash(scene: &Scene) -> u64 {
+    let mut hasher = XxHash3_64::with_seed(0);
+    match &scene.source {
+        Some(source) => hasher.write(source.document.source.text.as_bytes()),
+        None => hasher.write(format!("{:?}", scene.model).as_bytes()),
+    }
+    hasher.finish()
 }
 
 /// New place of each former link: where an object on it is now.

@@ -5,7 +5,6 @@ use std::hash::Hasher;
 
 use sincro_dynamics::model::Model;
 use sincro_dynamics::state::State;
-use sincro_scene::scene::Scene;
 use twox_hash::XxHash3_64;
 
 use crate::load::Loaded;
@@ -83,18 +82,6 @@ pub fn model_hash(model: &Model<f64>) -> String {
     // the debug form has every field with all its digits
     hasher.write(format!("{model:?}").as_bytes());
     format!("{:016x}", hasher.finish())
-}
-
-/// Returns the hash of an edited scene: of the text that it was compiled from, or of its model if it knows none. A model
-/// has a number for each pair of colliders, a text only for each object.
-#[must_use]
-pub(crate) fn scene_hash(scene: &Scene) -> u64 {
-    let Some(source) = &scene.source else {
-        return u64::from_str_radix(&model_hash(&scene.model), 16).unwrap_or(0);
-    };
-    let mut hasher = XxHash3_64::with_seed(0);
-    hasher.write(source.document.source.text.as_bytes());
-    hasher.finish()
 }
 
 /// Returns the hash of a scene's model and diagram, 16 hexadecimal digits: snapshots can be restored where it is the

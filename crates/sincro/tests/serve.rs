@@ -215,4 +215,5 @@ fn a_run_that_starts_with_the_server_may_open_ports() {
     let told = served.call("sim.callScriptFunction", &format!("\"told\",{handle}"));
     assert!(told.contains("[1]"), "{told}");
     TcpStream::connect(("127.0.0.1", port)).unwrap();
+    served.child.kill().unwrap();
 }

@@ -11,7 +11,7 @@ const MIN_PORT: u16 = 1_024;
 /// Port of V-REP's own service, on which clients may always step: a script does not start it again.
 const CONTINUOUS_PORT: u16 = 19_997;
 
-/// What a script asks of a TCP port of the legacy API with `simRemoteApi.start`.
+/// Request of a script for a TCP port of the legacy API (`simRemoteApi.start`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PortRequest {
     /// TCP port.

@@ -48,7 +48,7 @@ pub(crate) struct Packet {
     pub taken: BTreeSet<Option<Handle>>,
 }
 
-/// What a receiver asks for.
+/// Request of a receiver.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wanted<'a> {
     /// Object of the script that asks; none: a client.

@@ -41,7 +41,8 @@ impl ObjectRegistry {
         self.body_on.get(&joint).copied()
     }
 
-    /// First body on each joint that clients do not see, by the joint; bodies change their parents with the structure only.
+    /// First body on each joint that clients do not see, by the joint; bodies change their parents with the structure
+    /// only.
     pub(super) fn bodies_on_joints(&self) -> BTreeMap<Handle, Handle> {
         let mut found = BTreeMap::new();
         for entry in self.entries().filter(|entry| matches!(entry.kind, Kind::Body(_))) {

@@ -20,8 +20,8 @@ const ALL: i64 = -2;
 const TREE: i64 = -6;
 const CUSTOMIZATION: i64 = 6;
 
-/// The place of a script, by its own handle, `sim.handle_self`, or its object, which is the script itself in CoppeliaSim
-/// 4.7 and later.
+/// The place of a script, by its own handle, `sim.handle_self`, or its object, which is the script itself in
+/// CoppeliaSim 4.7 and later.
 pub(super) fn place_of(shared: &Shared, index: usize, handle: i64) -> Option<usize> {
     if handle == SELF {
         return Some(index);

@@ -231,8 +231,8 @@ fn oriented(along: Vec3<f64>, up: Vec3<f64>, mode: i64) -> Option<Mat3<f64>> {
     Some(Mat3([[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]))
 }
 
-/// Control points of V-REP 3: position and Euler angles, and what else each has, which is not used; bit 0 of the options
-/// closes the path.
+/// Control points of V-REP 3: position and Euler angles, and what else each has, which is not used; bit 0 of the
+/// options closes the path.
 fn insert(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = path(sim, a)?;
     let (options, start) = (a.int(1)?, a.int(2)?);

@@ -130,7 +130,8 @@ fn closest_length(a: Arguments<'_>) -> Outcome {
     super::one(closest(&path, &point))
 }
 
-/// Length of a path up to its point that is closest to another one; the first three numbers of its points are positions.
+/// Length of a path up to its point that is closest to another one; the first three numbers of its points are
+/// positions.
 pub(super) fn closest(path: &Path<'_>, point: &[f64; 3]) -> f64 {
     let mut best = (f64::INFINITY, 0.0);
     for k in 0..path.lengths.len().max(2) - 1 {
