@@ -96,7 +96,7 @@ fn import(root: &Path) -> bool {
             Command::new(&python)
                 .arg(root.join("crates/sincro-import/tests/judges/judge.py"))
                 .args([program.as_path(), work.as_path()])
-                .args(["urdf", "sdf", "mjcf", "bullet", "--markdown"])
+                .args(["urdf", "sdf", "mjcf", "motion", "bullet", "--markdown"])
                 .arg(root.join("docs/import.md")),
         )
 }

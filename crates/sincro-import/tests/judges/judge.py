@@ -21,8 +21,8 @@ import zipfile
 import numpy as np
 
 STATES = 100
-#: Bounds: of the largest entry, for Pinocchio and for MuJoCo.
-PINOCCHIO_BOUND, MUJOCO_BOUND = 1e-10, 1e-9
+#: Bounds: of the largest entry, for Pinocchio and for MuJoCo; of coordinates after a second.
+PINOCCHIO_BOUND, MUJOCO_BOUND, TRAJECTORY_BOUND = 1e-10, 1e-9, 1e-6
 
 
 def fetch(work, package):
@@ -228,6 +228,64 @@ def against_mujoco(sincro, file, folder):
     return worst
 
 
+def without_switching(folder):
+    """Takes contacts, limits, friction, motors, loops and couplings out of a scene."""
+    without_soft_constraints(folder)
+    path = os.path.join(folder, "scene.toml")
+    with open(path) as text:
+        blocks = text.read().split("\n\n")
+    blocks = [b for b in blocks if not re.search(r"^\[\[(closure|coupling|sensor|camera)\]\]|^actuator = ", b, re.M)]
+    gone = ("limits = ", "friction = ", "motor = ")
+    lines = [line for line in "\n\n".join(blocks).split("\n") if not line.startswith(gone)]
+    # starts from the reference, which is zero here
+    lines = [line for line in lines if not re.fullmatch(r"initial = \{ position = [-+.\de]+ \}", line)]
+    if any(line.startswith("contact = ") for line in lines):
+        lines += ["[[contact_pair]]", 'between = ["/**", "/**"]', "touches = false", ""]
+    with open(path, "w") as text:
+        text.write("\n".join(lines))
+
+
+def trajectory(sincro, file, folder):
+    """Largest difference of the coordinates after one second of motion from the reference at random rates, without
+    contacts, limits, friction, loops and motors; MuJoCo by Runge–Kutta at 0.1 ms."""
+    import mujoco
+
+    without_switching(folder)
+    model = mujoco.MjModel.from_xml_path(file)
+    for flag in ("CONTACT", "EQUALITY", "LIMIT", "FRICTIONLOSS", "ACTUATION"):
+        model.opt.disableflags |= getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}")
+    model.opt.integrator, model.opt.timestep = mujoco.mjtIntegrator.mjINT_RK4, 1e-4
+    head, _ = terms(sincro, folder)
+    joints = joints_of_mujoco(model, head)
+    scalar = [j for j in range(model.njnt) if model.jnt_type[j] in (2, 3)]
+    if not scalar:
+        raise ValueError("no joint with one degree of freedom")
+    data = mujoco.MjData(model)
+    rates = np.random.default_rng(1).uniform(-0.5, 0.5, len(scalar))
+    data.qvel[model.jnt_dofadr[scalar]] = rates
+    for _ in range(10_000):
+        mujoco.mj_step(model, data)
+    if data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number or not np.isfinite(data.qpos).all():
+        raise ValueError("MuJoCo's motion is unstable at this step")
+    record = ",\n".join(f'    "{joints[j]["joint"]}.position"' for j in scalar)
+    with open(os.path.join(folder, "experiment.toml"), "w") as text:
+        text.write(
+            f'format = 2\ntitle = "free motion"\nscene = "scene.toml"\nduration = 1.0\nstep = 0.05\naccuracy = 1e-11\nerror_bar = "none"\nrecord = [\n{record}\n]\n'
+        )
+    out = folder + "-run"
+    shutil.rmtree(out, ignore_errors=True)
+    settings = [f'--set={joints[j]["joint"]}.initial.velocity={x!r}' for j, x in zip(scalar, rates.tolist())]
+    run = subprocess.run([sincro, "run", folder, "--out", out, *settings], capture_output=True, text=True, timeout=240)
+    if not os.path.exists(os.path.join(out, "signals.csv")):
+        raise ValueError(run.stderr[-300:])
+    with open(os.path.join(out, "signals.csv")) as text:
+        last = [line for line in text if not line.startswith("#")][-1]
+    shutil.rmtree(out, ignore_errors=True)
+    found = np.array([float(x) for x in last.split(",")[1:]])
+    expected = np.array([data.qpos[model.jnt_qposadr[j]] - model.qpos0[model.jnt_qposadr[j]] for j in scalar])
+    return float(np.abs(found - expected).max())
+
+
 def robot_data(work):
     folder = fetch(work, "example-robot-data==6.0.0")
     urdf = sorted(glob.glob(os.path.join(folder, "**", "*.urdf"), recursive=True))
@@ -257,8 +315,10 @@ LARGE = ["gymnasium-robotics==1.4.2", "metaworld==3.1.1", "robosuite==1.5.2", "p
 COLLECTIONS = {
     "urdf": ("example-robot-data, URDF", lambda w: robot_data(w)[0], against_pinocchio, PINOCCHIO_BOUND, 62),
     "sdf": ("example-robot-data, SDF", lambda w: robot_data(w)[1], None, 0.0, 4),
-    "mjcf-small": ("dm_control, gymnasium: MJCF", lambda w: mjcf_files(w, SMALL), against_mujoco, MUJOCO_BOUND, 40),
-    "mjcf": ("eight packages of MJCF", lambda w: mjcf_files(w, SMALL + LARGE), against_mujoco, MUJOCO_BOUND, 165),
+    "mjcf-small": ("dm_control, gymnasium: MJCF", lambda w: mjcf_files(w, SMALL), against_mujoco, MUJOCO_BOUND, 46),
+    "motion-small": ("dm_control, gymnasium: 1 s of motion", lambda w: mjcf_files(w, SMALL), trajectory, TRAJECTORY_BOUND, 46),
+    "mjcf": ("eight packages of MJCF", lambda w: mjcf_files(w, SMALL + LARGE), against_mujoco, MUJOCO_BOUND, 190),
+    "motion": ("eight packages of MJCF, 1 s of motion", lambda w: mjcf_files(w, SMALL + LARGE), trajectory, TRAJECTORY_BOUND, 190),
     "bullet": ("pybullet, URDF", lambda w: sorted(glob.glob(os.path.join(fetch(w, "pybullet==3.2.7"), "**", "*.urdf"), recursive=True)), None, 0.0, 1080),
 }
 
