@@ -39,6 +39,18 @@ pub struct CompiledBlock {
     pub update: Option<ByTick>,
 }
 
+impl CompiledBlock {
+    /// All programs of the block.
+    pub fn programs(&self) -> impl Iterator<Item = &Program> {
+        let output = match &self.output {
+            Computed::Program(by_tick) => Some(by_tick),
+            Computed::Source => None,
+        };
+        let both = output.into_iter().chain(&self.update);
+        both.flat_map(|by_tick| by_tick.first.iter().chain([&by_tick.later]))
+    }
+}
+
 /// Origin of a block's outputs.
 #[derive(Clone, Debug)]
 pub enum Computed {

@@ -255,9 +255,93 @@ pub fn modulo(x: f64, modulus: f64) -> (f64, f64, f64) {
     (rest, 1.0, -libm::rint((x - rest) / modulus))
 }
 
+/// Largest integer not above `x`, in its unit, and its derivative by `x`, taken as zero everywhere.
+#[must_use]
+pub fn floor(x: f64) -> (f64, f64) {
+    (libm::floor(x), 0.0)
+}
+
+/// Smallest integer not below `x`, in its unit, and its derivative by `x`, taken as zero everywhere.
+#[must_use]
+pub fn ceil(x: f64) -> (f64, f64) {
+    (libm::ceil(x), 0.0)
+}
+
+/// Elementary function of one argument by its name, so that a recording ([`record`](crate::record)) can tell which one
+/// is called; see [`Real::unary`](crate::Real::unary).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unary {
+    /// [`tan`].
+    Tan,
+    /// [`asin`].
+    Asin,
+    /// [`acos`].
+    Acos,
+    /// [`atan`].
+    Atan,
+    /// [`exp`].
+    Exp,
+    /// [`ln`].
+    Ln,
+    /// [`log10`].
+    Log10,
+    /// [`sinh`].
+    Sinh,
+    /// [`cosh`].
+    Cosh,
+    /// [`tanh`].
+    Tanh,
+    /// [`floor`].
+    Floor,
+    /// [`ceil`].
+    Ceil,
+}
+
+/// Elementary function of two arguments by its name; see [`Unary`] and [`Real::binary`](crate::Real::binary).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binary {
+    /// [`atan2`] of y and x.
+    Atan2,
+    /// [`hypot`].
+    Hypot,
+    /// [`pow`] of base and exponent.
+    Pow,
+    /// [`modulo`] of number and modulus.
+    Modulo,
+}
+
+impl Unary {
+    /// All functions, in the order of the enumeration.
+    pub const ALL: [Self; 12] = [
+        Self::Tan,
+        Self::Asin,
+        Self::Acos,
+        Self::Atan,
+        Self::Exp,
+        Self::Ln,
+        Self::Log10,
+        Self::Sinh,
+        Self::Cosh,
+        Self::Tanh,
+        Self::Floor,
+        Self::Ceil,
+    ];
+}
+
+impl Binary {
+    /// All functions, in the order of the enumeration.
+    pub const ALL: [Self; 4] = [Self::Atan2, Self::Hypot, Self::Pow, Self::Modulo];
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn functions_stand_in_the_order_of_their_enumeration() {
+        assert!(Unary::ALL.iter().enumerate().all(|(k, f)| *f as usize == k));
+        assert!(Binary::ALL.iter().enumerate().all(|(k, f)| *f as usize == k));
+    }
 
     #[test]
     fn exact_where_the_value_is_exact() {

@@ -3,6 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use crate::elementary::{self, Binary, Unary};
+
 /// Real number that the dynamics is written over: `f64`, a bundle of lanes ([`Lanes`](crate::Lanes)), or a dual number
 /// ([`Dual`](crate::Dual)).
 ///
@@ -92,6 +94,38 @@ pub trait Real:
     /// Value of a differentiable scalar function of `self` and `other`, lane by lane: `f(x, y)` returns the value and
     /// the derivatives by `x` and by `y`, in this order.
     fn map2(self, other: Self, f: impl Fn(f64, f64) -> (f64, f64, f64)) -> Self;
+
+    /// Value of an elementary function at this number, lane by lane, with its derivative: [`Real::map`] of a function
+    /// that a recording knows by name.
+    #[inline]
+    fn unary(self, f: Unary) -> Self {
+        match f {
+            Unary::Tan => self.map(elementary::tan),
+            Unary::Asin => self.map(elementary::asin),
+            Unary::Acos => self.map(elementary::acos),
+            Unary::Atan => self.map(elementary::atan),
+            Unary::Exp => self.map(elementary::exp),
+            Unary::Ln => self.map(elementary::ln),
+            Unary::Log10 => self.map(elementary::log10),
+            Unary::Sinh => self.map(elementary::sinh),
+            Unary::Cosh => self.map(elementary::cosh),
+            Unary::Tanh => self.map(elementary::tanh),
+            Unary::Floor => self.map(elementary::floor),
+            Unary::Ceil => self.map(elementary::ceil),
+        }
+    }
+
+    /// Value of an elementary function of `self` and `other`, lane by lane, with its derivatives: [`Real::map2`] of a
+    /// function that a recording knows by name.
+    #[inline]
+    fn binary(self, f: Binary, other: Self) -> Self {
+        match f {
+            Binary::Atan2 => self.map2(other, elementary::atan2),
+            Binary::Hypot => self.map2(other, elementary::hypot),
+            Binary::Pow => self.map2(other, elementary::pow),
+            Binary::Modulo => self.map2(other, elementary::modulo),
+        }
+    }
 
     /// Runs `task` compiled for the best registers of this processor, and returns its result: lanes with their own
     /// instruction set, scalars with the thirty-two registers of AVX-512 where there are. One compiled copy of a task

@@ -15,7 +15,7 @@
 use core::f64::consts::PI;
 
 use sincro_math::Real;
-use sincro_math::elementary::{asin, pow};
+use sincro_math::elementary::{Binary, asin};
 
 use super::{Load, RotorSpec};
 use sincro_geometry::spatial::{Mat3, Vec3};
@@ -119,7 +119,7 @@ fn inflow_ratio<R: Real>(mu: R, nu: R, ratio: R, k1: R, k2: R) -> R {
     let c2 = c(2.0) * (b1 * b1 * b1) - c(9.0) * b1 * b2 + c(27.0) * b3;
     // NaN below zero: of the discriminant, and of the power's base
     let base = c(0.5) * (c2 + (c2 * c2 - c(4.0) * (c1 * c1 * c1)).sqrt());
-    let c3 = base.map2(c(1.0 / 3.0), pow);
+    let c3 = base.binary(Binary::Pow, c(1.0 / 3.0));
     let d1 = -(b1 + c3 + c1 / c3) / c(3.0);
     let d2 = (d1 * d1 - a4).sqrt();
     let d3 = (d1 - a3) / d2; // defect 4

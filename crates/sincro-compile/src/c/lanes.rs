@@ -4,7 +4,7 @@ use super::{Dialect, sine_statements};
 
 /// Support for `lanes`, vectors of `width` numbers: selections by comparison and by bits, square root, sine and cosine.
 ///
-/// Statements may use the macros `ALL(x)`, a number in all lanes, and `AT(array, k)`, row `k` of an array of rows of
+/// Statements may use a pointer `call` to the elementary functions by their number, and the macros `ALL(x)`, a number in all lanes, and `AT(array, k)`, row `k` of an array of rows of
 /// `width` numbers. Sines are right for angles within the limit of their reduction: the caller looks at them, by the
 /// sum of their magnitudes in `angles`.
 pub(crate) fn lane_support(width: usize) -> String {
@@ -16,19 +16,26 @@ pub(crate) fn lane_support(width: usize) -> String {
         }
         _ => format!("    int k;\n    for (k = 0; k < {width}; k++) x[k] = __builtin_sqrt(x[k]);\n    return x;\n"),
     };
-    // 17: ordered, less than, without a signal
-    let all_below = match width {
+    let if_less = match width {
         8 if cfg!(target_arch = "x86_64") => {
-            "    int mask;\n    __asm__(\"vcmppd $17, %2, %1, %%k1\\n\\tkmovb %%k1, %0\" : \"=r\"(mask) : \"v\"(x), \"v\"(bound) : \"k1\");\n    return mask == 255;\n".to_owned()
+            "    lanes result;\n    __asm__(\"vcmppd $17, %2, %1, %%k1\\n\\tvblendmpd %3, %4, %0 %{%%k1%}\" : \"=v\"(result) : \"v\"(a), \"v\"(b), \"v\"(then), \"v\"(otherwise) : \"k1\");\n    return result;\n".to_owned()
+        }
+        _ => "    return selected((bits)(a < b), then, otherwise);\n".to_owned(),
+    };
+    // 17: ordered, less than, without a signal
+    let which_below = match width {
+        8 if cfg!(target_arch = "x86_64") => {
+            "    int mask;\n    __asm__(\"vcmppd $17, %2, %1, %%k1\\n\\tkmovb %%k1, %0\" : \"=r\"(mask) : \"v\"(x), \"v\"(bound) : \"k1\");\n    return mask;\n".to_owned()
         }
         4 if cfg!(target_arch = "x86_64") => {
-            "    int mask;\n    lanes below;\n    __asm__(\"vcmppd $17, %3, %2, %1\\n\\tvmovmskpd %1, %0\" : \"=r\"(mask), \"=&x\"(below) : \"x\"(x), \"x\"(bound));\n    return mask == 15;\n".to_owned()
+            "    int mask;\n    lanes below;\n    __asm__(\"vcmppd $17, %3, %2, %1\\n\\tvmovmskpd %1, %0\" : \"=r\"(mask), \"=&x\"(below) : \"x\"(x), \"x\"(bound));\n    return mask;\n".to_owned()
         }
         _ => {
-            let each: Vec<String> = (0..width).map(|k| format!("(x[{k}] < bound[{k}])")).collect();
-            format!("    return {};\n", each.join(" & "))
+            let each: Vec<String> = (0..width).map(|k| format!("((x[{k}] < bound[{k}]) << {k})")).collect();
+            format!("    return {};\n", each.join(" | "))
         }
     };
+    let every_lane = (1_u32 << width) - 1;
     let sine = sine_statements(Dialect::Lanes);
     format!(
         r#"typedef double lanes __attribute__((vector_size({bytes})));
@@ -45,8 +52,7 @@ INLINE lanes selected(bits mask, lanes a, lanes b) {{
 }}
 
 INLINE lanes if_less(lanes a, lanes b, lanes then, lanes otherwise) {{
-    return selected((bits)(a < b), then, otherwise);
-}}
+{if_less}}}
 
 INLINE lanes absolute(lanes x) {{
     return (lanes)((bits)x & BITS(0x7fffffffffffffffull));
@@ -76,10 +82,29 @@ INLINE lanes flip_by_1(lanes x, lanes n) {{
 INLINE void sine_cosine(lanes x, lanes *sine, lanes *cosine) {{
 {sine}}}
 
+/* Lanes where x is below a bound, as bits; not those that are no numbers. */
+INLINE int which_below(lanes x, lanes bound) {{
+{which_below}}}
+
 /* True if all lanes are below a limit; false for those that are no numbers. */
 INLINE int all_below(lanes x, double limit) {{
-    const lanes bound = ALL(limit);
-{all_below}}}
+    return which_below(x, ALL(limit)) == {every_lane};
+}}
+
+/* A huge number where x is zero and y is not above it, else 0. */
+INLINE lanes if_undecided(lanes x, lanes y) {{
+    return selected((bits)(x == ALL(0.0)) & ~(bits)(ALL(0.0) < y), ALL(1e300), ALL(0.0));
+}}
+
+typedef double function(int, double, double);
+
+/* Function number f of each lane; those of one argument take x alone. */
+static lanes called(function *call, int f, lanes x, lanes y) {{
+    lanes result = x;
+    int k;
+    for (k = 0; k < {width}; k++) result[k] = call(f, x[k], y[k]);
+    return result;
+}}
 "#
     )
 }

@@ -8,6 +8,7 @@ mod support;
 
 use core::fmt::Write;
 
+use sincro_math::elementary::{Binary, Unary};
 use sincro_math::record::{Operation, Program, record, sin_cos_of_operations};
 
 pub(crate) use lanes::lane_support;
@@ -49,6 +50,14 @@ impl Dialect<'_> {
         match self {
             Self::Double { .. } => format!("parameters[{i}]"),
             Self::Lanes => format!("AT(parameters, {i})"),
+        }
+    }
+
+    /// Call of elementary function number `f`, those of two arguments after the others.
+    fn call(&self, f: usize, x: &[String]) -> String {
+        match self {
+            Self::Double { .. } => unreachable!("exported programs call no functions"),
+            Self::Lanes => format!("called(call, {f}, {}, {})", x[0], x.last().unwrap_or(&x[0])),
         }
     }
 
@@ -123,6 +132,14 @@ pub(crate) fn statement_parts(
                     }
                 }
                 continue;
+            }
+            Operation::Unary(f, _) => dialect.call(*f as usize, &x),
+            Operation::Binary(f, ..) => {
+                if matches!(f, Binary::Atan2 | Binary::Pow) {
+                    // the value depends on the sign of a zero, which programs do not keep
+                    _ = writeln!(text, "    angles += if_undecided({}, {});", x[0], x[1]);
+                }
+                dialect.call(Unary::ALL.len() + *f as usize, &x)
             }
             Operation::IfLess(_) => dialect.if_less(&x),
             Operation::CopySign(..) => format!("{prefix}copy_sign({}, {})", x[0], x[1]),

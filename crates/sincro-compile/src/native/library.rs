@@ -6,9 +6,22 @@
 use std::path::Path;
 
 use libloading::Library;
+use sincro_math::Real;
+use sincro_math::elementary::{Binary, Unary};
 
-/// Function on rows of inputs, of parameters, of outputs: see [`super::text::library`].
-type Signature = unsafe extern "C" fn(*const f64, *const f64, *mut f64) -> i32;
+/// Elementary functions by their number, those of two arguments after the others.
+type Call = extern "C" fn(i32, f64, f64) -> f64;
+
+/// Function on rows of inputs, of parameters, of outputs and of results: see [`super::text::library`].
+type Signature = unsafe extern "C" fn(*const f64, *const f64, *mut f64, *mut f64, Call) -> i64;
+
+extern "C" fn call(f: i32, x: f64, y: f64) -> f64 {
+    let f = f as usize;
+    match Unary::ALL.get(f) {
+        Some(f) => x.unary(*f),
+        None => Binary::ALL.get(f - Unary::ALL.len()).map_or(f64::NAN, |f| x.binary(*f, y)),
+    }
+}
 
 /// Function of a [`LoadedLibrary`], which must outlive it.
 #[derive(Clone, Copy)]
@@ -29,11 +42,19 @@ impl LoadedLibrary {
         found.map(|symbol| Function(*symbol)).map_err(|_| format!("the compiled library has no function {name}"))
     }
 
-    /// Calls a function of this library; the callers have checked the lengths. False if it refuses the inputs.
+    /// Calls a function of this library; the callers have checked the lengths. Returns its flags; negative if it
+    /// refuses the inputs.
     #[inline]
-    pub fn call(&self, Function(f): Function, inputs: *const f64, parameters: &[f64], outputs: *mut f64) -> bool {
+    pub fn call(
+        &self,
+        Function(f): Function,
+        inputs: *const f64,
+        parameters: &[f64],
+        outputs: *mut f64,
+        results: &mut [f64],
+    ) -> i64 {
         // SAFETY: the library is open while `self` lives; the function reads and writes rows within the arrays alone,
         // and reads all of its inputs before it writes
-        unsafe { f(inputs, parameters.as_ptr(), outputs) != 0 }
+        unsafe { f(inputs, parameters.as_ptr(), outputs, results.as_mut_ptr(), call) }
     }
 }

@@ -22,15 +22,36 @@ use sincro_math::record::Program;
 
 use crate::Obstacle;
 use library::{Function, LoadedLibrary};
+pub use text::INPUT_LIMIT;
 
 /// Largest number of operations of the programs of one library: compilers take more than their number's time.
 const MAX_OPERATIONS: usize = 40_000;
 
 /// Rounds of the comparison with the programs, each with other random inputs in every lane.
-const ROUNDS: u64 = 6;
+const ROUNDS: u64 = 10;
 
-/// Rounds of them with inputs of many sizes.
+/// Rounds of them with inputs of many sizes, then those up to which all are small: some programs have results near the
+/// origin alone.
 const ROUNDS_OF_SIZES: u64 = 4;
+const ROUNDS_OF_SMALL: u64 = 8;
+
+/// Places of a program's outputs: the first are its outputs proper, results and flags follow them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OutputForm {
+    /// Number of outputs that are results: they go to a place of their own.
+    pub n_results: usize,
+    /// Number of outputs that are flags, 7 at most: they are true above 0.5, and come as bits.
+    pub n_flags: usize,
+    /// True if the caller knows that the magnitudes of the inputs add up to less than [`INPUT_LIMIT`].
+    pub inputs_are_checked: bool,
+}
+
+impl OutputForm {
+    /// First result and first flag among `n` outputs.
+    fn bounds(self, n: usize) -> [usize; 2] {
+        [n - self.n_flags - self.n_results, n - self.n_flags]
+    }
+}
 
 /// Program that runs on all lanes of the processor at once, with the bits of [`Program::evaluate`] in each.
 #[derive(Clone)]
@@ -40,6 +61,7 @@ pub struct NativeProgram {
     n_inputs: usize,
     n_parameters: usize,
     n_outputs: usize,
+    form: OutputForm,
     width: usize,
 }
 
@@ -81,6 +103,16 @@ pub struct Native {
 /// }
 /// ```
 pub fn compile(programs: &[&Program]) -> Result<Native, Obstacle> {
+    let programs: Vec<_> = programs.iter().map(|program| (*program, OutputForm::default())).collect();
+    compile_in_form(&programs)
+}
+
+/// As [`compile`], of programs whose outputs have places of their own.
+///
+/// # Errors
+///
+/// As [`compile`].
+pub fn compile_in_form(programs: &[(&Program, OutputForm)]) -> Result<Native, Obstacle> {
     let start = Instant::now();
     if std::env::var_os("SINCRO_COMPILE").is_some_and(|value| value == "off") {
         return Err(Obstacle::new("SINCRO_COMPILE=off forbids it"));
@@ -89,7 +121,7 @@ pub fn compile(programs: &[&Program]) -> Result<Native, Obstacle> {
     if width == 1 {
         return Err(Obstacle::new("this processor has neither AVX2 nor AVX-512"));
     }
-    let n_operations: usize = programs.iter().map(|program| program.operations().len()).sum();
+    let n_operations: usize = programs.iter().map(|(program, _)| program.operations().len()).sum();
     if n_operations > MAX_OPERATIONS {
         let words = format!("it has {n_operations} operations, more than {MAX_OPERATIONS}");
         return Err(Obstacle::new(words));
@@ -114,15 +146,20 @@ pub fn compile(programs: &[&Program]) -> Result<Native, Obstacle> {
 }
 
 /// Loads a library and compares it with the programs.
-fn load(path: &std::path::Path, programs: &[&Program], width: usize) -> Result<Vec<NativeProgram>, String> {
+fn load(
+    path: &std::path::Path,
+    programs: &[(&Program, OutputForm)],
+    width: usize,
+) -> Result<Vec<NativeProgram>, String> {
     let library = Arc::new(LoadedLibrary::open(path)?);
-    let of = |(k, program): (usize, &&Program)| {
+    let of = |(k, (program, form)): (usize, &(&Program, OutputForm))| {
         let new = NativeProgram {
             function: library.function(&text::function_name(k))?,
             library: Arc::clone(&library),
             n_inputs: program.n_inputs(),
             n_parameters: program.parameters().len(),
-            n_outputs: program.outputs().len(),
+            n_outputs: program.outputs().len() - form.n_results - form.n_flags,
+            form: *form,
             width,
         };
         new.compare(program)?;
@@ -150,7 +187,30 @@ impl NativeProgram {
         assert_eq!(inputs.len(), self.n_inputs * self.width, "one row an input");
         assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
         assert_eq!(outputs.len(), self.n_outputs * self.width, "one row an output");
-        self.library.call(self.function, inputs.as_ptr(), parameters, outputs.as_mut_ptr())
+        assert_eq!(self.form, OutputForm::default(), "there are neither results nor flags");
+        self.library.call(self.function, inputs.as_ptr(), parameters, outputs.as_mut_ptr(), &mut []) >= 0
+    }
+
+    /// As [`evaluate`](Self::evaluate), of a program with results and flags. Returns the flags: bit `k·width + lane` is
+    /// that of flag `k`; none where the program refuses the inputs.
+    ///
+    /// # Panics
+    ///
+    /// If an array has another length.
+    #[inline]
+    pub fn evaluate_in_form(
+        &self,
+        inputs: &[f64],
+        parameters: &[f64],
+        outputs: &mut [f64],
+        results: &mut [f64],
+    ) -> Option<u64> {
+        assert_eq!(inputs.len(), self.n_inputs * self.width, "one row an input");
+        assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
+        assert_eq!(outputs.len(), self.n_outputs * self.width, "one row an output");
+        assert_eq!(results.len(), self.form.n_results * self.width, "one row a result");
+        let flags = self.library.call(self.function, inputs.as_ptr(), parameters, outputs.as_mut_ptr(), results);
+        u64::try_from(flags).ok()
     }
 
     /// As [`evaluate`](Self::evaluate), with the outputs in place of the first inputs.
@@ -163,21 +223,25 @@ impl NativeProgram {
         assert_eq!(rows.len(), self.n_inputs * self.width, "one row an input");
         assert!(self.n_outputs <= self.n_inputs, "outputs take the place of inputs");
         assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
+        assert_eq!(self.form, OutputForm::default(), "there are neither results nor flags");
         let rows = rows.as_mut_ptr();
-        self.library.call(self.function, rows.cast_const(), parameters, rows)
+        self.library.call(self.function, rows.cast_const(), parameters, rows, &mut []) >= 0
     }
 
     /// Compares the outputs with the program's, for random inputs of many sizes.
     fn compare(&self, program: &Program) -> Result<(), String> {
         let width = self.width;
-        let mut outputs = vec![0.0; self.n_outputs * width];
+        let [mut outputs, mut results] = [self.n_outputs, self.form.n_results].map(|n| vec![0.0; n * width]);
         // a parameter has a value for each world: those of the first lanes
         let parameters = rows_of_parameters(program, 0, width);
         let mut n_compared = 0;
         for round in 0..ROUNDS {
             let draw = |k: u64| {
                 let bits = splitmix64(round, k);
-                if round >= ROUNDS_OF_SIZES {
+                if (ROUNDS_OF_SIZES..ROUNDS_OF_SMALL).contains(&round) {
+                    return 1e-2 * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0);
+                }
+                if round >= ROUNDS_OF_SMALL {
                     // four such numbers are nearly a rotation: no state of a machine with quaternions is wilder
                     return 0.5 + 0.01 * ((bits >> 11) as f64 / (1_u64 << 53) as f64);
                 }
@@ -185,15 +249,17 @@ impl NativeProgram {
                 size * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
             };
             let inputs: Vec<f64> = (0..(self.n_inputs * width) as u64).map(draw).collect();
-            if !self.evaluate(&inputs, &parameters, &mut outputs) {
-                continue;
-            }
+            let Some(flags) = self.evaluate_in_form(&inputs, &parameters, &mut outputs, &mut results) else { continue };
             n_compared += 1;
             for lane in 0..width {
                 let of_lane: Vec<f64> = inputs.iter().skip(lane).step_by(width).copied().collect();
                 let wanted = program.evaluate(&of_lane, lane);
-                let found = outputs.iter().skip(lane).step_by(width);
-                if found.zip(&wanted).any(|(a, b)| a.to_bits() != b.to_bits() && !(a.is_nan() && b.is_nan())) {
+                let (wanted, wanted_flags) = wanted.split_at(wanted.len() - self.form.n_flags);
+                let found = outputs.iter().chain(&results).skip(lane).step_by(width);
+                let flag = |k: usize| flags >> (k * width + lane) & 1 == 1;
+                if found.zip(wanted).any(|(a, b)| a.to_bits() != b.to_bits() && !(a.is_nan() && b.is_nan()))
+                    || wanted_flags.iter().enumerate().any(|(k, x)| flag(k) != (*x > 0.5))
+                {
                     return Err("what the compiler made differs from the program by a bit".to_owned());
                 }
             }

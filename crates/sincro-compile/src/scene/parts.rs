@@ -67,7 +67,7 @@ impl Parts {
             is_closed: false,
             missing: Vec::new(),
         };
-        let step = plant::step(&[model], method, h);
+        let step = plant::step(&[model], method, h).and_then(without_calls);
         parts.step = parts.keep("step", step);
         parts.add("rates", rates(model));
         parts.add("forward dynamics", forward_dynamics(model));
@@ -78,7 +78,14 @@ impl Parts {
             parts.add("frames", frame_function(model, frame, &name));
         }
         if let Some(of_scene) = request.diagram {
-            let compiled = diagram::compile(of_scene.wiring.program());
+            let compiled = diagram::compile(of_scene.wiring.program()).and_then(|compiled| {
+                let call = compiled.blocks.iter().find(|block| block.programs().any(Program::has_calls));
+                call.map_or(Ok(()), |block| {
+                    let path = &of_scene.wiring.program().steps[block.step].path;
+                    Err(Obstacle::new(format!("block `{path}`: {CALLS}")))
+                })?;
+                Ok(compiled)
+            });
             parts.controller = parts.keep("controller", compiled);
             if parts.controller.is_some() {
                 let measured = measure(model, &of_scene.wiring);
@@ -250,9 +257,18 @@ pub(super) fn sample(k: u64, n: usize) -> Vec<f64> {
     (0..n as u64).map(|i| (splitmix64(k, i) >> 11) as f64 * (4.0 / (1u64 << 53) as f64) - 2.0).collect()
 }
 
+/// Reason for which a program with calls is not exported.
+const CALLS: &str = "it calls a function that is not made of arithmetic, sines and square roots";
+
+/// Refuses a program that calls elementary functions: the exported text has none of them.
+fn without_calls(program: Program) -> Result<Program, Obstacle> {
+    if program.has_calls() { Err(Obstacle::new(CALLS)) } else { Ok(program) }
+}
+
 /// Refuses a program with a number that `algorithm` does not give at one of the samples. Zeros of either sign are
 /// equal: a recording leaves out products with zero.
 fn compared(program: Program, algorithm: impl Fn(&[f64]) -> Vec<f64>) -> Result<Program, Obstacle> {
+    let program = without_calls(program)?;
     if program.n_computed() > MAX_OPERATIONS {
         let n = program.n_computed();
         return Err(Obstacle::new(format!("it has {n} operations, more than {MAX_OPERATIONS}")));
@@ -385,5 +401,5 @@ fn measure(model: &Model<f64>, wiring: &Arc<Wiring>) -> Result<(Vec<usize>, Prog
     if unknown {
         return Err(Obstacle::new("a measurement is not a function of the state alone"));
     }
-    Ok((readings.iter().map(|(at, _)| *at).collect(), program?))
+    Ok((readings.iter().map(|(at, _)| *at).collect(), without_calls(program?)?))
 }

@@ -61,7 +61,7 @@ impl<R: Real> Friction<R> {
             return self.sliding;
         }
         let ratio = v / self.stribeck_velocity;
-        self.sliding + excess * (-(ratio * ratio)).map(elementary::exp)
+        self.sliding + excess * (-(ratio * ratio)).unary(elementary::Unary::Exp)
     }
 }
 

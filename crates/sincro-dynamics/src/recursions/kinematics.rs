@@ -1,5 +1,6 @@
 //! Poses, velocities, accelerations and Jacobians of links and of frames fixed in them.
 
+use sincro_math::elementary::{Binary, Unary};
 use sincro_math::{Real, Task};
 
 use crate::joint::{Link, Stage, StageVisitor, WORLD};
@@ -228,7 +229,7 @@ impl<R: Real> StageVisitor for UnitColumn<'_, R> {
 #[must_use]
 pub fn roll_pitch_yaw<R: Real>(rot: &Mat3<R>) -> Vec3<R> {
     let m = &rot.0;
-    use sincro_math::elementary::{asin, atan2};
-    let pitch = (-m[2][0]).clamp_abs(R::one()).map(asin);
-    Vec3([m[2][1].map2(m[2][2], atan2), pitch, m[1][0].map2(m[0][0], atan2)])
+    let pitch = (-m[2][0]).clamp_abs(R::one()).unary(Unary::Asin);
+    let atan2 = |y: R, x: R| y.binary(Binary::Atan2, x);
+    Vec3([atan2(m[2][1], m[2][2]), pitch, atan2(m[1][0], m[0][0])])
 }

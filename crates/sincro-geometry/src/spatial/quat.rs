@@ -90,7 +90,7 @@ impl<R: Real> Quat<R> {
                     + square
                         * (R::splat(3.0 / 20.0) + square * (R::splat(5.0 / 56.0) + square * R::splat(35.0 / 576.0))));
         let sin = small.if_less(square, square, R::one()).sqrt();
-        let closed = R::splat(2.0) * sin.map2(w, elementary::atan2) / sin;
+        let closed = R::splat(2.0) * sin.binary(elementary::Binary::Atan2, w) / sin;
         self.xyz.scale(sign * small.if_less(square, closed, series))
     }
 

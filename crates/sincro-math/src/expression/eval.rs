@@ -81,7 +81,7 @@ impl Binary {
             Self::Sub => a - b,
             Self::Mul => a * b,
             Self::Div => a / b,
-            Self::Pow => a.map2(b, elementary::pow),
+            Self::Pow => a.binary(elementary::Binary::Pow, b),
             Self::Less => logical(a, b, less(a, b)),
             Self::LessEqual => logical(a, b, not(less(b, a))),
             Self::Greater => logical(a, b, less(b, a)),
@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn the_branch_not_taken_leaves_no_trace() {
         let x = Dual::<1>::variable(-1.0, 0);
-        let out = choose(Dual::constant(0.0), x.map(elementary::ln), x * x);
+        let out = choose(Dual::constant(0.0), x.unary(elementary::Unary::Ln), x * x);
         assert_eq!((out.value, out.partials), (1.0, [-2.0]));
     }
 

@@ -1,7 +1,8 @@
 //! The functions that formulas know: name, number of arguments, value.
 
 use super::eval::{choose, sign, smaller};
-use crate::{Real, elementary};
+use crate::Real;
+use crate::elementary::{Binary, Unary};
 
 /// A function of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,27 +106,27 @@ impl Function {
         match self {
             Self::Sin => x[0].sin_cos().0,
             Self::Cos => x[0].sin_cos().1,
-            Self::Tan => x[0].map(elementary::tan),
-            Self::Asin => x[0].map(elementary::asin),
-            Self::Acos => x[0].map(elementary::acos),
-            Self::Atan => x[0].map(elementary::atan),
-            Self::Atan2 => x[0].map2(x[1], elementary::atan2),
-            Self::Sinh => x[0].map(elementary::sinh),
-            Self::Cosh => x[0].map(elementary::cosh),
-            Self::Tanh => x[0].map(elementary::tanh),
+            Self::Tan => x[0].unary(Unary::Tan),
+            Self::Asin => x[0].unary(Unary::Asin),
+            Self::Acos => x[0].unary(Unary::Acos),
+            Self::Atan => x[0].unary(Unary::Atan),
+            Self::Atan2 => x[0].binary(Binary::Atan2, x[1]),
+            Self::Sinh => x[0].unary(Unary::Sinh),
+            Self::Cosh => x[0].unary(Unary::Cosh),
+            Self::Tanh => x[0].unary(Unary::Tanh),
             Self::Sqrt => x[0].sqrt(),
-            Self::Exp => x[0].map(elementary::exp),
-            Self::Ln => x[0].map(elementary::ln),
-            Self::Log10 => x[0].map(elementary::log10),
+            Self::Exp => x[0].unary(Unary::Exp),
+            Self::Ln => x[0].unary(Unary::Ln),
+            Self::Log10 => x[0].unary(Unary::Log10),
             Self::Abs => x[0].abs(),
             Self::Sign => sign(x[0]),
-            Self::Floor => R::from_lanes(|k| libm::floor(x[0].lane(k))),
-            Self::Ceil => R::from_lanes(|k| libm::ceil(x[0].lane(k))),
-            Self::Mod => x[0].map2(x[1], elementary::modulo),
+            Self::Floor => x[0].unary(Unary::Floor),
+            Self::Ceil => x[0].unary(Unary::Ceil),
+            Self::Mod => x[0].binary(Binary::Modulo, x[1]),
             Self::Min => x[1..].iter().fold(x[0], |least, &x| smaller(least, x)),
             Self::Max => -x[1..].iter().fold(-x[0], |least, &x| smaller(least, -x)),
             Self::Clamp => smaller(-smaller(-x[0], -x[1]), x[2]),
-            Self::Hypot => x[0].map2(x[1], elementary::hypot),
+            Self::Hypot => x[0].binary(Binary::Hypot, x[1]),
             Self::If => choose(x[0], x[1], x[2]),
         }
     }

@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::recorder::{push, record};
 use super::{Recorded, Unrecordable};
 use crate::Real;
-use crate::elementary::{self, Bits};
+use crate::elementary::{self, Binary, Bits, Unary};
 
 /// Operation of a [`Program`]; operands are indices of earlier operations.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,10 @@ pub enum Operation {
     Sin(u32),
     /// Cosine of an angle `[rad]`, as [`elementary::sin_cos`].
     Cos(u32),
+    /// Elementary function of one argument.
+    Unary(Unary, u32),
+    /// Elementary function of two arguments.
+    Binary(Binary, u32, u32),
     /// Selection `[a, b, then, otherwise]`: `then` where a < b, else `otherwise`, also where one is NaN.
     IfLess([u32; 4]),
     /// Magnitude of the first, sign of the second.
@@ -65,7 +69,8 @@ impl Operation {
         match *self {
             Self::Constant(_) | Self::Input(_) | Self::Parameter(_) => Vec::new(),
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) | Self::CopySign(a, b) => vec![a, b],
-            Self::Neg(a) | Self::Sqrt(a) | Self::Abs(a) | Self::Sin(a) | Self::Cos(a) => vec![a],
+            Self::Neg(a) | Self::Sqrt(a) | Self::Abs(a) | Self::Sin(a) | Self::Cos(a) | Self::Unary(_, a) => vec![a],
+            Self::Binary(_, a, b) => vec![a, b],
             Self::IfLess(all) => all.to_vec(),
             Self::IfOdd(all) => all.to_vec(),
             Self::FlipBy { x, n, .. } => vec![x, n],
@@ -87,6 +92,8 @@ impl Operation {
             Self::Abs(a) => Self::Abs(to(a)),
             Self::Sin(a) => Self::Sin(to(a)),
             Self::Cos(a) => Self::Cos(to(a)),
+            Self::Unary(f, a) => Self::Unary(f, to(a)),
+            Self::Binary(f, a, b) => Self::Binary(f, to(a), to(b)),
             Self::IfLess(all) => Self::IfLess(all.map(to)),
             Self::IfOdd(all) => Self::IfOdd(all.map(to)),
             Self::FlipBy { x, n, bit } => Self::FlipBy { x: to(x), n: to(n), bit },
@@ -112,6 +119,8 @@ impl Operation {
             Self::Abs(_) => x[0].abs(),
             Self::Sin(_) => elementary::sin_cos(x[0]).0,
             Self::Cos(_) => elementary::sin_cos(x[0]).1,
+            Self::Unary(f, _) => x[0].unary(f),
+            Self::Binary(f, ..) => x[0].binary(f, x[1]),
             Self::IfLess(_) => x[0].if_less(x[1], x[2], x[3]),
             Self::CopySign(..) => x[0].copysign(x[1]),
             Self::IfOdd(_) => Bits::if_odd(x[0], x[1], x[2]),
@@ -140,6 +149,8 @@ impl Operation {
             Self::CopySign(..) => 13,
             Self::IfOdd(_) => 14,
             Self::FlipBy { bit, .. } => 15 + u64::from(*bit),
+            Self::Unary(f, _) => 100 + *f as u64,
+            Self::Binary(f, ..) => 200 + *f as u64,
         };
         let operands = self.operands();
         let of = |k: usize| operands.get(k).map_or(0, |x| u64::from(*x));
@@ -238,6 +249,45 @@ impl Program {
         self.operations.iter().filter(|x| !x.operands().is_empty()).count()
     }
 
+    /// Returns true if the program calls elementary functions other than sine and cosine.
+    #[must_use]
+    pub fn has_calls(&self) -> bool {
+        self.operations.iter().any(|x| matches!(x, Operation::Unary(..) | Operation::Binary(..)))
+    }
+
+    /// Results of the program for recorded inputs, in the recording under way: its operations become part of that.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer `inputs` than the program has, or if its parameters have another number of lanes than the
+    /// recording.
+    ///
+    /// ```
+    /// use sincro_math::record::record;
+    ///
+    /// let square = record(1, 1, |x| vec![x[0] * x[0]]).unwrap();
+    /// let fourth = record(1, 1, |x| square.replay(&square.replay(x))).unwrap();
+    /// assert_eq!(fourth.evaluate(&[3.0], 0), [81.0]);
+    /// ```
+    #[must_use]
+    pub fn replay(&self, inputs: &[Recorded]) -> Vec<Recorded> {
+        let values = self.replayed(inputs);
+        self.outputs.iter().map(|&x| values[x as usize]).collect()
+    }
+
+    /// Results of all operations for recorded inputs.
+    fn replayed(&self, inputs: &[Recorded]) -> Vec<Recorded> {
+        let mut values: Vec<Recorded> = Vec::with_capacity(self.operations.len());
+        for operation in &self.operations {
+            values.push(match operation {
+                Operation::Input(k) => inputs[*k as usize],
+                Operation::Parameter(k) => Recorded::from_lanes(|lane| self.parameters[*k as usize][lane]),
+                other => push(other.with_operands(|x| values[x as usize].0)),
+            });
+        }
+        values
+    }
+
     /// Evaluates the outputs for `inputs`, with the parameters of lane `lane` (others than those of the recording: of
     /// the last one). The bits are those of the recorded algorithm.
     ///
@@ -315,7 +365,8 @@ impl Program {
     ///
     /// # Errors
     ///
-    /// [`Unrecordable`] if the program looks at bits, as [`sin_cos_of_operations`](super::sin_cos_of_operations) does.
+    /// [`Unrecordable`] if the program looks at bits, as [`sin_cos_of_operations`](super::sin_cos_of_operations) does,
+    /// or calls elementary functions ([`Program::has_calls`]).
     ///
     /// ```
     /// use sincro_math::Real;
@@ -329,14 +380,7 @@ impl Program {
     /// ```
     pub fn with_partials(&self, by: Range<usize>) -> Result<Self, Unrecordable> {
         record(self.n_inputs, self.parameters.first().map_or(1, Vec::len), |inputs| {
-            let mut values: Vec<Recorded> = Vec::with_capacity(self.operations.len());
-            for operation in &self.operations {
-                values.push(match operation {
-                    Operation::Input(k) => inputs[*k as usize],
-                    Operation::Parameter(k) => Recorded::from_lanes(|lane| self.parameters[*k as usize][lane]),
-                    other => push(other.with_operands(|x| values[x as usize].0)),
-                });
-            }
+            let values = self.replayed(inputs);
             let mut outputs: Vec<Recorded> = self.outputs.iter().map(|&x| values[x as usize]).collect();
             for input in by {
                 let partials = self.partials(input as u32, &values);
@@ -370,6 +414,10 @@ impl Program {
                 IfLess([a, b, then, otherwise]) => x(a).if_less(x(b), d(then), d(otherwise)),
                 CopySign(..) | IfOdd(_) | FlipBy { .. } => {
                     super::recorder::fail("it looks at bits, which have no derivative");
+                    zero
+                }
+                Operation::Unary(..) | Operation::Binary(..) => {
+                    super::recorder::fail("it calls a function whose derivative is not recorded");
                     zero
                 }
             });

@@ -4,7 +4,7 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::program::Operation;
 use super::recorder;
-use crate::elementary::{self, Bits};
+use crate::elementary::{self, Binary, Bits, Unary};
 use crate::{Real, Task};
 
 /// Number of a recording ([`record`](super::record)): the result of one operation of the program. Outside of a
@@ -13,6 +13,12 @@ use crate::{Real, Task};
 pub struct Recorded(pub(super) u32);
 
 impl Recorded {
+    /// Returns true if both are the result of one operation.
+    #[must_use]
+    pub fn is_same(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+
     fn constant(self) -> Option<f64> {
         recorder::constant(self)
     }
@@ -128,6 +134,14 @@ impl Real for Recorded {
         recorder::push(Operation::IfLess([self.0, bound.0, then.0, otherwise.0]))
     }
 
+    fn unary(self, f: Unary) -> Self {
+        recorder::push(Operation::Unary(f, self.0))
+    }
+
+    fn binary(self, f: Binary, other: Self) -> Self {
+        recorder::push(Operation::Binary(f, self.0, other.0))
+    }
+
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
         match self.constant() {
             Some(x) => Self::splat(f(x).0),
@@ -144,7 +158,7 @@ impl Real for Recorded {
 }
 
 fn unknown_function() -> Recorded {
-    recorder::fail("it calls a function that is not made of arithmetic, sines and square roots");
+    recorder::fail("it calls a function that has no name among the elementary ones");
     Recorded::splat(f64::NAN)
 }
 

@@ -32,8 +32,8 @@ impl std::error::Error for Unrecordable {}
 ///
 /// # Errors
 ///
-/// [`Unrecordable`] if the algorithm asks for the value of a number that is not known yet, or calls a function that is
-/// not made of arithmetic, sines and square roots.
+/// [`Unrecordable`] if the algorithm asks for the value of a number that is not known yet, or calls a function of its
+/// own by [`Real::map`](crate::Real::map).
 ///
 /// # Panics
 ///
@@ -227,6 +227,8 @@ impl Recorder {
             | Sin(_)
             | Cos(_)
             | IfLess(_)
+            | Operation::Unary(..)
+            | Operation::Binary(..)
             | CopySign(..)
             | IfOdd(_)
             | FlipBy { .. }

@@ -50,12 +50,12 @@ impl Block for Function {
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, u) in y.iter_mut().zip(at.input(0)) {
             *y = match self.function {
-                Exp => u.map(elementary::exp),
-                Ln => u.map(elementary::ln),
-                Log10 => u.map(elementary::log10),
-                Sinh => u.map(elementary::sinh),
-                Cosh => u.map(elementary::cosh),
-                Tanh => u.map(elementary::tanh),
+                Exp => u.unary(elementary::Unary::Exp),
+                Ln => u.unary(elementary::Unary::Ln),
+                Log10 => u.unary(elementary::Unary::Log10),
+                Sinh => u.unary(elementary::Unary::Sinh),
+                Cosh => u.unary(elementary::Unary::Cosh),
+                Tanh => u.unary(elementary::Unary::Tanh),
                 Square => *u * *u,
                 Reciprocal => R::one() / *u,
                 Floor => u.map(|u| (u.floor(), 0.0)),

@@ -39,7 +39,7 @@ impl Block for Power {
         for (i, y) in y.iter_mut().enumerate() {
             let base = at.component(0, i);
             *y = match &self.exponent {
-                None => base.map2(at.component(1, i), elementary::pow),
+                None => base.binary(elementary::Binary::Pow, at.component(1, i)),
                 Some(exponent) => base.map(|u| {
                     let (power, by_base, _) = elementary::pow(u, of(exponent, i));
                     (power, by_base)

@@ -55,11 +55,11 @@ impl Block for Trigonometry {
             *y = match self.function {
                 Sin => u.sin_cos().0,
                 Cos => u.sin_cos().1,
-                Tan => u.map(elementary::tan),
-                Asin => u.map(elementary::asin),
-                Acos => u.map(elementary::acos),
-                Atan => u.map(elementary::atan),
-                Atan2 => u.map2(at.component(1, i), elementary::atan2),
+                Tan => u.unary(elementary::Unary::Tan),
+                Asin => u.unary(elementary::Unary::Asin),
+                Acos => u.unary(elementary::Unary::Acos),
+                Atan => u.unary(elementary::Unary::Atan),
+                Atan2 => u.binary(elementary::Binary::Atan2, at.component(1, i)),
             };
         }
     }

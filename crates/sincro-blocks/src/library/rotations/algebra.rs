@@ -144,17 +144,17 @@ pub(super) fn euler_to_matrix<R: Real>(angles: Angles<R>, convention: Convention
 /// however near the middle angle is to ±π/2.
 #[inline(always)]
 pub(super) fn matrix_to_euler<R: Real>(m: Matrix3<R>, convention: Convention) -> Angles<R> {
-    let angle = |y: R, x: R| y.map2(x, elementary::atan2);
+    let angle = |y: R, x: R| y.binary(elementary::Binary::Atan2, x);
     let leftmost = |y: R, x: R, cos: R| if cos.lane(0) < LOCKED { R::zero() } else { angle(y, x) };
     match convention {
         Convention::Zyx => {
-            let cos = m[0].map2(m[3], elementary::hypot);
+            let cos = m[0].binary(elementary::Binary::Hypot, m[3]);
             let yaw = leftmost(m[3], m[0], cos);
             let (s, c) = yaw.sin_cos();
             [angle(s * m[2] - c * m[5], c * m[4] - s * m[1]), angle(-m[6], cos), yaw]
         }
         Convention::Xyz => {
-            let cos = m[5].map2(m[8], elementary::hypot);
+            let cos = m[5].binary(elementary::Binary::Hypot, m[8]);
             let first = leftmost(-m[5], m[8], cos);
             let (s, c) = first.sin_cos();
             [first, angle(m[2], cos), angle(c * m[3] + s * m[6], c * m[4] + s * m[7])]
