@@ -21,11 +21,23 @@ impl LaneBundle {
         self.lanes(plan).set_lane(lane, state);
     }
 
-    /// Advances all worlds by one action's period under commands (`lane × command`).
-    pub fn advance(&mut self, plan: &Plan, commands: &[f64]) {
+    /// Advances all worlds but those that `is_over` by one action's period under commands (`lane × command`).
+    pub fn advance(&mut self, plan: &Plan, commands: &[f64], is_over: &[bool]) {
+        let kept = is_over.contains(&true).then(|| {
+            let mut rows = vec![0.0; plan.n_state() * sincro_math::lanes::width()];
+            self.copy_state(plan, &mut rows);
+            rows
+        });
         let lanes = self.lanes(plan);
         lanes.set_commands(commands);
         lanes.advance(plan.loaded.experiment.step, plan.task.ticks);
+        let Some(kept) = kept else { return };
+        let mut state = plan.loaded.scene.initial.clone();
+        for lane in (0..is_over.len()).filter(|lane| is_over[*lane]) {
+            let numbers = state.q.iter_mut().chain(&mut state.v).chain(&mut state.rotors);
+            numbers.zip(kept.iter().skip(lane).step_by(sincro_math::lanes::width())).for_each(|(to, x)| *to = *x);
+            self.place(plan, lane, &state);
+        }
     }
 
     /// Signals of all worlds, `lane × signal`, and if each is finite.

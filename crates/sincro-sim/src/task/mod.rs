@@ -24,7 +24,7 @@ mod threads;
 use std::sync::Arc;
 
 use compiled::CompiledTask;
-use group::{Buffers, Group};
+use group::Group;
 pub use plan::Plan;
 use sincro_compile::Obstacle;
 use threads::Threads;
@@ -85,6 +85,45 @@ impl Step {
             truncated: vec![false; n],
             stopped: vec![false; n],
             final_observations: Vec::new(),
+        }
+    }
+}
+
+/// Results of one step of [`TaskWorlds`] in arrays of the caller: as those of [`Step`], world by world.
+#[derive(Debug)]
+pub struct StepMut<'a> {
+    /// Observations, `n_worlds × n_observations`.
+    pub observations: &'a mut [f64],
+    /// Rewards, `n_worlds`.
+    pub rewards: &'a mut [f64],
+    /// Episodes that terminated, `n_worlds`.
+    pub terminated: &'a mut [bool],
+    /// Episodes that were truncated, `n_worlds`.
+    pub truncated: &'a mut [bool],
+    /// Worlds that could not go on, `n_worlds`.
+    pub stopped: &'a mut [bool],
+    /// Last observations of the episodes that ended, as long as `observations` for [`Autoreset::SameStep`]; else unused.
+    pub final_observations: &'a mut [f64],
+}
+
+impl<'a> StepMut<'a> {
+    /// Takes those of the next `n` worlds.
+    fn take(&mut self, n: usize, n_observations: usize) -> StepMut<'a> {
+        fn front<'a, T>(rest: &mut &'a mut [T], n: usize) -> &'a mut [T] {
+            let (mine, others) = std::mem::take(rest).split_at_mut(n);
+            *rest = others;
+            mine
+        }
+        StepMut {
+            observations: front(&mut self.observations, n * n_observations),
+            rewards: front(&mut self.rewards, n),
+            terminated: front(&mut self.terminated, n),
+            truncated: front(&mut self.truncated, n),
+            stopped: front(&mut self.stopped, n),
+            final_observations: match self.final_observations.is_empty() {
+                true => &mut [],
+                false => front(&mut self.final_observations, n * n_observations),
+            },
         }
     }
 }
@@ -214,12 +253,28 @@ impl TaskWorlds {
     ///
     /// If `actions` has another length, or `out` was made for another number of worlds.
     pub fn step(&mut self, actions: &[f64], autoreset: Autoreset, out: &mut Step) {
+        let n_finals = if autoreset == Autoreset::SameStep { self.n * self.plan.n_observations() } else { 0 };
+        out.final_observations.resize(n_finals, 0.0);
+        let Step { observations, rewards, terminated, truncated, stopped, final_observations } = out;
+        let out = StepMut { observations, rewards, terminated, truncated, stopped, final_observations };
+        self.step_into(actions, autoreset, out);
+    }
+
+    /// As [`TaskWorlds::step`], with the results in arrays of the caller.
+    ///
+    /// # Panics
+    ///
+    /// If `actions` or an array of `out` has another length.
+    pub fn step_into(&mut self, actions: &[f64], autoreset: Autoreset, out: StepMut<'_>) {
         let (n_actions, n_observations) = (self.plan.n_actions(), self.plan.n_observations());
         assert_eq!(actions.len(), self.n * n_actions, "one action a world");
-        assert_eq!(out.rewards.len(), self.n, "results of as many worlds");
+        let lengths = [out.rewards.len(), out.terminated.len(), out.truncated.len(), out.stopped.len()];
+        assert_eq!(lengths, [self.n; 4], "results of as many worlds");
+        assert_eq!(out.observations.len(), self.n * n_observations, "observations of as many worlds");
+        let has_finals = autoreset != Autoreset::SameStep || out.final_observations.len() == self.n * n_observations;
+        assert!(has_finals, "last observations of as many worlds");
         let plan = &*self.plan;
-        out.final_observations.resize(if autoreset == Autoreset::SameStep { self.n * n_observations } else { 0 }, 0.0);
-        let (mut rest, mut buffers) = (actions, Buffers::of(out));
+        let (mut rest, mut buffers) = (actions, out);
         self.threads.share(
             &mut self.groups,
             |n_worlds| {

@@ -238,6 +238,12 @@ impl Plan {
         self.task.random.iter().filter(|random| matches!(random.target, Target::Name(_))).count()
     }
 
+    /// Number of coordinates, velocities and rotor states of the model.
+    pub(super) fn n_state(&self) -> usize {
+        let model = &self.loaded.scene.model;
+        model.n_q() + model.n_v() + model.n_rotor_states()
+    }
+
     /// Number of commands of the model.
     pub(super) fn n_commands(&self) -> usize {
         self.loaded.scene.commands.len()

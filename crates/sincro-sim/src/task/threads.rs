@@ -1,8 +1,8 @@
 //! Groups of worlds shared out to threads that stay from step to step: starting one takes as long as a step of hundreds
 //! of worlds.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
@@ -13,6 +13,9 @@ use super::plan::Plan;
 /// Time for which threads stay awake after a step, since the next one comes soon, and the calling one for the others:
 /// to wake one takes as long as a step of thousands of small worlds.
 const AWAKE: Duration = Duration::from_micros(150);
+
+/// Parts that the groups are cut into for each thread.
+const PARTS: usize = 4;
 
 /// Threads and what each works with; the calling thread is the first.
 #[derive(Debug)]
@@ -69,8 +72,8 @@ impl Threads {
         Self { scratches: (0..n.max(1)).map(|_| Scratch::new(plan, width)).collect(), others }
     }
 
-    /// Works on all groups. `share` gives each thread its part of the arguments, by its number of worlds and in their
-    /// order.
+    /// Works on all groups. `share` gives each part of them its arguments, by its number of worlds and in their order;
+    /// threads take parts as they come to them, so that none waits for one that the system has put aside.
     pub fn share<T: Send>(
         &mut self,
         groups: &mut [Group],
@@ -78,32 +81,40 @@ impl Threads {
         work: impl Fn(&mut [Group], T, &mut Scratch) + Sync,
     ) {
         let others = self.others.as_ref().and_then(|others| Some((others, others.threads()?)));
-        let n = if others.is_some() { self.scratches.len() } else { 1 };
-        let size = groups.len().div_ceil(n).max(1);
-        let mut parts = groups.chunks_mut(size).zip(&mut self.scratches).map(|(groups, scratch)| {
-            let part = share(groups.iter().map(Group::n_worlds).sum());
-            (groups, part, scratch)
+        let n_parts = if others.is_some() { PARTS * self.scratches.len() } else { 1 };
+        let size = groups.len().div_ceil(n_parts).max(1);
+        let parts = groups.chunks_mut(size).map(|groups| {
+            let arguments = share(groups.iter().map(Group::n_worlds).sum());
+            (groups, arguments)
         });
-        let Some((own_groups, own_part, own_scratch)) = parts.next() else { return };
-        let Some((others, pool)) = others else { return work(own_groups, own_part, own_scratch) };
+        let Some((own_scratch, scratches)) = self.scratches.split_first_mut() else { return };
+        let Some((others, pool)) = others else {
+            return parts.for_each(|(groups, arguments)| work(groups, arguments, own_scratch));
+        };
         others.calls.fetch_add(1, Ordering::Relaxed);
-        let (work, n_done) = (&work, &AtomicU64::new(0));
+        let parts: Vec<_> = parts.map(|part| Mutex::new(Some(part))).collect();
+        let (next, n_done) = (&AtomicUsize::new(0), &AtomicUsize::new(0));
+        let work_on_parts = &|scratch: &mut Scratch| {
+            while let Some(part) = parts.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let part = part.lock().unwrap_or_else(PoisonError::into_inner).take();
+                part.into_iter().for_each(|(groups, arguments)| work(groups, arguments, scratch));
+            }
+        };
         pool.in_place_scope(|scope| {
-            let mut n_given = 0;
-            for (groups, part, scratch) in parts {
-                n_given += 1;
+            let n_others = scratches.len();
+            for scratch in scratches {
                 scope.spawn(move |_| {
-                    work(groups, part, scratch);
+                    work_on_parts(scratch);
                     n_done.fetch_add(1, Ordering::Relaxed);
                 });
             }
-            work(own_groups, own_part, own_scratch);
+            work_on_parts(own_scratch);
             // the scope itself waits for all of them, asleep
             let start = Instant::now();
-            while n_done.load(Ordering::Relaxed) < n_given && start.elapsed() < AWAKE {
+            while n_done.load(Ordering::Relaxed) < n_others && start.elapsed() < AWAKE {
                 core::hint::spin_loop();
             }
         });
-        others.stay_awake(pool, n - 1);
+        others.stay_awake(pool, self.scratches.len() - 1);
     }
 }

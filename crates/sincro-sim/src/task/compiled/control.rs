@@ -35,6 +35,11 @@ pub(super) struct ControlPrograms {
 const LATER_ACTION: u64 = 1_237;
 
 impl ControlPrograms {
+    /// Number of operations of the programs, those of one base step at most.
+    pub fn n_computed(&self) -> usize {
+        self.programs.iter().map(Program::n_computed).sum()
+    }
+
     /// Records the diagram of a task; none if there is none.
     pub fn record(plan: &Plan, layout: Layout) -> Result<Option<Self>, Obstacle> {
         let Some(control) = &plan.loaded.controller else { return Ok(None) };
@@ -175,7 +180,7 @@ impl Recording<'_> {
                 runner.evaluate_step(block.step, tick, t);
             }
             let signals = runner.state.signals;
-            let finite = rows[self.layout.finite() - self.layout.acted()] + zero_if_finite(signals.iter());
+            let finite = rows[self.layout.finite() - self.layout.acted()] + zero_if_finite(&signals);
             [vec![finite], signals].concat()
         })?;
         if unknown {

@@ -1,59 +1,74 @@
-//! The actions of a task compiled for lanes: programs of commands, of the step, and of what the agent sees after it.
-//!
-//! Observations, reward and end whose functions are no arithmetic (`exp`, `hypot`, …) are evaluated world by world
-//! after the step; all other formulas are part of the programs, and a command of such functions keeps a task from them.
+//! The actions of a task compiled for lanes: programs of commands, of the step, and of what the agent sees after it, put
+//! together to one program of the whole action unless that is too long.
 
+mod act;
 mod control;
 mod rows;
 
+use act::Parts;
 use control::ControlPrograms;
-use sincro_compile::native::{self, Native, NativeProgram};
+use sincro_compile::native::{self, Native, NativeProgram, OutputForm};
 use sincro_compile::{Obstacle, plant};
 use sincro_dynamics::batch::LaneWorlds;
 use sincro_math::Real;
-use sincro_math::record::{Program, Recorded, record};
+use sincro_math::record::{Program, Recorded};
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{View, of_state};
 
 pub(super) use rows::{CompiledScratch, Rows};
 
-use super::plan::{Formula, Plan};
+use super::plan::Plan;
 use crate::rollout::StepsBy;
+
+/// Largest number of operations of the program of a whole action: longer ones take compilers seconds, and gain little
+/// over one program for each part.
+const MAX_WHOLE: usize = 6_000;
 
 /// Programs of one action of a task.
 #[derive(Clone, Debug)]
 pub(super) struct CompiledTask {
-    /// Commands and actions as they act, of everything known before the step.
-    command: NativeProgram,
-    /// One base step.
-    step: NativeProgram,
-    /// Results of everything known after the step: see [`results`].
-    judge: NativeProgram,
+    action: Action,
+    /// Observations, and a flag that is true where a result or the state is not finite, at the start of an episode.
+    look: NativeProgram,
     control: Option<Control>,
     pub layout: Layout,
-    pub reward_is_compiled: bool,
-    pub end_is_compiled: bool,
-    /// Numbers of the observations that are evaluated world by world.
-    pub other_observations: Vec<usize>,
+    pub n_observations: usize,
 }
 
-/// The diagram of the task, compiled: see [`ControlPrograms`].
+/// One action: see [`act`].
+#[derive(Clone, Debug)]
+enum Action {
+    /// By one program.
+    Whole(NativeProgram),
+    /// By programs of its parts.
+    Parts {
+        command: NativeProgram,
+        step: NativeProgram,
+        finish: NativeProgram,
+        /// Programs of the diagram before and after each base step; none if there is no diagram.
+        control: Vec<[NativeProgram; 2]>,
+        n_steps: u64,
+    },
+}
+
+/// The diagram at the start of an episode: see [`ControlPrograms`].
 #[derive(Clone, Debug)]
 struct Control {
-    programs: Vec<NativeProgram>,
-    latch: Vec<usize>,
-    evaluate: Vec<usize>,
-    start: usize,
+    start: NativeProgram,
     /// Signals and memory before the start.
     initial: Vec<f64>,
 }
 
-/// Rows of the results of the program that judges: first one that is 0 where all of them and the state are finite.
-pub(super) mod results {
-    pub const FINITE: usize = 0;
-    pub const REWARD: usize = 1;
-    pub const ENDED: usize = 2;
-    pub const OBSERVATIONS: usize = 3;
+/// Flags of the program of an action, each a bit a world.
+pub(super) mod flags {
+    /// The world cannot go on, or not by programs.
+    pub const BAD: usize = 0;
+    /// Its episode terminates.
+    pub const TERMINATES: usize = 1;
+    /// Its episode is at its time limit.
+    pub const AT_LIMIT: usize = 2;
+    /// Number of flags.
+    pub const N: usize = 3;
 }
 
 /// Rows of numbers that the programs read, in this order; each has one number a world.
@@ -123,60 +138,52 @@ impl Layout {
 impl CompiledTask {
     /// Compiles the actions of a task: of worlds that lanes can advance, or could without their diagram.
     pub fn new(plan: &Plan) -> Result<(Self, StepsBy), Obstacle> {
-        let (scene, method, layout) = (&plan.loaded.scene, plan.method, Layout::of(plan));
-        let models = [&*scene.model];
-        let after_state = layout.n_rows() - layout.acted();
-        let command = plant::worlds(&models, method, after_state, |worlds, rows| commands(plan, worlds, rows))?;
-        let step = plant::step(&models, method, plan.loaded.experiment.step)?;
-        let control = ControlPrograms::record(plan, layout)?;
-        let is_compiled = |formula: &Formula| {
-            let recorded = record(plan.task.slots.len(), 1, |values| vec![formula.eval(values, &mut Vec::new())]);
-            recorded.is_ok()
+        let layout = Layout::of(plan);
+        let parts = Parts::record(plan, layout)?;
+        let whole = parts.whole(layout)?.filter(|whole| whole.operations().len() <= MAX_WHOLE);
+        let n_observations = plan.n_observations();
+        // the rows were looked at when the worlds came into them, and after each action
+        let of_action = OutputForm { n_results: 1 + n_observations, n_flags: flags::N, inputs_are_checked: true };
+        let of_look = OutputForm { n_results: n_observations, n_flags: 1, inputs_are_checked: false };
+        let plain = OutputForm::default();
+        let mut programs: Vec<(&Program, OutputForm)> = vec![(&parts.look, of_look)];
+        let control = parts.control.as_ref();
+        programs.extend(control.map(|control| (&control.programs[control.start], plain)));
+        let n_common = programs.len();
+        match &whole {
+            Some(whole) => programs.push((whole, of_action)),
+            None => {
+                programs.extend([(&parts.command, plain), (&parts.step, plain), (&parts.finish, of_action)]);
+                programs.extend(control.iter().flat_map(|control| &control.programs).map(|program| (program, plain)));
+            }
+        }
+        let Native { programs, elapsed, is_cached } = native::compile_in_form(&programs)?;
+        let (common, own) = programs.split_at(n_common);
+        let action = match own {
+            [whole] => Action::Whole(whole.clone()),
+            [command, step, finish, of_control @ ..] => Action::Parts {
+                command: command.clone(),
+                step: step.clone(),
+                finish: finish.clone(),
+                control: control.map_or_else(Vec::new, |control| {
+                    let both = control.latch.iter().zip(&control.evaluate);
+                    both.map(|(latch, evaluate)| [*latch, *evaluate].map(|k| of_control[k].clone())).collect()
+                }),
+                n_steps: parts.n_steps,
+            },
+            _ => unreachable!("an action has one program, or three and those of the diagram"),
         };
-        let reward_is_compiled = is_compiled(&plan.reward);
-        let end_is_compiled = plan.terminated.as_ref().is_none_or(is_compiled);
-        let others = plan.observations.iter().enumerate().filter(|(_, formula)| !is_compiled(formula));
-        let other_observations: Vec<usize> = others.map(|(i, _)| i).collect();
-        let judge = plant::worlds(&models, method, layout.given() - layout.acted(), |worlds, rows| {
-            let values = values(plan, worlds, rows);
-            let value = |formula: Option<&Formula>, is_compiled: bool| match formula {
-                Some(formula) if is_compiled => formula.eval(&values, &mut Vec::new()),
-                _ => Recorded::zero(),
-            };
-            let mut found = vec![value(Some(&plan.reward), reward_is_compiled)];
-            found.push(value(plan.terminated.as_ref(), end_is_compiled));
-            for (i, formula) in plan.observations.iter().enumerate() {
-                found.push(value(Some(formula), !other_observations.contains(&i)));
-            }
-            let state = [worlds.coordinates(), worlds.velocities(), worlds.rotors()].concat();
-            // a lock-step stops where any signal of the task is not finite
-            let n_signals = if plan.loaded.controller.is_some() { plan.probes.len() } else { 0 };
-            let all = found.iter().chain(&state).chain(&values[..n_signals]);
-            let finite = rows[layout.finite() - layout.acted()] + zero_if_finite(all);
-            found.insert(results::FINITE, finite);
-            if !(reward_is_compiled && end_is_compiled && other_observations.is_empty()) {
-                found.extend(&values[..plan.probes.len()]);
-            }
-            found
-        })?;
-        let of_control = control.iter().flat_map(|control| &control.programs);
-        let programs = [&command, &step, &judge].into_iter().chain(of_control);
-        let programs: Vec<Program> = programs.map(Program::with_folded_parameters).collect();
-        let Native { mut programs, elapsed, is_cached } = native::compile(&programs.iter().collect::<Vec<_>>())?;
-        let of_control = programs.split_off(3);
-        let [command, step, judge] = <[NativeProgram; 3]>::try_from(programs).expect("one for each");
-        let control = control.map(|ControlPrograms { latch, evaluate, start, signals, memory, .. }| {
-            let initial = [signals, memory].concat();
-            Control { programs: of_control, latch, evaluate, start, initial }
+        let control = parts.control.map(|ControlPrograms { signals, memory, .. }| Control {
+            start: common[1].clone(),
+            initial: [signals, memory].concat(),
         });
-        let made =
-            Self { command, step, judge, control, layout, reward_is_compiled, end_is_compiled, other_observations };
+        let made = Self { action, look: common[0].clone(), control, layout, n_observations };
         Ok((made, StepsBy::Compiled { elapsed, is_cached }))
     }
 
     /// Number of worlds that are advanced together.
     pub fn width(&self) -> usize {
-        self.step.width()
+        self.look.width()
     }
 
     /// Largest number of results of the diagram's programs.
@@ -185,49 +192,25 @@ impl CompiledTask {
         let latch = layout.n_commands + layout.n_memory;
         if self.control.is_some() { latch.max(1 + layout.n_signals) } else { 0 }
     }
+}
 
-    /// True if formulas are left to be evaluated world by world.
-    pub fn has_others(&self) -> bool {
-        !(self.reward_is_compiled && self.end_is_compiled && self.other_observations.is_empty())
+/// Sum of the magnitudes of numbers, by halves: no addition waits for all before it.
+fn size(numbers: &[Recorded]) -> Recorded {
+    match numbers {
+        [] => Recorded::zero(),
+        [x] => x.abs(),
+        _ => {
+            let (first, second) = numbers.split_at(numbers.len() / 2);
+            size(first) + size(second)
+        }
     }
 }
 
 /// 0 where all numbers are finite, else NaN.
-fn zero_if_finite<'a>(numbers: impl Iterator<Item = &'a Recorded>) -> Recorded {
+fn zero_if_finite(numbers: &[Recorded]) -> Recorded {
     // x − x is 0, or NaN where x is not finite
-    sum(&numbers.map(|x| *x + -*x).collect::<Vec<_>>())
-}
-
-/// Sum of numbers, by halves: no addition waits for all before it.
-fn sum(numbers: &[Recorded]) -> Recorded {
-    match numbers {
-        [] => Recorded::zero(),
-        [x] => *x,
-        _ => {
-            let (first, second) = numbers.split_at(numbers.len() / 2);
-            sum(first) + sum(second)
-        }
-    }
-}
-
-/// Commands of an action, then the actions as they act.
-fn commands(plan: &Plan, worlds: &mut LaneWorlds<Recorded>, rows: &[Recorded]) -> Vec<Recorded> {
-    let n_given = plan.n_actions();
-    let (known, given) = rows.split_at(rows.len() - n_given);
-    let mut values = values(plan, worlds, known);
-    let acted: Vec<Recorded> = plan.task.actions.iter().zip(given).map(|(action, x)| action.space.acting(*x)).collect();
-    let first = plan.probes.len();
-    values[first..first + n_given].copy_from_slice(&acted);
-    let mut commands: Vec<Recorded> = plan.commands().into_iter().map(Recorded::splat).collect();
-    for (action, command) in plan.of_actions.iter().enumerate() {
-        if let Some(command) = command {
-            commands[*command] = acted[action];
-        }
-    }
-    for (command, formula) in &plan.of_formulas {
-        commands[*command] = formula.eval(&values, &mut Vec::new());
-    }
-    [commands, acted].concat()
+    let size = size(numbers);
+    size + -size
 }
 
 /// Numbers that formulas see: signals, actions, random numbers with names, time and parameters. `rows` are those after

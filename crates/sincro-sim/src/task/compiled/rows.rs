@@ -2,7 +2,7 @@
 
 use sincro_dynamics::state::State;
 
-use super::{CompiledTask, Layout, results};
+use super::{Action, CompiledTask, Layout, flags, native};
 use crate::task::plan::{Plan, copy_unsigned, unsigned_zero};
 
 /// Worlds of a bundle, one in each lane.
@@ -12,45 +12,56 @@ pub(in super::super) struct Rows {
     width: usize,
     /// All numbers of [`Layout`], in its order.
     rows: Vec<f64>,
+    /// As many, which the next action writes: rows that it cannot judge stay as they were.
+    next: Vec<f64>,
 }
 
 /// Working memory of an action, with its results.
 #[derive(Debug)]
 pub(in super::super) struct CompiledScratch {
-    /// The rows before the action.
-    saved: Vec<f64>,
     /// Commands and actions as they act.
     commanded: Vec<f64>,
     /// Results of the diagram's programs.
     controlled: Vec<f64>,
-    /// Results: see [`results`].
-    pub results: Vec<f64>,
+    /// Rows after the steps of an action by its parts.
+    stepped: Vec<f64>,
+    /// Reward, then observations.
+    results: Vec<f64>,
+    width: usize,
 }
 
 impl CompiledScratch {
     pub fn new(plan: &Plan, task: &CompiledTask) -> Self {
-        let layout = task.layout;
-        let of = |n_rows: usize| vec![0.0; n_rows * task.width()];
-        let n_signals = if task.has_others() { plan.probes.len() } else { 0 };
+        let (layout, width) = (task.layout, task.width());
+        let of = |n_rows: usize| vec![0.0; n_rows * width];
+        let is_whole = matches!(task.action, Action::Whole(_));
         Self {
-            saved: of(layout.n_rows()),
             commanded: of(layout.n_commands + layout.n_actions),
-            controlled: vec![0.0; task.n_controlled() * task.width()],
-            results: of(results::OBSERVATIONS + plan.n_observations() + n_signals),
+            controlled: of(task.n_controlled()),
+            stepped: of(if is_whole { 0 } else { layout.given() }),
+            results: of(1 + plan.n_observations()),
+            width,
         }
     }
 
-    /// Row `k` of [`results`].
+    /// Rewards of an action.
     #[inline]
-    pub fn result(&self, k: usize, width: usize) -> &[f64] {
-        &self.results[k * width..][..width]
+    pub fn rewards(&self) -> &[f64] {
+        &self.results[..self.width]
+    }
+
+    /// Observations, row by row.
+    #[inline]
+    pub fn observations(&self) -> &[f64] {
+        &self.results[self.width..]
     }
 }
 
 impl Rows {
     pub fn new(task: &CompiledTask) -> Self {
         let (layout, width) = (task.layout, task.width());
-        Self { layout, width, rows: vec![0.0; layout.n_rows() * width] }
+        let rows = vec![0.0; layout.n_rows() * width];
+        Self { layout, width, next: rows.clone(), rows }
     }
 
     /// Coordinates, velocities and rotor states, row by row.
@@ -58,20 +69,16 @@ impl Rows {
         &mut self.rows[..self.layout.n_state * self.width]
     }
 
-    /// Row `k` of [`Layout`].
+    /// Number `k` of [`Layout`] of a world.
     #[inline]
-    pub fn row(&self, k: usize) -> &[f64] {
-        &self.rows[k * self.width..][..self.width]
-    }
-
-    #[inline]
-    fn row_mut(&mut self, k: usize) -> &mut [f64] {
-        &mut self.rows[k * self.width..][..self.width]
+    pub fn get(&self, lane: usize, k: usize) -> f64 {
+        self.rows[k * self.width + lane]
     }
 
     /// Sets number `k` of [`Layout`] of a world.
+    #[inline]
     pub fn set(&mut self, lane: usize, k: usize, x: f64) {
-        self.row_mut(k)[lane] = x;
+        self.rows[k * self.width + lane] = x;
     }
 
     /// Puts a world into a state at the start of an episode, before its first action.
@@ -92,16 +99,21 @@ impl Rows {
         set(named);
         set(&[0.0]);
         set(of_diagram);
+        // all signals are finite
         set(&[0.0]);
+    }
+
+    /// Rows that the programs know before an action is given.
+    fn known(&self) -> &[f64] {
+        &self.rows[..self.layout.given() * self.width]
     }
 
     /// Evaluates the diagram at the start of an episode, in the worlds of a mask; false if a signal is not finite.
     pub fn start_diagram(&mut self, task: &CompiledTask, mask: &[bool], scratch: &mut CompiledScratch) -> bool {
         let Some(control) = &task.control else { return true };
         let (layout, width) = (self.layout, self.width);
-        let known = &self.rows[..layout.given() * width];
         let found = &mut scratch.controlled[..(1 + layout.n_signals) * width];
-        if !control.programs[control.start].evaluate(known, &[], found) {
+        if !control.start.evaluate(self.known(), &[], found) {
             return false;
         }
         let (finite, signals) = found.split_at(width);
@@ -114,119 +126,106 @@ impl Rows {
         (0..width).all(|lane| !mask[lane] || finite[lane] == 0.0)
     }
 
+    /// Observes the present state; false if those of a world of the mask are not finite.
+    pub fn look(&self, task: &CompiledTask, mask: &[bool], scratch: &mut CompiledScratch) -> bool {
+        let observations = &mut scratch.results[self.width..];
+        let bad = task.look.evaluate_in_form(self.known(), &[], &mut [], observations);
+        bad.is_some_and(|bad| (0..self.width).all(|lane| !mask[lane] || bad >> lane & 1 == 0))
+    }
+
     /// Signals and memory of the diagram of a world.
     pub fn read_diagram(&self, lane: usize, signals: &mut [f64], memory: &mut [f64]) {
         for (k, x) in signals.iter_mut().chain(memory).enumerate() {
-            *x = self.row(self.layout.signals() + k)[lane];
+            *x = self.get(lane, self.layout.signals() + k);
         }
     }
 
     /// State of a world.
     pub fn read_state(&self, lane: usize, state: &mut State<f64>) {
         for (k, x) in state.q.iter_mut().chain(&mut state.v).chain(&mut state.rotors).enumerate() {
-            *x = self.row(k)[lane];
+            *x = self.get(lane, k);
         }
     }
 
-    /// Makes one action, `lane × action`, of all worlds but those that `is_over`, and judges all. False, with
-    /// everything as it was, where the programs do not have the bits of the recursions or give what is not finite.
+    /// Takes the numbers of a world back to those before the last action.
+    pub fn take_back(&mut self, lane: usize) {
+        for k in (0..self.layout.given()).map(|k| k * self.width + lane) {
+            self.rows[k] = self.next[k];
+        }
+    }
+
+    /// Returns true if programs can compute with the rows: they are neither huge nor what is no number.
+    pub fn are_computable(&self) -> bool {
+        self.known().iter().map(|x| x.abs()).sum::<f64>() < native::INPUT_LIMIT
+    }
+
+    /// Makes one action, `lane × action`, of all worlds. Returns the [`flags`]; none, with everything as
+    /// it was, where the programs do not have the bits of the recursions or give what is not finite in a world that is
+    /// not among those of the bits `but`.
+    #[inline]
     pub fn act(
         &mut self,
         task: &CompiledTask,
         actions: &[f64],
-        is_over: &[bool],
-        n_steps: u64,
+        but: u64,
         scratch: &mut CompiledScratch,
-    ) -> bool {
-        let (layout, n_actions) = (self.layout, self.layout.n_actions);
-        for action in 0..n_actions {
-            for (lane, x) in self.row_mut(layout.given() + action).iter_mut().enumerate() {
-                *x = actions[lane * n_actions + action];
+    ) -> Option<u64> {
+        let (layout, width, n_actions) = (self.layout, self.width, self.layout.n_actions);
+        let given = &mut self.rows[layout.given() * width..];
+        if n_actions == 1 {
+            given.copy_from_slice(actions);
+        } else {
+            for (lane, of_lane) in actions.chunks_exact(n_actions.max(1)).enumerate() {
+                of_lane.iter().enumerate().for_each(|(action, x)| given[action * width + lane] = *x);
             }
         }
-        scratch.saved.copy_from_slice(&self.rows);
-        let done = self.advance(task, n_steps, scratch) && {
-            self.count_actions(is_over, scratch);
-            self.judge(task, scratch)
-        };
-        if !done {
-            self.undo(scratch);
-        }
-        done
-    }
-
-    /// Takes the last action back.
-    pub fn undo(&mut self, scratch: &CompiledScratch) {
-        self.rows.copy_from_slice(&scratch.saved);
-    }
-
-    fn advance(&mut self, task: &CompiledTask, n_steps: u64, scratch: &mut CompiledScratch) -> bool {
-        let (layout, width) = (self.layout, self.width);
-        if !scratch.commanded.is_empty() {
-            if !task.command.evaluate(&self.rows, &[], &mut scratch.commanded) {
-                return false;
+        let found = match &task.action {
+            Action::Whole(whole) => {
+                let next = &mut self.next[..layout.given() * width];
+                whole.evaluate_in_form(&self.rows, &[], next, &mut scratch.results)
             }
-            copy_unsigned(&mut self.rows[layout.n_state * width..], &scratch.commanded);
+            Action::Parts { .. } => self.act_in_parts(task, scratch),
+        }?;
+        let bad = found >> (flags::BAD * width) & ((1 << width) - 1) & !but;
+        if bad != 0 {
+            return None;
         }
-        (0..n_steps as usize).all(|step| {
-            self.latch(task, step, scratch)
-                && task.step.evaluate_in_place(&mut self.rows[..layout.acted() * width], &[])
-                && self.evaluate(task, step, scratch)
-        })
+        core::mem::swap(&mut self.rows, &mut self.next);
+        Some(found)
     }
 
-    /// Commands and memory of the diagram before base step `step` of an action.
-    #[inline]
-    fn latch(&mut self, task: &CompiledTask, step: usize, scratch: &mut CompiledScratch) -> bool {
-        let Some(control) = &task.control else { return true };
+    fn act_in_parts(&mut self, task: &CompiledTask, scratch: &mut CompiledScratch) -> Option<u64> {
+        let Action::Parts { command, step, finish, control, n_steps } = &task.action else { return None };
         let (layout, width) = (self.layout, self.width);
-        let found = &mut scratch.controlled[..(layout.n_commands + layout.n_memory) * width];
-        if !control.programs[control.latch[step]].evaluate(&self.rows[..layout.given() * width], &[], found) {
-            return false;
+        let CompiledScratch { commanded, controlled, stepped: new, results, .. } = scratch;
+        if !command.evaluate(&self.rows, &[], commanded) {
+            return None;
         }
-        let (commands, memory) = found.split_at(layout.n_commands * width);
-        copy_unsigned(&mut self.rows[layout.n_state * width..], commands);
-        copy_unsigned(&mut self.rows[layout.memory() * width..], memory);
-        true
-    }
-
-    /// Signals of the diagram after base step `step` of an action.
-    #[inline]
-    fn evaluate(&mut self, task: &CompiledTask, step: usize, scratch: &mut CompiledScratch) -> bool {
-        let Some(control) = &task.control else { return true };
-        let (layout, width) = (self.layout, self.width);
-        let found = &mut scratch.controlled[..(1 + layout.n_signals) * width];
-        if !control.programs[control.evaluate[step]].evaluate(&self.rows[..layout.given() * width], &[], found) {
-            return false;
-        }
-        let (finite, signals) = found.split_at(width);
-        copy_unsigned(&mut self.rows[layout.finite() * width..], finite);
-        copy_unsigned(&mut self.rows[layout.signals() * width..], signals);
-        true
-    }
-
-    /// Counts the action of all worlds but those that `is_over`: these stay where they were.
-    #[inline]
-    fn count_actions(&mut self, is_over: &[bool], scratch: &CompiledScratch) {
-        let (layout, width) = (self.layout, self.width);
-        let mut any_over = false;
-        for (count, is_over) in self.row_mut(layout.count()).iter_mut().zip(is_over) {
-            *count += f64::from(u8::from(!is_over));
-            any_over |= *is_over;
-        }
-        if any_over {
-            for lane in (0..width).filter(|lane| is_over[*lane]) {
-                for k in (0..layout.acted()).chain(layout.signals()..layout.given()) {
-                    self.rows[k * width + lane] = scratch.saved[k * width + lane];
+        new.copy_from_slice(self.known());
+        copy_unsigned(&mut new[layout.n_state * width..], commanded);
+        for k in 0..*n_steps as usize {
+            if let Some([latch, _]) = control.get(k) {
+                let found = &mut controlled[..(layout.n_commands + layout.n_memory) * width];
+                if !latch.evaluate(new, &[], found) {
+                    return None;
                 }
+                let (commands, memory) = found.split_at(layout.n_commands * width);
+                copy_unsigned(&mut new[layout.n_state * width..], commands);
+                copy_unsigned(&mut new[layout.memory() * width..], memory);
+            }
+            if !step.evaluate_in_place(&mut new[..layout.acted() * width], &[]) {
+                return None;
+            }
+            if let Some([_, evaluate]) = control.get(k) {
+                let found = &mut controlled[..(1 + layout.n_signals) * width];
+                if !evaluate.evaluate(new, &[], found) {
+                    return None;
+                }
+                let (finite, signals) = found.split_at(width);
+                copy_unsigned(&mut new[layout.finite() * width..], finite);
+                copy_unsigned(&mut new[layout.signals() * width..], signals);
             }
         }
-    }
-
-    /// Results of the present state; false if they are not finite, or have other bits than the formulas.
-    pub fn judge(&self, task: &CompiledTask, scratch: &mut CompiledScratch) -> bool {
-        let known = &self.rows[..self.layout.given() * self.width];
-        task.judge.evaluate(known, &[], &mut scratch.results)
-            && scratch.result(results::FINITE, self.width).iter().all(|x| *x == 0.0)
+        finish.evaluate_in_form(new, &[], &mut self.next[..layout.given() * width], results)
     }
 }

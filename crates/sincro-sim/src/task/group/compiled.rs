@@ -4,10 +4,10 @@ pub(super) use crate::task::compiled::CompiledScratch;
 
 use sincro_dynamics::state::State;
 
-use super::{Buffers, Group, Scratch, Worlds};
-use crate::task::Autoreset;
-use crate::task::compiled::{CompiledTask, Rows, results};
-use crate::task::plan::{Formula, Plan, copy_unsigned, unsigned_zero};
+use super::{Group, Scratch, Worlds};
+use crate::task::compiled::{CompiledTask, Rows, flags};
+use crate::task::plan::{Plan, copy_unsigned, unsigned_zero};
+use crate::task::{Autoreset, StepMut};
 
 /// Worlds of a whole bundle whose actions are compiled.
 #[derive(Debug)]
@@ -15,187 +15,221 @@ pub(super) struct CompiledWorlds {
     rows: Rows,
     /// True while these have the state of the worlds, false while the bundle in lanes has it.
     are_current: bool,
+    /// Worlds whose state stays in the bundle while the rows are current: their episode was over when the others were
+    /// moved, and may have ended with what no program can compute.
+    is_away: Vec<bool>,
+    /// Bits of the worlds whose episode is over, while the rows are current.
+    over: u64,
 }
 
 impl CompiledWorlds {
     /// None where the task is not compiled, or the worlds do not fill the lanes.
     pub fn new(plan: &Plan, n_worlds: usize) -> Option<Self> {
         let task = plan.compiled.as_ref().filter(|task| task.width() == n_worlds)?;
-        Some(Self { rows: Rows::new(task), are_current: false })
+        Some(Self { rows: Rows::new(task), are_current: false, is_away: vec![false; n_worlds], over: 0 })
     }
 }
 
 impl Group {
     /// Steps all worlds as [`Group::step`]; false, with nothing done, where the programs cannot.
+    #[inline]
     pub(super) fn step_compiled(
         &mut self,
         plan: &Plan,
         actions: &[f64],
         autoreset: Autoreset,
-        out: &mut Buffers<'_>,
+        out: &mut StepMut<'_>,
         scratch: &mut Scratch,
     ) -> bool {
         let Some(task) = &plan.compiled else { return false };
         if !self.enter_rows(plan, task) {
             return false;
         }
-        let (Some(CompiledWorlds { rows, .. }), Some(compiled)) = (&mut self.compiled, &mut scratch.compiled) else {
+        let Some(found) = (match task.width() {
+            8 => self.act_compiled::<8>(task, actions, out, scratch),
+            4 => self.act_compiled::<4>(task, actions, out, scratch),
+            _ => None,
+        }) else {
             return false;
         };
-        if !rows.act(task, actions, &scratch.was_over, plan.task.ticks, compiled) {
-            return false;
-        }
-        if task.has_others() && !self.judge_others(plan, task, out, scratch) {
-            if let (Some(CompiledWorlds { rows, .. }), Some(compiled)) = (&mut self.compiled, &scratch.compiled) {
-                rows.undo(compiled);
-            }
-            return false;
-        }
-        if self.take_results(plan, task, autoreset, out, scratch) {
-            self.start_compiled(plan, task, out, scratch);
+        if found != [0, 0] || self.compiled.as_ref().is_some_and(|compiled| compiled.over != 0) {
+            self.end_episodes(plan, task, found, autoreset, out, scratch);
         }
         true
     }
 
-    /// Formulas that are not compiled; false if one is not finite.
-    fn judge_others(&mut self, plan: &Plan, task: &CompiledTask, out: &mut Buffers<'_>, scratch: &mut Scratch) -> bool {
-        let n = plan.n_observations();
-        for k in 0..self.n_worlds() {
-            self.see(plan, task, k, scratch);
-            let of_world = &self.values[k * self.n_slots..(k + 1) * self.n_slots];
-            let mut value = |formula: &Formula| unsigned_zero(formula.eval(of_world, &mut scratch.stack));
-            let mut is_finite = true;
-            if !task.reward_is_compiled {
-                out.rewards[k] = value(&plan.reward);
-                is_finite &= out.rewards[k].is_finite();
-            }
-            if let (Some(formula), false) = (&plan.terminated, task.end_is_compiled) {
-                let ended = value(formula);
-                out.terminated[k] = ended != 0.0;
-                is_finite &= ended.is_finite();
-            }
-            for i in &task.other_observations {
-                out.observations[k * n + i] = value(&plan.observations[*i]);
-                is_finite &= out.observations[k * n + i].is_finite();
-            }
-            if !is_finite {
-                return false;
+    /// Makes an action of all worlds, and writes its results as if no episode was over. Returns the bits of the worlds
+    /// whose episode terminates, and of those at its time limit; none, with nothing done, where the programs cannot.
+    #[inline]
+    fn act_compiled<const WIDTH: usize>(
+        &mut self,
+        task: &CompiledTask,
+        actions: &[f64],
+        out: &mut StepMut<'_>,
+        scratch: &mut Scratch,
+    ) -> Option<[u64; 2]> {
+        let (CompiledWorlds { rows, over, .. }, compiled) = (self.compiled.as_mut()?, scratch.compiled.as_mut()?);
+        let found = rows.act(task, actions, *over, compiled)?;
+        let n = task.n_observations;
+        let observations = compiled.observations().as_chunks::<WIDTH>().0;
+        for (i, row) in observations.iter().enumerate() {
+            for (x, to) in row.iter().zip(out.observations[i..].iter_mut().step_by(n)) {
+                *to = unsigned_zero(*x);
             }
         }
-        true
-    }
-
-    /// Numbers that formulas see of a world, from the rows.
-    fn see(&mut self, plan: &Plan, task: &CompiledTask, k: usize, scratch: &Scratch) {
-        let Some(compiled) = &scratch.compiled else { return };
-        let (n, first_signal) = (self.n_signals, results::OBSERVATIONS + plan.n_observations());
-        for (i, x) in self.values[k * self.n_slots..][..n].iter_mut().enumerate() {
-            *x = unsigned_zero(compiled.result(first_signal + i, task.width())[k]);
+        let (rewards, written) = (compiled.rewards().first_chunk::<WIDTH>()?, out.rewards.first_chunk_mut::<WIDTH>()?);
+        *written = rewards.map(unsigned_zero);
+        for flags in [&mut *out.terminated, &mut *out.truncated, &mut *out.stopped] {
+            *flags.first_chunk_mut::<WIDTH>()? = [false; WIDTH];
         }
-        self.see_actions(plan, task, k);
+        let bits = |flag: usize| found >> (flag * WIDTH) & ((1 << WIDTH) - 1);
+        Some([bits(flags::TERMINATES), bits(flags::AT_LIMIT)])
     }
 
-    /// Actions, random numbers and time that formulas see of a world, from the rows.
-    fn see_actions(&mut self, plan: &Plan, task: &CompiledTask, k: usize) {
-        let Some(CompiledWorlds { rows, .. }) = &self.compiled else { return };
-        let (layout, known) = (task.layout, task.layout.n_actions + task.layout.n_named);
-        let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots][self.n_signals..];
-        for (i, x) in of_world[..known].iter_mut().enumerate() {
-            *x = rows.row(layout.acted() + i)[k];
-        }
-        of_world[known] = rows.row(layout.count())[k] * plan.period();
-    }
-
-    /// Writes the results of the compiled formulas, and what they make of the episodes; true if a world begins anew.
-    fn take_results(
+    /// Ends the episodes that the flags of an action say, keeps worlds whose episode was over before, and begins others.
+    fn end_episodes(
         &mut self,
         plan: &Plan,
         task: &CompiledTask,
+        [terminates, at_limit]: [u64; 2],
         autoreset: Autoreset,
-        out: &mut Buffers<'_>,
+        out: &mut StepMut<'_>,
         scratch: &mut Scratch,
-    ) -> bool {
-        let (Some(CompiledWorlds { rows, .. }), Some(compiled)) = (&self.compiled, &scratch.compiled) else {
-            return false;
+    ) {
+        let Some(compiled) = &mut self.compiled else { return };
+        let n = plan.n_observations();
+        let was_over = compiled.over;
+        compiled.over |= terminates | at_limit;
+        let (begins, keeps) = match autoreset {
+            Autoreset::NextStep => (was_over, 0),
+            Autoreset::SameStep => (compiled.over & !was_over, was_over),
+            Autoreset::Disabled => (0, was_over),
         };
-        let (n, width) = (plan.n_observations(), task.width());
-        copy_observations(task, n, compiled, out.observations, None);
-        let rewards = compiled.result(results::REWARD, width);
-        let ended = compiled.result(results::ENDED, width);
-        let count = rows.row(task.layout.count());
-        let max = plan.task.max_actions as f64;
-        let was_over = &scratch.was_over[..width];
-        let begins_anew = &mut scratch.begins_anew[..width];
-        let is_over = &mut self.episodes.is_over[..width];
-        let (terminated, truncated) = (&mut out.terminated[..width], &mut out.truncated[..width]);
-        let (written, stopped) = (&mut out.rewards[..width], &mut out.stopped[..width]);
-        let mut any_begins = false;
-        for k in 0..width {
-            let reward = if task.reward_is_compiled { unsigned_zero(rewards[k]) } else { written[k] };
-            let ends = if task.end_is_compiled { ended[k] != 0.0 } else { terminated[k] };
-            written[k] = if was_over[k] { 0.0 } else { reward };
-            terminated[k] = ends & !was_over[k];
-            truncated[k] = (count[k] >= max) & !ends & !was_over[k];
-            stopped[k] = false;
-            is_over[k] = was_over[k] | terminated[k] | truncated[k];
-            begins_anew[k] = match autoreset {
-                Autoreset::NextStep => was_over[k],
-                Autoreset::SameStep => is_over[k] & !was_over[k],
-                Autoreset::Disabled => false,
-            };
-            any_begins |= begins_anew[k];
-        }
-        if any_begins && autoreset == Autoreset::SameStep {
-            for k in (0..width).filter(|k| begins_anew[*k]) {
-                out.finals[k * n..(k + 1) * n].copy_from_slice(&out.observations[k * n..(k + 1) * n]);
+        let over = compiled.over;
+        for k in 0..task.width() {
+            let is_set = |bits: u64| bits >> k & 1 == 1;
+            self.episodes.is_over[k] = is_set(over);
+            if is_set(was_over) {
+                out.rewards[k] = 0.0;
+            } else {
+                (out.terminated[k], out.truncated[k]) = (is_set(terminates), is_set(at_limit & !terminates));
+                if is_set(begins) {
+                    out.final_observations[k * n..(k + 1) * n].copy_from_slice(&out.observations[k * n..(k + 1) * n]);
+                }
             }
         }
-        any_begins
+        if keeps != 0 {
+            self.keep_as_they_are(plan, task, keeps, out.observations, scratch);
+        }
+        for (k, begins_anew) in scratch.begins_anew[..task.width()].iter_mut().enumerate() {
+            *begins_anew = begins >> k & 1 == 1;
+        }
+        if begins != 0 {
+            self.start_compiled(plan, task, out.observations, scratch);
+        }
+    }
+
+    /// Takes the last action of the worlds of the bits `worlds` back, and shows them as they are.
+    fn keep_as_they_are(
+        &mut self,
+        plan: &Plan,
+        task: &CompiledTask,
+        worlds: u64,
+        observations: &mut [f64],
+        scratch: &mut Scratch,
+    ) {
+        let (Some(CompiledWorlds { rows, .. }), Some(compiled)) = (&mut self.compiled, &mut scratch.compiled) else {
+            return;
+        };
+        let mask = &mut scratch.begins_anew[..task.width()];
+        for (k, is_kept) in mask.iter_mut().enumerate() {
+            *is_kept = worlds >> k & 1 == 1;
+            if *is_kept {
+                rows.take_back(k);
+            }
+        }
+        let is_seen = rows.look(task, mask, compiled);
+        debug_assert!(is_seen, "what ended could be looked at before");
+        copy_observations_of(mask, task, compiled, observations);
+        for k in (0..task.width()).filter(|k| scratch.begins_anew[*k]) {
+            if self.compiled.as_ref().is_some_and(|compiled| compiled.is_away[k]) {
+                self.write(plan, k, observations, &mut scratch.stack);
+            }
+        }
+    }
+
+    /// Begins new episodes as [`Group::reset`]; false, with nothing done, where the programs cannot.
+    pub(super) fn reset_compiled(
+        &mut self,
+        plan: &Plan,
+        mask: &[bool],
+        observations: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> bool {
+        let Some(task) = &plan.compiled else { return false };
+        match &mut self.compiled {
+            None => return false,
+            // none of the worlds has anything to keep
+            Some(compiled) if !mask.contains(&false) => (compiled.are_current, compiled.over) = (true, 0),
+            Some(_) => {}
+        }
+        if !self.enter_rows(plan, task) {
+            return false;
+        }
+        scratch.begins_anew[..mask.len()].copy_from_slice(mask);
+        self.start_compiled(plan, task, observations, scratch);
+        true
     }
 
     /// Begins the next episodes of the worlds that begin anew, and writes what the agent sees of them.
-    fn start_compiled(&mut self, plan: &Plan, task: &CompiledTask, out: &mut Buffers<'_>, scratch: &mut Scratch) {
+    fn start_compiled(&mut self, plan: &Plan, task: &CompiledTask, observations: &mut [f64], scratch: &mut Scratch) {
         for k in 0..task.width() {
             if !scratch.begins_anew[k] {
                 continue;
             }
             self.draw(plan, k, scratch);
-            let Some(CompiledWorlds { rows, .. }) = &mut self.compiled else { return };
+            let Some(CompiledWorlds { rows, is_away, over, .. }) = &mut self.compiled else { return };
             rows.start(task, k, &scratch.drawn.state, &scratch.drawn.named);
+            is_away[k] = false;
+            *over &= !(1 << k);
         }
         let Some(CompiledWorlds { rows, .. }) = &mut self.compiled else { return };
         let Some(compiled) = &mut scratch.compiled else { return };
-        if rows.start_diagram(task, &scratch.begins_anew, compiled) && rows.judge(task, compiled) {
-            copy_observations(task, plan.n_observations(), compiled, out.observations, Some(&scratch.begins_anew));
-            if task.other_observations.is_empty() {
-                return;
-            }
-            (0..task.width()).for_each(|k| self.see(plan, task, k, scratch));
-        } else {
-            // a start that the programs cannot judge
-            self.leave_rows(plan);
-            for (number, begins_anew) in self.episodes.numbers.iter_mut().zip(&scratch.begins_anew) {
-                *number -= u64::from(*begins_anew);
-            }
-            self.start(plan, scratch);
-            self.look(plan);
+        let begins_anew = &scratch.begins_anew[..task.width()];
+        if rows.start_diagram(task, begins_anew, compiled) && rows.look(task, begins_anew, compiled) {
+            copy_observations_of(begins_anew, task, compiled, observations);
+            return;
         }
+        // a start that the programs cannot judge
+        self.leave_rows(plan);
+        for (number, begins_anew) in self.episodes.numbers.iter_mut().zip(begins_anew) {
+            *number -= u64::from(*begins_anew);
+        }
+        self.start(plan, scratch);
+        self.look(plan);
         for k in (0..task.width()).filter(|k| scratch.begins_anew[*k]) {
-            self.write(plan, k, out.observations, &mut scratch.stack);
+            self.write(plan, k, observations, &mut scratch.stack);
         }
     }
 
     /// Moves the state of the worlds into the rows; false where there are none, or the worlds cannot be there now.
+    #[inline]
     fn enter_rows(&mut self, plan: &Plan, task: &CompiledTask) -> bool {
-        let Some(compiled) = &mut self.compiled else { return false };
-        if compiled.are_current {
-            return true;
+        match &self.compiled {
+            None => false,
+            Some(compiled) if compiled.are_current => true,
+            Some(_) => self.move_into_rows(plan, task).is_some(),
         }
-        // a world that is over may have moved on behind what it shows
-        if self.episodes.is_over.contains(&true) || self.is_finite.contains(&false) {
-            return false;
+    }
+
+    fn move_into_rows(&mut self, plan: &Plan, task: &CompiledTask) -> Option<()> {
+        let CompiledWorlds { rows, are_current, is_away, over } = self.compiled.as_mut()?;
+        let layout = task.layout;
+        is_away.copy_from_slice(&self.episodes.is_over);
+        let is_here = |k: &usize| !self.episodes.is_over[*k];
+        if (0..task.width()).filter(is_here).any(|k| !self.is_finite[k]) {
+            return None;
         }
-        let (rows, layout) = (&mut compiled.rows, task.layout);
         match &mut self.worlds {
             Worlds::Lanes(bundle) => {
                 bundle.copy_state(plan, rows.state_mut());
@@ -204,46 +238,50 @@ impl Group {
                 }
             }
             Worlds::Single(worlds) => {
-                for (k, world) in worlds.iter().enumerate() {
-                    let Some((state, diagram)) = world.state() else { return false };
+                for k in (0..task.width()).filter(is_here) {
+                    let (state, diagram) = worlds[k].state()?;
                     let State { q, v, rotors, commands, .. } = state;
-                    for (i, x) in q.iter().chain(v).chain(rotors).chain(commands).enumerate() {
-                        rows.set(k, i, *x);
-                    }
+                    let numbers = q.iter().chain(v).chain(rotors).chain(commands);
+                    numbers.enumerate().for_each(|(i, x)| rows.set(k, i, *x));
                     let of_diagram =
                         diagram.into_iter().flat_map(|diagram| diagram.signals.iter().chain(&diagram.memory));
                     of_diagram.enumerate().for_each(|(i, x)| rows.set(k, layout.signals() + i, *x));
-                    rows.set(k, layout.finite(), 0.0);
                 }
             }
         }
         let known = layout.n_actions + layout.n_named;
-        for (k, actions) in self.episodes.actions.iter().enumerate() {
-            for (i, x) in self.values[k * self.n_slots + self.n_signals..][..known].iter().enumerate() {
-                rows.set(k, layout.acted() + i, *x);
+        *over = 0;
+        for k in 0..task.width() {
+            let of_world = &self.values[k * self.n_slots + self.n_signals..][..known];
+            if !is_here(&k) {
+                // a state that programs can compute with, though nobody sees it
+                rows.start(task, k, &plan.loaded.scene.initial, &of_world[layout.n_actions..]);
+                *over |= 1 << k;
+                continue;
             }
-            rows.set(k, layout.count(), *actions as f64);
+            of_world.iter().enumerate().for_each(|(i, x)| rows.set(k, layout.acted() + i, *x));
+            rows.set(k, layout.count(), self.episodes.actions[k] as f64);
+            rows.set(k, layout.finite(), 0.0);
         }
-        compiled.are_current = true;
-        true
+        *are_current = rows.are_computable();
+        are_current.then_some(())
     }
 
     /// Moves the state of the worlds out of the rows, if it is there.
     pub(super) fn leave_rows(&mut self, plan: &Plan) {
         let Some(compiled) = &mut self.compiled else { return };
         let Some(task) = plan.compiled.as_ref().filter(|_| core::mem::take(&mut compiled.are_current)) else { return };
-        let (rows, layout, n) = (&compiled.rows, task.layout, self.n_signals);
+        let (CompiledWorlds { rows, is_away, .. }, layout, n) = (&*compiled, task.layout, self.n_signals);
+        let is_away = is_away.clone();
         let mut state = plan.loaded.scene.initial.clone();
-        for k in 0..task.width() {
+        for k in (0..task.width()).filter(|k| !is_away[*k]) {
             rows.read_state(k, &mut state);
-            self.episodes.actions[k] = rows.row(layout.count())[k] as u64;
-            for (i, x) in self.commands[k * layout.n_commands..][..layout.n_commands].iter_mut().enumerate() {
-                *x = rows.row(layout.n_state + i)[k];
-            }
+            self.episodes.actions[k] = rows.get(k, layout.count()) as u64;
+            let commands = &mut self.commands[k * layout.n_commands..][..layout.n_commands];
+            commands.iter_mut().enumerate().for_each(|(i, x)| *x = unsigned_zero(rows.get(k, layout.n_state + i)));
             match &mut self.worlds {
                 Worlds::Lanes(bundle) => bundle.place(plan, k, &state),
                 Worlds::Single(worlds) => {
-                    let commands = &self.commands[k * layout.n_commands..][..layout.n_commands];
                     worlds[k].resume(self.episodes.actions[k] * plan.task.ticks, |now, diagram| {
                         now.q.copy_from_slice(&state.q);
                         now.v.copy_from_slice(&state.v);
@@ -261,27 +299,30 @@ impl Group {
         }
         self.observe(plan);
         for k in 0..task.width() {
-            if self.is_finite[k] {
-                copy_unsigned(&mut self.values[k * self.n_slots..], &self.signals[k * n..(k + 1) * n]);
-                self.see_actions(plan, task, k);
+            if is_away[k] || !self.is_finite[k] {
+                continue;
             }
+            copy_unsigned(&mut self.values[k * self.n_slots..], &self.signals[k * n..(k + 1) * n]);
+            self.see_actions(plan, task, k);
         }
+    }
+
+    /// Actions, random numbers and time that formulas see of a world, from the rows.
+    fn see_actions(&mut self, plan: &Plan, task: &CompiledTask, k: usize) {
+        let Some(CompiledWorlds { rows, .. }) = &self.compiled else { return };
+        let (layout, known) = (task.layout, task.layout.n_actions + task.layout.n_named);
+        let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots][self.n_signals..];
+        for (i, x) in of_world[..known].iter_mut().enumerate() {
+            *x = unsigned_zero(rows.get(k, layout.acted() + i));
+        }
+        of_world[known] = rows.get(k, layout.count()) * plan.period();
     }
 }
 
-/// Copies the compiled observations, of the worlds of a mask or of all.
-#[inline]
-fn copy_observations(task: &CompiledTask, n: usize, from: &CompiledScratch, to: &mut [f64], mask: Option<&[bool]>) {
-    let (width, others) = (task.width(), &task.other_observations[..]);
-    if n == 0 {
-        return;
-    }
-    let rows = &from.results[results::OBSERVATIONS * width..][..n * width];
-    for (k, to) in to.chunks_exact_mut(n).enumerate().filter(|(k, _)| mask.is_none_or(|mask| mask[*k])) {
-        for (i, x) in to.iter_mut().enumerate() {
-            if others.is_empty() || !others.contains(&i) {
-                *x = unsigned_zero(rows[i * width + k]);
-            }
-        }
+/// Writes the observations of the worlds of a mask.
+fn copy_observations_of(mask: &[bool], task: &CompiledTask, from: &CompiledScratch, to: &mut [f64]) {
+    let (width, from) = (task.width(), from.observations());
+    for (k, to) in to.chunks_exact_mut(task.n_observations.max(1)).enumerate().filter(|(k, _)| mask[*k]) {
+        to.iter_mut().enumerate().for_each(|(i, x)| *x = unsigned_zero(from[i * width + k]));
     }
 }

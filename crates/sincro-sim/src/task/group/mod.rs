@@ -7,7 +7,7 @@ use compiled::{CompiledScratch, CompiledWorlds};
 use super::lanes::LaneBundle;
 use super::plan::{Drawn, Plan, copy_unsigned, unsigned_zero};
 use super::single::SingleWorld;
-use super::{Autoreset, Step};
+use super::{Autoreset, StepMut};
 
 /// Worlds that advance together.
 #[derive(Debug)]
@@ -72,51 +72,6 @@ struct Episodes {
     is_over: Vec<bool>,
 }
 
-/// Results of the worlds of one group.
-#[derive(Debug)]
-pub(super) struct Buffers<'a> {
-    observations: &'a mut [f64],
-    rewards: &'a mut [f64],
-    terminated: &'a mut [bool],
-    truncated: &'a mut [bool],
-    stopped: &'a mut [bool],
-    finals: &'a mut [f64],
-}
-
-impl<'a> Buffers<'a> {
-    /// All results of a step.
-    pub fn of(step: &'a mut Step) -> Self {
-        Self {
-            observations: &mut step.observations,
-            rewards: &mut step.rewards,
-            terminated: &mut step.terminated,
-            truncated: &mut step.truncated,
-            stopped: &mut step.stopped,
-            finals: &mut step.final_observations,
-        }
-    }
-
-    /// Takes those of the next `n` worlds.
-    pub fn take(&mut self, n: usize, n_observations: usize) -> Buffers<'a> {
-        fn front<'a, T>(rest: &mut &'a mut [T], n: usize) -> &'a mut [T] {
-            let (mine, others) = std::mem::take(rest).split_at_mut(n);
-            *rest = others;
-            mine
-        }
-        Buffers {
-            observations: front(&mut self.observations, n * n_observations),
-            rewards: front(&mut self.rewards, n),
-            terminated: front(&mut self.terminated, n),
-            truncated: front(&mut self.truncated, n),
-            stopped: front(&mut self.stopped, n),
-            finals: match self.finals.is_empty() {
-                true => &mut [],
-                false => front(&mut self.finals, n * n_observations),
-            },
-        }
-    }
-}
-
 impl Group {
     pub fn new(plan: &Plan, n_worlds: usize) -> Self {
         let (n_slots, n_signals) = (plan.task.slots.len(), plan.probes.len());
@@ -168,12 +123,15 @@ impl Group {
         if !mask.contains(&true) {
             return;
         }
-        self.leave_rows(plan);
         for k in (0..self.n_worlds()).filter(|k| mask[*k]) {
             if let Some(seed) = seeds[k] {
                 (self.episodes.seeds[k], self.episodes.numbers[k]) = (seed, 0);
             }
         }
+        if self.reset_compiled(plan, mask, observations, scratch) {
+            return;
+        }
+        self.leave_rows(plan);
         scratch.begins_anew[..mask.len()].copy_from_slice(mask);
         self.start(plan, scratch);
         self.look(plan);
@@ -188,17 +146,17 @@ impl Group {
         plan: &Plan,
         actions: &[f64],
         autoreset: Autoreset,
-        out: &mut Buffers<'_>,
+        out: &mut StepMut<'_>,
         scratch: &mut Scratch,
     ) {
-        let n = self.n_worlds();
-        scratch.was_over[..n].copy_from_slice(&self.episodes.is_over);
         if self.step_compiled(plan, actions, autoreset, out, scratch) {
             return;
         }
         self.leave_rows(plan);
+        let n = self.n_worlds();
+        scratch.was_over[..n].copy_from_slice(&self.episodes.is_over);
         let n_actions = plan.n_actions();
-        for k in 0..n {
+        for k in (0..n).filter(|k| !self.episodes.is_over[*k]) {
             let of_world = &mut self.values[k * self.n_slots..(k + 1) * self.n_slots];
             plan.acting(&actions[k * n_actions..][..n_actions], &mut of_world[self.n_signals..][..n_actions]);
         }
@@ -221,7 +179,7 @@ impl Group {
             scratch.begins_anew[k] = is_over && autoreset == Autoreset::SameStep;
             if scratch.begins_anew[k] {
                 let n = plan.n_observations();
-                out.finals[k * n..(k + 1) * n].copy_from_slice(&out.observations[k * n..(k + 1) * n]);
+                out.final_observations[k * n..(k + 1) * n].copy_from_slice(&out.observations[k * n..(k + 1) * n]);
             }
         }
         if scratch.begins_anew[..n].contains(&true) {
@@ -234,7 +192,7 @@ impl Group {
     }
 
     /// Reward and end of a world's action, and what the agent sees after it.
-    fn judge(&mut self, plan: &Plan, k: usize, out: &mut Buffers<'_>, stack: &mut Vec<f64>) {
+    fn judge(&mut self, plan: &Plan, k: usize, out: &mut StepMut<'_>, stack: &mut Vec<f64>) {
         let at_limit = self.episodes.actions[k] >= plan.task.max_actions;
         self.write(plan, k, out.observations, stack);
         if !self.is_finite[k] {
@@ -275,7 +233,7 @@ impl Group {
     fn advance(&mut self, plan: &Plan, scratch: &mut Scratch) {
         let n = plan.n_commands();
         match &mut self.worlds {
-            Worlds::Lanes(bundle) => bundle.advance(plan, &self.commands),
+            Worlds::Lanes(bundle) => bundle.advance(plan, &self.commands, &scratch.was_over[..self.is_finite.len()]),
             Worlds::Single(worlds) => {
                 for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| !scratch.was_over[*k]) {
                     for command in plan.own_commands() {
