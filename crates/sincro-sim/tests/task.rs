@@ -227,6 +227,51 @@ fn compiled_actions_have_the_bits_of_other_steps() {
     }
 }
 
+/// Worlds of the cart and pole that were stepped with `Autoreset::Disabled` until each second one is over.
+fn half_over(compile: Compile) -> (TaskWorlds, Step, Vec<bool>) {
+    let loaded = load(&scene("cart-pole-balance"), &[], Extensions::default()).unwrap();
+    let n = 4 * sincro_math::lanes::width();
+    let mut worlds = TaskWorlds::with_steps(&loaded, n, 1, compile).unwrap();
+    let mut step = Step::new(n, worlds.plan().n_observations());
+    worlds.reset(&(0..n as u64).map(Some).collect::<Vec<_>>(), &vec![true; n], &mut step.observations);
+    let mut is_over = vec![false; n];
+    for k in 0..30 {
+        // pushes to one side, or to both in turns
+        let actions: Vec<f64> = (0..n).map(|world| if world % 2 == 0 || k % 2 == 0 { 10.0 } else { -10.0 }).collect();
+        worlds.step(&actions, Autoreset::Disabled, &mut step);
+        is_over.iter_mut().zip(&step.terminated).for_each(|(is_over, ended)| *is_over |= ended);
+    }
+    (worlds, step, is_over)
+}
+
+#[test]
+fn finished_worlds_stay_where_they_ended() {
+    for compile in [Compile::IfPossible, Compile::Never] {
+        let (mut worlds, mut step, is_over) = half_over(compile);
+        let n = worlds.n_worlds();
+        assert!((0..n).any(|k| is_over[k]) && (0..n).any(|k| !is_over[k]));
+        let before: Vec<Vec<f64>> = (0..n).map(|k| worlds.coordinates(k)).collect();
+        for _ in 0..3 {
+            worlds.step(&vec![10.0; n], Autoreset::Disabled, &mut step);
+        }
+        for k in 0..n {
+            assert_eq!(worlds.coordinates(k) == before[k], is_over[k], "{compile:?}, world {k}");
+        }
+    }
+}
+
+#[test]
+fn finished_and_reset_worlds_leave_their_neighbours_compiled() {
+    let (mut worlds, mut step, is_over) = half_over(Compile::IfPossible);
+    let (n, StepsBy::Compiled { .. }) = (worlds.n_worlds(), worlds.steps_by().clone()) else { return };
+    assert_eq!(worlds.n_compiled(), n);
+    // some that are over, and one under way
+    let mask: Vec<bool> = (0..n).map(|k| is_over[k] && k % 3 == 0 || k == 1).collect();
+    worlds.reset(&vec![None; n], &mask, &mut step.observations);
+    worlds.step(&vec![10.0; n], Autoreset::Disabled, &mut step);
+    assert_eq!(worlds.n_compiled(), n);
+}
+
 #[test]
 fn a_continuous_diagram_leaves_commands_of_controllers_alone() {
     let loaded = load(&scene("cart-pole-lqr"), &[], Extensions::default()).unwrap();

@@ -196,6 +196,14 @@ impl TaskWorlds {
         self.n
     }
 
+    /// Returns the number of worlds whose last step or reset was made by compiled programs. Others were advanced by the
+    /// recursions: they do not fill the lanes, or one of their bundle cannot be computed by programs, such as one whose
+    /// reward is no number.
+    #[must_use]
+    pub fn n_compiled(&self) -> usize {
+        self.groups.iter().filter(|group| group.is_compiled()).map(Group::n_worlds).sum()
+    }
+
     /// Returns the coordinates of world `world` (from 0), `n_q` numbers `[rad]`, `[m]` in the order of the model's
     /// state, for images of it.
     ///

@@ -17,11 +17,48 @@ const AWAKE: Duration = Duration::from_micros(150);
 /// Parts that the groups are cut into for each thread.
 const PARTS: usize = 4;
 
+/// Calls after which it is tried again if the other threads are of use, and those of them that try it: first without
+/// them, then with them.
+const CALLS_OF_TRIALS: u64 = 256;
+const TRIALS: u64 = 4;
+
 /// Threads and what each works with; the calling thread is the first.
 #[derive(Debug)]
 pub(super) struct Threads {
     scratches: Vec<Scratch>,
     others: Option<Pool>,
+    trials: Trials,
+}
+
+/// Trials of the calling thread alone and of all threads. Small steps take longer with others, and so do all where the
+/// system has better uses for its processors; results do not depend on it.
+#[derive(Debug, Default)]
+struct Trials {
+    n_calls: u64,
+    /// Shortest call of this round of trials: alone, with all threads.
+    shortest: [Duration; 2],
+}
+
+impl Trials {
+    /// Returns true if the next call is one with all threads.
+    fn next_is_shared(&mut self) -> bool {
+        let k = self.n_calls % CALLS_OF_TRIALS;
+        if k == 0 {
+            self.shortest = [Duration::MAX; 2];
+        }
+        if k < 2 * TRIALS { k >= TRIALS } else { self.shortest[1] < self.shortest[0] }
+    }
+
+    /// Notes what a call took.
+    fn note(&mut self, is_shared: bool, elapsed: Duration) {
+        let k = self.n_calls % CALLS_OF_TRIALS;
+        self.n_calls += 1;
+        // the first with all threads wakes them
+        if k < 2 * TRIALS && k != TRIALS {
+            let shortest = &mut self.shortest[usize::from(is_shared)];
+            *shortest = elapsed.min(*shortest);
+        }
+    }
 }
 
 /// Threads beyond the calling one.
@@ -69,7 +106,8 @@ impl Threads {
     pub fn new(plan: &Plan, n: usize, width: usize) -> Self {
         let others = (n > 1).then(|| ThreadPoolBuilder::new().num_threads(n - 1).build().ok()).flatten();
         let others = others.map(|pool| Pool { pool: Some(pool), process: std::process::id(), calls: Arc::default() });
-        Self { scratches: (0..n.max(1)).map(|_| Scratch::new(plan, width)).collect(), others }
+        let scratches = (0..n.max(1)).map(|_| Scratch::new(plan, width)).collect();
+        Self { scratches, others, trials: Trials::default() }
     }
 
     /// Works on all groups. `share` gives each part of them its arguments, by its number of worlds and in their order;
@@ -80,7 +118,10 @@ impl Threads {
         mut share: impl FnMut(usize) -> T,
         work: impl Fn(&mut [Group], T, &mut Scratch) + Sync,
     ) {
+        let start = Instant::now();
         let others = self.others.as_ref().and_then(|others| Some((others, others.threads()?)));
+        let is_shared = others.is_some() && self.trials.next_is_shared();
+        let others = others.filter(|_| is_shared);
         let n_parts = if others.is_some() { PARTS * self.scratches.len() } else { 1 };
         let size = groups.len().div_ceil(n_parts).max(1);
         let parts = groups.chunks_mut(size).map(|groups| {
@@ -89,7 +130,8 @@ impl Threads {
         });
         let Some((own_scratch, scratches)) = self.scratches.split_first_mut() else { return };
         let Some((others, pool)) = others else {
-            return parts.for_each(|(groups, arguments)| work(groups, arguments, own_scratch));
+            parts.for_each(|(groups, arguments)| work(groups, arguments, own_scratch));
+            return self.trials.note(false, start.elapsed());
         };
         others.calls.fetch_add(1, Ordering::Relaxed);
         let parts: Vec<_> = parts.map(|part| Mutex::new(Some(part))).collect();
@@ -110,11 +152,12 @@ impl Threads {
             }
             work_on_parts(own_scratch);
             // the scope itself waits for all of them, asleep
-            let start = Instant::now();
-            while n_done.load(Ordering::Relaxed) < n_others && start.elapsed() < AWAKE {
+            let waits = Instant::now();
+            while n_done.load(Ordering::Relaxed) < n_others && waits.elapsed() < AWAKE {
                 core::hint::spin_loop();
             }
         });
         others.stay_awake(pool, self.scratches.len() - 1);
+        self.trials.note(true, start.elapsed());
     }
 }

@@ -36,7 +36,7 @@ impl Parts {
         let after_state = layout.given() - layout.acted();
         Ok(Self {
             command: worlds(layout.n_rows() - layout.acted(), &|worlds, rows| commands(plan, worlds, rows))?,
-            step: plant::step(&models, method, plan.loaded.experiment.step)?,
+            step: plant::step(&models, method, plan.loaded.experiment.step).map_err(|why| of_step(&why))?,
             control: ControlPrograms::record(plan, layout)?,
             finish: worlds(after_state, &|worlds, rows| finish(plan, layout, worlds, rows))?,
             look: worlds(after_state, &|worlds, rows| {
@@ -89,6 +89,14 @@ impl Parts {
         })?;
         Ok(Some(whole))
     }
+}
+
+/// Reason why the step of a scene has no program, in words that say where it lies.
+fn of_step(why: &Obstacle) -> Obstacle {
+    Obstacle::new(format!(
+        "the step of the scene is no fixed list of operations ({why}); rotors by blade elements, whose inflow is iterated, \
+         have none"
+    ))
 }
 
 /// Commands of an action, then the actions as they act.

@@ -30,6 +30,13 @@ impl CompiledWorlds {
     }
 }
 
+impl CompiledWorlds {
+    /// Returns true if the rows have the state of the worlds.
+    pub fn are_current(&self) -> bool {
+        self.are_current
+    }
+}
+
 impl Group {
     /// Steps all worlds as [`Group::step`]; false, with nothing done, where the programs cannot.
     #[inline]

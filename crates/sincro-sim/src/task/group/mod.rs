@@ -102,6 +102,11 @@ impl Group {
         self.is_finite.len()
     }
 
+    /// Returns true if the programs have the state of the worlds.
+    pub fn is_compiled(&self) -> bool {
+        self.compiled.as_ref().is_some_and(CompiledWorlds::are_current)
+    }
+
     /// Coordinates of a world.
     pub fn coordinates(&mut self, plan: &Plan, k: usize) -> Vec<f64> {
         self.leave_rows(plan);
