@@ -1,13 +1,13 @@
 //! Tasks of scenes as many worlds at once, for reinforcement learning.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use sincro_scene::experiment::task::Space;
 use sincro_scene::scene::{Camera, Object, ObjectKind};
 use sincro_sim::rollout::StepsBy;
-use sincro_sim::task::{Autoreset, Step, TaskWorlds};
+use sincro_sim::task::{Autoreset, StepMut, TaskWorlds};
 
 use crate::model::Model;
 use crate::{errors, foreground};
@@ -28,10 +28,79 @@ type Results<'py> = (
     Option<Bound<'py, PyArray2<f64>>>,
 );
 
+/// Sets of arrays that are kept for later steps: those that nobody holds by then. Two are in turns where each step
+/// lets go of what the one before gave.
+const MAX_KEPT: usize = 4;
+
+/// Arrays of the results of a step.
+struct Arrays {
+    observations: Py<PyArray2<f64>>,
+    rewards: Py<PyArray1<f64>>,
+    terminated: Py<PyArray1<bool>>,
+    truncated: Py<PyArray1<bool>>,
+}
+
+impl Arrays {
+    fn new(py: Python<'_>, n: usize, n_observations: usize) -> Self {
+        Self {
+            observations: PyArray2::zeros(py, [n, n_observations], false).unbind(),
+            rewards: PyArray1::zeros(py, n, false).unbind(),
+            terminated: PyArray1::zeros(py, n, false).unbind(),
+            truncated: PyArray1::zeros(py, n, false).unbind(),
+        }
+    }
+
+    /// Returns true if nobody else holds one of the arrays, nor a view of it.
+    // what replaces `get_refcnt` is unsafe, and gives the same number
+    #[allow(deprecated)]
+    fn are_free(&self, py: Python<'_>) -> bool {
+        let counts = [
+            self.observations.get_refcnt(py),
+            self.rewards.get_refcnt(py),
+            self.terminated.get_refcnt(py),
+            self.truncated.get_refcnt(py),
+        ];
+        counts == [1; 4]
+    }
+
+    fn clone_ref(&self, py: Python<'_>) -> Self {
+        Self {
+            observations: self.observations.clone_ref(py),
+            rewards: self.rewards.clone_ref(py),
+            terminated: self.terminated.clone_ref(py),
+            truncated: self.truncated.clone_ref(py),
+        }
+    }
+}
+
+/// Arrays of earlier steps, and flags and actions that are not handed out.
+#[derive(Default)]
+struct Spare {
+    arrays: Vec<Arrays>,
+    stopped: Vec<bool>,
+    given: Vec<f64>,
+}
+
+impl Spare {
+    /// Arrays to write to, no longer in use.
+    fn arrays(&mut self, py: Python<'_>, n: usize, n_observations: usize) -> Arrays {
+        if let Some(free) = self.arrays.iter().find(|arrays| arrays.are_free(py)) {
+            return free.clone_ref(py);
+        }
+        let new = Arrays::new(py, n, n_observations);
+        if self.arrays.len() == MAX_KEPT {
+            self.arrays.remove(0);
+        }
+        self.arrays.push(new.clone_ref(py));
+        new
+    }
+}
+
 /// Many worlds of the task of a scene; see `sincro.gym`.
 #[pyclass(frozen, module = "sincro._sincro")]
 pub struct Worlds {
     worlds: Mutex<TaskWorlds>,
+    spare: Mutex<Spare>,
     n: usize,
     n_observations: usize,
     n_actions: usize,
@@ -65,7 +134,7 @@ impl Worlds {
             Space::Values(values) => (action.name.clone(), values.clone()),
         };
         let values = worlds.plan().task().actions.iter().map(of).collect();
-        Ok(Self { worlds: Mutex::new(worlds), n, n_observations, n_actions, values })
+        Ok(Self { worlds: Mutex::new(worlds), spare: Mutex::default(), n, n_observations, n_actions, values })
     }
 
     /// Formulas of the observations.
@@ -176,10 +245,12 @@ impl Worlds {
         autoreset: &str,
     ) -> PyResult<Results<'py>> {
         self.check_shape(py, actions.shape())?;
-        let given: Vec<f64> = match actions.as_slice() {
-            Ok(given) => given.to_vec(),
-            Err(_) => actions.as_array().iter().copied().collect(),
-        };
+        let mut given = core::mem::take(&mut self.spare().given);
+        given.clear();
+        match actions.as_slice() {
+            Ok(all) => given.extend_from_slice(all),
+            Err(_) => given.extend(actions.as_array().iter()),
+        }
         // x − x is 0, or NaN where x is not finite
         if given.iter().map(|x| x + -x).sum::<f64>() != 0.0 {
             let k = given.iter().position(|x| !x.is_finite()).unwrap_or_default();
@@ -199,18 +270,13 @@ impl Worlds {
         autoreset: &str,
     ) -> PyResult<Results<'py>> {
         self.check_shape(py, actions.shape())?;
-        let chosen = actions.as_array();
-        let mut given = vec![0.0; self.n * self.n_actions];
-        for (k, (name, values)) in self.values.iter().enumerate() {
-            for (to, index) in given.iter_mut().skip(k).step_by(self.n_actions).zip(chosen.column(k)) {
-                let value = usize::try_from(*index).ok().and_then(|index| values.get(index));
-                let Some(value) = value else {
-                    let words = format!("`{name}` is chosen from 0 to {}, not {index}", values.len().saturating_sub(1));
-                    return Err(errors::argument(py, &words));
-                };
-                *to = *value;
-            }
-        }
+        let mut given = core::mem::take(&mut self.spare().given);
+        given.resize(self.n * self.n_actions, 0.0);
+        let done = match actions.as_slice() {
+            Ok(chosen) => self.choose(chosen.iter(), &mut given),
+            Err(_) => self.choose(actions.as_array().iter(), &mut given),
+        };
+        done.map_err(|words| errors::argument(py, &words))?;
         self.step_by(py, given, autoreset)
     }
 }
@@ -224,6 +290,28 @@ impl Worlds {
         Err(errors::argument(py, &words))
     }
 
+    /// Writes the values that are chosen by their numbers; an error names the first that is none.
+    fn choose<'a>(&self, chosen: impl ExactSizeIterator<Item = &'a i64>, given: &mut [f64]) -> Result<(), String> {
+        let wrong = |name: &str, values: &[f64], index: i64| {
+            format!("`{name}` is chosen from 0 to {}, not {index}", values.len().saturating_sub(1))
+        };
+        let value = |values: &[f64], index: i64| usize::try_from(index).ok().and_then(|k| values.get(k)).copied();
+        if let [(name, values)] = &self.values[..] {
+            for (to, index) in given.iter_mut().zip(chosen) {
+                *to = value(values, *index).ok_or_else(|| wrong(name, values, *index))?;
+            }
+            return Ok(());
+        }
+        for ((to, index), (name, values)) in given.iter_mut().zip(chosen).zip(self.values.iter().cycle()) {
+            *to = value(values, *index).ok_or_else(|| wrong(name, values, *index))?;
+        }
+        Ok(())
+    }
+
+    fn spare(&self) -> MutexGuard<'_, Spare> {
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn step_by<'py>(&self, py: Python<'py>, given: Vec<f64>, autoreset: &str) -> PyResult<Results<'py>> {
         let autoreset = match autoreset {
             "next-step" => Autoreset::NextStep,
@@ -231,16 +319,36 @@ impl Worlds {
             _ => Autoreset::Disabled,
         };
         let (n, n_observations) = (self.n, self.n_observations);
-        let step = self.worlds(py, move |worlds| {
-            let mut step = Step::new(n, n_observations);
-            worlds.step(&given, autoreset, &mut step);
-            step
-        })?;
-        let has_finals = autoreset == Autoreset::SameStep
-            && step.terminated.iter().zip(&step.truncated).any(|(terminated, truncated)| *terminated || *truncated);
-        let finals = has_finals.then(|| self.rows(py, step.final_observations)).transpose()?;
-        let stopped = step.stopped.contains(&true).then(|| PyArray1::from_vec(py, step.stopped));
-        let flags = [step.terminated, step.truncated].map(|flags| PyArray1::from_vec(py, flags));
-        Ok((self.rows(py, step.observations)?, PyArray1::from_vec(py, step.rewards), flags, stopped, finals))
+        let (arrays, mut stopped) = {
+            let mut spare = self.spare();
+            (spare.arrays(py, n, n_observations), core::mem::take(&mut spare.stopped))
+        };
+        let Arrays { observations, rewards, terminated, truncated } = arrays;
+        let (observations, rewards) = (observations.into_bound(py), rewards.into_bound(py));
+        let (terminated, truncated) = (terminated.into_bound(py), truncated.into_bound(py));
+        let mut finals = vec![0.0; if autoreset == Autoreset::SameStep { n * n_observations } else { 0 }];
+        stopped.resize(n, false);
+        let has_finals = {
+            let (mut observations, mut rewards) = (observations.readwrite(), rewards.readwrite());
+            let (mut terminated, mut truncated) = (terminated.readwrite(), truncated.readwrite());
+            let out = StepMut {
+                observations: observations.as_slice_mut()?,
+                rewards: rewards.as_slice_mut()?,
+                terminated: terminated.as_slice_mut()?,
+                truncated: truncated.as_slice_mut()?,
+                stopped: &mut stopped,
+                final_observations: &mut finals,
+            };
+            self.worlds(py, |worlds| worlds.step_into(&given, autoreset, out))?;
+            let (terminated, truncated) = (terminated.as_slice()?, truncated.as_slice()?);
+            autoreset == Autoreset::SameStep && (terminated.contains(&true) || truncated.contains(&true))
+        };
+        let finals = has_finals.then(|| self.rows(py, finals)).transpose()?;
+        let stopped_now = stopped.contains(&true).then(|| PyArray1::from_slice(py, &stopped));
+        {
+            let mut spare = self.spare();
+            (spare.given, spare.stopped) = (given, stopped);
+        }
+        Ok((observations, rewards, [terminated, truncated], stopped_now, finals))
     }
 }
