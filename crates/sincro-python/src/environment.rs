@@ -273,8 +273,8 @@ impl Worlds {
         let mut given = core::mem::take(&mut self.spare().given);
         given.resize(self.n * self.n_actions, 0.0);
         let done = match actions.as_slice() {
-            Ok(chosen) => self.choose(chosen.iter(), &mut given),
-            Err(_) => self.choose(actions.as_array().iter(), &mut given),
+            Ok(chosen) => self.choose(chosen, &mut given),
+            Err(_) => self.choose(&actions.as_array().iter().copied().collect::<Vec<i64>>(), &mut given),
         };
         done.map_err(|words| errors::argument(py, &words))?;
         self.step_by(py, given, autoreset)
@@ -291,19 +291,19 @@ impl Worlds {
     }
 
     /// Writes the values that are chosen by their numbers; an error names the first that is none.
-    fn choose<'a>(&self, chosen: impl ExactSizeIterator<Item = &'a i64>, given: &mut [f64]) -> Result<(), String> {
-        let wrong = |name: &str, values: &[f64], index: i64| {
-            format!("`{name}` is chosen from 0 to {}, not {index}", values.len().saturating_sub(1))
-        };
-        let value = |values: &[f64], index: i64| usize::try_from(index).ok().and_then(|k| values.get(k)).copied();
-        if let [(name, values)] = &self.values[..] {
-            for (to, index) in given.iter_mut().zip(chosen) {
-                *to = value(values, *index).ok_or_else(|| wrong(name, values, *index))?;
+    fn choose(&self, chosen: &[i64], given: &mut [f64]) -> Result<(), String> {
+        for (action, (name, values)) in self.values.iter().enumerate() {
+            let chosen = chosen.iter().skip(action).step_by(self.n_actions);
+            // a negative number is a huge one without its sign
+            let is_one = |index: i64| (index as u64) < values.len() as u64;
+            // all are looked at: a search that ends early is slower
+            if !chosen.clone().fold(true, |all, index| all & is_one(*index)) {
+                let index = chosen.into_iter().find(|index| !is_one(**index)).copied().unwrap_or_default();
+                return Err(format!("`{name}` is chosen from 0 to {}, not {index}", values.len().saturating_sub(1)));
             }
-            return Ok(());
-        }
-        for ((to, index), (name, values)) in given.iter_mut().zip(chosen).zip(self.values.iter().cycle()) {
-            *to = value(values, *index).ok_or_else(|| wrong(name, values, *index))?;
+            for (to, index) in given.iter_mut().skip(action).step_by(self.n_actions).zip(chosen) {
+                *to = values[*index as usize];
+            }
         }
         Ok(())
     }
