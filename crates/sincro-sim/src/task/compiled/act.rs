@@ -15,6 +15,9 @@ use sincro_math::record::record;
 use super::{ControlPrograms, LaneWorlds, Layout, Obstacle, Plan, Program, Real, Recorded};
 use super::{size, values, zero_if_finite};
 
+/// Results for worlds in the state of the first rows, and the rows that follow them.
+type Recording<'a> = dyn Fn(&mut LaneWorlds<Recorded>, &[Recorded]) -> Vec<Recorded> + 'a;
+
 /// Programs of the parts of an action.
 #[derive(Debug)]
 pub(super) struct Parts {
@@ -30,9 +33,7 @@ impl Parts {
     /// Records the parts.
     pub fn record(plan: &Plan, layout: Layout) -> Result<Self, Obstacle> {
         let (models, method) = ([&*plan.loaded.scene.model], plan.method);
-        let worlds = |n_more: usize, act: &dyn Fn(&mut LaneWorlds<Recorded>, &[Recorded]) -> Vec<Recorded>| {
-            plant::worlds(&models, method, n_more, act)
-        };
+        let worlds = |n_more: usize, act: &Recording<'_>| plant::worlds(&models, method, n_more, act);
         let after_state = layout.given() - layout.acted();
         Ok(Self {
             command: worlds(layout.n_rows() - layout.acted(), &|worlds, rows| commands(plan, worlds, rows))?,
