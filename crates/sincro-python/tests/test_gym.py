@@ -308,3 +308,16 @@ def test_tasks_are_checked_when_the_scene_is_loaded(tmp_path):
 def test_a_scene_without_a_task_says_so():
     with pytest.raises(sincro.SceneError, match="no task"):
         sincro.gym.make("scenes/spring-dynamic")
+
+
+def test_arrays_that_are_held_are_never_written_again():
+    envs = sincro.gym.make_vec(scene("cart-pole-balance"), 16)
+    seen, _ = envs.reset(seed=3)
+    held, copies = [seen], [seen.copy()]
+    for k in range(20):
+        seen, rewards, terminated, truncated, _ = envs.step(np.full(16, k % 2))
+        if k % 3 == 0:
+            # a view alone keeps its array, too
+            held += [seen[2:5, 1], rewards, terminated]
+            copies += [seen[2:5, 1].copy(), rewards.copy(), terminated.copy()]
+    assert all(np.array_equal(a, b) for a, b in zip(held, copies))
