@@ -6,6 +6,7 @@ pub mod dual;
 pub mod elementary;
 pub mod error;
 pub mod expression;
+mod functions;
 pub mod lanes;
 pub mod random;
 mod real;

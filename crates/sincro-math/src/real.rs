@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::elementary::{self, Binary, Unary};
+use crate::functions::{self, Binary, Unary};
 
 /// Real number that the dynamics is written over: `f64`, a bundle of lanes ([`Lanes`](crate::Lanes)), or a dual number
 /// ([`Dual`](crate::Dual)).
@@ -100,18 +100,18 @@ pub trait Real:
     #[inline]
     fn unary(self, f: Unary) -> Self {
         match f {
-            Unary::Tan => self.map(elementary::tan),
-            Unary::Asin => self.map(elementary::asin),
-            Unary::Acos => self.map(elementary::acos),
-            Unary::Atan => self.map(elementary::atan),
-            Unary::Exp => self.map(elementary::exp),
-            Unary::Ln => self.map(elementary::ln),
-            Unary::Log10 => self.map(elementary::log10),
-            Unary::Sinh => self.map(elementary::sinh),
-            Unary::Cosh => self.map(elementary::cosh),
-            Unary::Tanh => self.map(elementary::tanh),
-            Unary::Floor => self.map(elementary::floor),
-            Unary::Ceil => self.map(elementary::ceil),
+            Unary::Tan => self.map(functions::tan),
+            Unary::Asin => self.map(functions::asin),
+            Unary::Acos => self.map(functions::acos),
+            Unary::Atan => self.map(functions::atan),
+            Unary::Exp => self.map(functions::exp),
+            Unary::Ln => self.map(functions::ln),
+            Unary::Log10 => self.map(functions::log10),
+            Unary::Sinh => self.map(functions::sinh),
+            Unary::Cosh => self.map(functions::cosh),
+            Unary::Tanh => self.map(functions::tanh),
+            Unary::Floor => self.map(functions::floor),
+            Unary::Ceil => self.map(functions::ceil),
         }
     }
 
@@ -120,10 +120,10 @@ pub trait Real:
     #[inline]
     fn binary(self, f: Binary, other: Self) -> Self {
         match f {
-            Binary::Atan2 => self.map2(other, elementary::atan2),
-            Binary::Hypot => self.map2(other, elementary::hypot),
-            Binary::Pow => self.map2(other, elementary::pow),
-            Binary::Modulo => self.map2(other, elementary::modulo),
+            Binary::Atan2 => self.map2(other, functions::atan2),
+            Binary::Hypot => self.map2(other, functions::hypot),
+            Binary::Pow => self.map2(other, functions::pow),
+            Binary::Modulo => self.map2(other, functions::modulo),
         }
     }
 

@@ -4,9 +4,9 @@ use super::{Dialect, sine_statements};
 
 /// Support for `lanes`, vectors of `width` numbers: selections by comparison and by bits, square root, sine and cosine.
 ///
-/// Statements may use a pointer `call` to the elementary functions by their number, and the macros `ALL(x)`, a number in all lanes, and `AT(array, k)`, row `k` of an array of rows of
-/// `width` numbers. Sines are right for angles within the limit of their reduction: the caller looks at them, by the
-/// sum of their magnitudes in `angles`.
+/// Statements may use a pointer `call` to the elementary functions by their number, and the macros `ALL(x)`, a number
+/// in all lanes, and `AT(array, k)`, row `k` of an array of rows of `width` numbers. Sines are right for angles within
+/// the limit of their reduction: the caller looks at them, by the sum of their magnitudes in `angles`.
 pub(crate) fn lane_support(width: usize) -> String {
     let bytes = 8 * width;
     let all = vec!["(x)"; width].join(", ");

@@ -102,7 +102,8 @@ pub struct StepMut<'a> {
     pub truncated: &'a mut [bool],
     /// Worlds that could not go on, `n_worlds`.
     pub stopped: &'a mut [bool],
-    /// Last observations of the episodes that ended, as long as `observations` for [`Autoreset::SameStep`]; else unused.
+    /// Last observations of the episodes that ended: as long as `observations` for [`Autoreset::SameStep`], else of no
+    /// use.
     pub final_observations: &'a mut [f64],
 }
 

@@ -1,5 +1,5 @@
-//! The actions of a task compiled for lanes: programs of commands, of the step, and of what the agent sees after it, put
-//! together to one program of the whole action unless that is too long.
+//! The actions of a task compiled for lanes: programs of commands, of the step, and of what the agent sees after it,
+//! put together to one program of the whole action unless that is too long.
 
 mod act;
 mod control;

@@ -12,8 +12,6 @@ pub(in super::super) struct Rows {
     width: usize,
     /// All numbers of [`Layout`], in its order.
     rows: Vec<f64>,
-    /// As many, which the next action writes: rows that it cannot judge stay as they were.
-    next: Vec<f64>,
 }
 
 /// Working memory of an action, with its results.
@@ -25,6 +23,9 @@ pub(in super::super) struct CompiledScratch {
     controlled: Vec<f64>,
     /// Rows after the steps of an action by its parts.
     stepped: Vec<f64>,
+    /// Rows after an action: it may turn out that it cannot be judged. One place for all bundles stays in the nearest
+    /// cache, where two places for each would not fit into the next one.
+    next: Vec<f64>,
     /// Reward, then observations.
     results: Vec<f64>,
     width: usize,
@@ -39,6 +40,7 @@ impl CompiledScratch {
             commanded: of(layout.n_commands + layout.n_actions),
             controlled: of(task.n_controlled()),
             stepped: of(if is_whole { 0 } else { layout.given() }),
+            next: of(layout.given()),
             results: of(1 + plan.n_observations()),
             width,
         }
@@ -60,8 +62,7 @@ impl CompiledScratch {
 impl Rows {
     pub fn new(task: &CompiledTask) -> Self {
         let (layout, width) = (task.layout, task.width());
-        let rows = vec![0.0; layout.n_rows() * width];
-        Self { layout, width, next: rows.clone(), rows }
+        Self { layout, width, rows: vec![0.0; layout.n_rows() * width] }
     }
 
     /// Coordinates, velocities and rotor states, row by row.
@@ -147,27 +148,20 @@ impl Rows {
         }
     }
 
-    /// Takes the numbers of a world back to those before the last action.
-    pub fn take_back(&mut self, lane: usize) {
-        for k in (0..self.layout.given()).map(|k| k * self.width + lane) {
-            self.rows[k] = self.next[k];
-        }
-    }
-
     /// Returns true if programs can compute with the rows: they are neither huge nor what is no number.
     pub fn are_computable(&self) -> bool {
         self.known().iter().map(|x| x.abs()).sum::<f64>() < native::INPUT_LIMIT
     }
 
-    /// Makes one action, `lane × action`, of all worlds. Returns the [`flags`]; none, with everything as
-    /// it was, where the programs do not have the bits of the recursions or give what is not finite in a world that is
-    /// not among those of the bits `but`.
+    /// Makes one action, `lane × action`, of all worlds but those of the bits `kept`. Returns the [`flags`]; none, with
+    /// everything as it was, where the programs do not have the bits of the recursions or give what is not finite in a
+    /// world that is not among those of the bits `but`.
     #[inline]
     pub fn act(
         &mut self,
         task: &CompiledTask,
         actions: &[f64],
-        but: u64,
+        [but, kept]: [u64; 2],
         scratch: &mut CompiledScratch,
     ) -> Option<u64> {
         let (layout, width, n_actions) = (self.layout, self.width, self.layout.n_actions);
@@ -180,24 +174,28 @@ impl Rows {
             }
         }
         let found = match &task.action {
-            Action::Whole(whole) => {
-                let next = &mut self.next[..layout.given() * width];
-                whole.evaluate_in_form(&self.rows, &[], next, &mut scratch.results)
-            }
+            Action::Whole(whole) => whole.evaluate_in_form(&self.rows, &[], &mut scratch.next, &mut scratch.results),
             Action::Parts { .. } => self.act_in_parts(task, scratch),
         }?;
         let bad = found >> (flags::BAD * width) & ((1 << width) - 1) & !but;
         if bad != 0 {
             return None;
         }
-        core::mem::swap(&mut self.rows, &mut self.next);
+        if kept != 0 {
+            for lane in (0..width).filter(|lane| kept >> lane & 1 == 1) {
+                for k in (0..layout.given()).map(|k| k * width + lane) {
+                    scratch.next[k] = self.rows[k];
+                }
+            }
+        }
+        self.rows[..layout.given() * width].copy_from_slice(&scratch.next);
         Some(found)
     }
 
     fn act_in_parts(&mut self, task: &CompiledTask, scratch: &mut CompiledScratch) -> Option<u64> {
         let Action::Parts { command, step, finish, control, n_steps } = &task.action else { return None };
         let (layout, width) = (self.layout, self.width);
-        let CompiledScratch { commanded, controlled, stepped: new, results, .. } = scratch;
+        let CompiledScratch { commanded, controlled, stepped: new, next, results, .. } = scratch;
         if !command.evaluate(&self.rows, &[], commanded) {
             return None;
         }
@@ -226,6 +224,6 @@ impl Rows {
                 copy_unsigned(&mut new[layout.signals() * width..], signals);
             }
         }
-        finish.evaluate_in_form(new, &[], &mut self.next[..layout.given() * width], results)
+        finish.evaluate_in_form(new, &[], next, results)
     }
 }

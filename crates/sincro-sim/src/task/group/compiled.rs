@@ -53,8 +53,8 @@ impl Group {
             return false;
         }
         let Some(found) = (match task.width() {
-            8 => self.act_compiled::<8>(task, actions, out, scratch),
-            4 => self.act_compiled::<4>(task, actions, out, scratch),
+            8 => self.act_compiled::<8>(task, actions, autoreset, out, scratch),
+            4 => self.act_compiled::<4>(task, actions, autoreset, out, scratch),
             _ => None,
         }) else {
             return false;
@@ -72,11 +72,14 @@ impl Group {
         &mut self,
         task: &CompiledTask,
         actions: &[f64],
+        autoreset: Autoreset,
         out: &mut StepMut<'_>,
         scratch: &mut Scratch,
     ) -> Option<[u64; 2]> {
         let (CompiledWorlds { rows, over, .. }, compiled) = (self.compiled.as_mut()?, scratch.compiled.as_mut()?);
-        let found = rows.act(task, actions, *over, compiled)?;
+        // those that begin anew have nothing to keep
+        let kept = if autoreset == Autoreset::NextStep { 0 } else { *over };
+        let found = rows.act(task, actions, [*over, kept], compiled)?;
         let n = task.n_observations;
         let observations = compiled.observations().as_chunks::<WIDTH>().0;
         for (i, row) in observations.iter().enumerate() {
@@ -93,7 +96,8 @@ impl Group {
         Some([bits(flags::TERMINATES), bits(flags::AT_LIMIT)])
     }
 
-    /// Ends the episodes that the flags of an action say, keeps worlds whose episode was over before, and begins others.
+    /// Ends the episodes that the flags of an action say, shows worlds whose episode was over before as they are, and
+    /// begins others.
     fn end_episodes(
         &mut self,
         plan: &Plan,
@@ -126,7 +130,7 @@ impl Group {
             }
         }
         if keeps != 0 {
-            self.keep_as_they_are(plan, task, keeps, out.observations, scratch);
+            self.show_as_they_are(plan, task, keeps, out.observations, scratch);
         }
         for (k, begins_anew) in scratch.begins_anew[..task.width()].iter_mut().enumerate() {
             *begins_anew = begins >> k & 1 == 1;
@@ -136,8 +140,8 @@ impl Group {
         }
     }
 
-    /// Takes the last action of the worlds of the bits `worlds` back, and shows them as they are.
-    fn keep_as_they_are(
+    /// Shows the worlds of the bits `worlds`, which the last action left as they were.
+    fn show_as_they_are(
         &mut self,
         plan: &Plan,
         task: &CompiledTask,
@@ -151,9 +155,6 @@ impl Group {
         let mask = &mut scratch.begins_anew[..task.width()];
         for (k, is_kept) in mask.iter_mut().enumerate() {
             *is_kept = worlds >> k & 1 == 1;
-            if *is_kept {
-                rows.take_back(k);
-            }
         }
         let is_seen = rows.look(task, mask, compiled);
         debug_assert!(is_seen, "what ended could be looked at before");
