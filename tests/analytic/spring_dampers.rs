@@ -13,7 +13,7 @@ use sincro_dynamics::energy::energy_at;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::{
-    BodySpec, JointSpec, LoopJointSpec, MassProperties, Model, ModelBuilder, NodeId, SpringDamperSpec,
+    BodySpec, JointSpec, LoopJointSpec, MassProperties, Model, ModelBuilder, NodeId, PathSpec, SpringDamperSpec,
 };
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_dynamics::state::State;
@@ -33,8 +33,8 @@ fn formula(text: &str) -> ForceLaw<f64> {
 }
 
 fn between(a: (NodeId, [f64; 3]), b: (NodeId, [f64; 3]), law: ForceLaw<f64>) -> SpringDamperSpec {
-    let (ends, points) = ([a.0, b.0], [a.1, b.1]);
-    SpringDamperSpec { ends, points, free_length: None, law, tension_only: false, actuator: None }
+    let path = PathSpec::Points(vec![a, b]);
+    SpringDamperSpec { path, free_length: None, law, tension_only: false, actuator: None }
 }
 
 fn at(p: [f64; 3]) -> Pose<f64> {
@@ -78,7 +78,7 @@ fn seen(world: &mut World) -> [Vec3<f64>; 3] {
     let scratch = world.mechanism().scratch();
     kinematics::motions(&model, &x.q, &x.v, &x.v, scratch);
     let element = &model.spring_dampers()[0];
-    let line = element.line(|link| (scratch.twist(link), scratch.link_poses()[link]));
+    let line = element.segments()[0].line(|link| (scratch.twist(link), scratch.link_poses()[link]));
     let force = element.forces(line.length, line.rate, &[]).total();
     let turn = scratch.link_poses()[0].rot;
     [Vec3([x.q[0], x.q[1], x.q[2]]), turn.mul_vec(Vec3([x.v[0], x.v[1], x.v[2]])), line.direction.scale(-force)]
@@ -390,10 +390,10 @@ fn points_that_coincide_feel_no_force() {
     let element = &model.spring_dampers()[0];
     let pose = Pose::identity();
     let twist = sincro_dynamics::spatial::Motion::zero();
-    let mut element = element.clone();
-    element.ends[1].position = element.ends[0].position;
-    let line = element.line(|_| (twist, pose));
-    assert_eq!(element.wrench(1, &line, element.forces(line.length, line.rate, &[]).total(), &pose).lin, Vec3::zero());
+    let mut segment = element.segments()[0];
+    segment.ends[1].position = segment.ends[0].position;
+    let line = segment.line(|_| (twist, pose));
+    assert_eq!(segment.wrench(1, &line, element.forces(line.length, line.rate, &[]).total(), &pose).lin, Vec3::zero());
 }
 
 #[test]
@@ -433,15 +433,23 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         b.spring_damper("cable", spec);
         b.build().unwrap_err().to_string()
     };
+    fn points(spec: &mut SpringDamperSpec) -> &mut Vec<(NodeId, [f64; 3])> {
+        let PathSpec::Points(points) = &mut spec.path else { panic!("a line has points") };
+        points
+    }
     type Change = fn(&mut SpringDamperSpec);
-    let cases: [(Change, &str); 7] = [
+    let cases: [(Change, &str); 11] = [
         (|s| s.law.stiffness = -1.0, "stiffness -1 N/m of spring_damper `cable`"),
         (|s| s.law.damping = f64::NAN, "damping NaN N·s/m of spring_damper `cable`"),
         (|s| s.free_length = Some(-0.5), "free_length -0.5 m of spring_damper `cable`"),
         (|s| s.actuator = Some(-2.0), "max_force -2 N of spring_damper `cable`"),
-        (|s| s.points[1][2] = f64::INFINITY, "points"),
+        (|s| points(s)[1].1[2] = f64::INFINITY, "points"),
         (|s| (s.tension_only, s.law.preload) = (true, 3.0), "its preload 3 N pushes"),
-        (|s| s.ends[1] = NodeId::WORLD, "both ends of spring_damper `cable`"),
+        (|s| points(s)[1].0 = NodeId::WORLD, "both ends of spring_damper `cable`"),
+        (|s| points(s).truncate(1), "tendon `cable` has no path"),
+        (|s| points(s).push((NodeId::WORLD, [f64::NAN; 3])), "points"),
+        (|s| s.path = PathSpec::Joints(Vec::new()), "the length of tendon `cable` never changes"),
+        (|s| s.path = PathSpec::Joints(vec![(points(s)[1].0, 1.0)]), "tendon `cable` takes a coordinate of `body`"),
     ];
     for (change, message) in cases {
         let found = refused(&change);

@@ -44,7 +44,9 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
         }
     }
     for (name, spec) in &builder.spring_dampers {
-        for (_, message, help) in spec.problems(&format!("spring_damper or tendon `{name}`")) {
+        let is_line = matches!(&spec.path, PathSpec::Points(points) if points.len() == 2);
+        let word = if is_line { "spring_damper" } else { "tendon" };
+        for (_, message, help) in spec.problems(&format!("{word} `{name}`")) {
             let (severity, help) = (Severity::Error, help.into());
             found.0.push(Diagnostic { severity, node: None, field: "spring_damper", message, help });
         }
