@@ -125,6 +125,8 @@ pub(crate) struct Robot {
     pub gears: Vec<Gear>,
     /// Springs, dampers, stops and actuators along paths.
     pub tendons: Vec<Tendon>,
+    /// Forces on frames that a controller commands.
+    pub forces: Vec<CommandedForce>,
     /// Motors.
     pub motors: Vec<Motor>,
     /// Sensors.
@@ -388,6 +390,19 @@ pub(crate) enum TendonPath {
     Through(Vec<usize>),
     /// Joints with one degree of freedom, and lengths for each unit of their coordinates.
     Joints(Vec<(usize, f64)>),
+}
+
+/// A force and torque on a link, commanded by one control.
+#[derive(Clone, Debug)]
+pub(crate) struct CommandedForce {
+    /// Name in the source.
+    pub name: String,
+    /// Place in the source.
+    pub at: Location,
+    /// Link or frame that it acts on, at its origin and along its axes.
+    pub link: usize,
+    /// Force x, y, z `[N]` and torque x, y, z `[N·m]` for each unit of the control.
+    pub wrench: [f64; 6],
 }
 
 /// A motor of a joint.

@@ -1,11 +1,12 @@
 //! Actuators: on joints gain and bias become a torque motor or a spring-damper motor, on tendons a tendon with an
-//! actuator.
+//! actuator, on sites a force that is commanded.
 
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
 use crate::findings::Findings;
-use crate::robot::{Motor, MotorLaw, Robot, Tendon};
+use crate::number::list;
+use crate::robot::{CommandedForce, Motor, MotorLaw, Robot, Tendon};
 use crate::source::Element;
 
 /// Force = gain·u + bias₀ + bias₁·length + bias₂·rate.
@@ -18,6 +19,7 @@ pub(super) struct Law {
 enum Made {
     Motor(Motor),
     Tendon(Tendon),
+    Force(CommandedForce),
 }
 
 impl<'d> Reader<'d> {
@@ -33,6 +35,7 @@ impl<'d> Reader<'d> {
             match findings.take(self.actuator(element, robot)) {
                 Some(Ok(Made::Motor(motor))) => robot.motors.push(motor),
                 Some(Ok(Made::Tendon(tendon))) => robot.tendons.push(tendon),
+                Some(Ok(Made::Force(force))) => robot.forces.push(force),
                 Some(Err(why)) => {
                     findings.warn(element.error(format!("actuator is left out: {why}")));
                     element.drop(&why);
@@ -54,8 +57,11 @@ impl<'d> Reader<'d> {
                 Err(why) => Err(why),
             });
         }
+        if e.peek("site").is_some() {
+            return self.on_site(e);
+        }
         let Some(name) = e.attribute("joint").or_else(|| e.attribute("jointinparent")) else {
-            let on = ["site", "body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
+            let on = ["body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
             return Ok(Err(format!(
                 "it acts on a {}, and motors here act on joints",
                 on.unwrap_or("thing without name")
@@ -90,6 +96,30 @@ impl<'d> Reader<'d> {
             return Ok(Err(format!("its bias {:?} is no spring and damper", law.bias)));
         };
         Ok(Ok(Made::Motor(Motor { joint, law: made.0, max_torque: limit, command: made.1 })))
+    }
+
+    /// Actuator on a site: the force and torque along its axes that one unit of the control gives.
+    fn on_site(&self, e: Element<'d>) -> Result<Result<Made, String>, Diagnostic> {
+        let name = e.attribute("site").unwrap_or_default();
+        let Some(&link) = self.sites.get(name) else { return Err(e.error(format!("there is no site `{name}`"))) };
+        if e.peek("refsite").is_some() {
+            return Ok(Err("it acts between two sites".into()));
+        }
+        let law = match self.law(e)? {
+            Ok(law) => law,
+            Err(why) => return Ok(Err(why)),
+        };
+        if law.bias != [0.0; 3] {
+            return Ok(Err(format!("its bias {:?} has no counterpart on a site", law.bias)));
+        }
+        let gear = self.defaults.numbers(e, "main", "gear")?.unwrap_or_else(|| vec![1.0]);
+        let wrench: [f64; 6] = std::array::from_fn(|k| law.gain * gear.get(k).copied().unwrap_or(0.0));
+        let (force, torque) = (list(&wrench[..3]), list(&wrench[3..]));
+        e.change(&format!(
+            "a [[force]] with input, in its axes: force {force} N, torque {torque} N·m for a control of 1"
+        ));
+        let name = e.peek("name").map_or_else(|| format!("{name}-force"), str::to_owned);
+        Ok(Ok(Made::Force(CommandedForce { name, at: e.location(), link, wrench })))
     }
 
     fn law(&self, e: Element<'d>) -> Result<Result<Law, String>, Diagnostic> {

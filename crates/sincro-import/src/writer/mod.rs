@@ -138,6 +138,7 @@ impl Writer<'_> {
             self.branch(joint);
         }
         self.sensors();
+        self.forces();
         self.loops();
         self.gears();
         self.tendons();
@@ -273,6 +274,22 @@ impl Writer<'_> {
                 SensorKind::Contact => self.line("contact = {}"),
                 SensorKind::Camera(optics) => self.optics(&optics),
             }
+            self.line("");
+        }
+    }
+
+    /// Forces that a diagram or a client commands.
+    fn forces(&mut self) {
+        for force in &self.robot.forces {
+            let Some(parent) = self.link_paths[force.link].clone() else { continue };
+            let path = self.unique(&parent, &force.name);
+            let (push, turn) = (list(&force.wrench[..3]), list(&force.wrench[3..]));
+            self.line(&format!("# {}; for a control of 1: force {push} N, torque {turn} N·m", place(&force.at)));
+            self.line("[[force]]");
+            self.line(&format!("name = {}", quoted(last(&path))));
+            self.line(&format!("parent = {}", quoted(&parent)));
+            self.line("in_frame = \"body\"");
+            self.line("input = true");
             self.line("");
         }
     }

@@ -215,6 +215,20 @@ fn tendons_keep_their_forces() {
 }
 
 #[test]
+fn an_actuator_on_a_site_is_a_force_with_input() {
+    let folder = Folder::new();
+    let rotor = "<actuator><motor name=\"rotor\" site=\"imu\" gear=\"0 0 1 0 0 -0.02\"/></actuator></mujoco>";
+    let imported = folder.import("hopper.xml", &HOPPER.replace("</mujoco>", rotor)).unwrap();
+    let scene = folder.open(&imported).scene;
+    assert_eq!(scene.model.names().inputs, ["/x/z/pitch/torso/imu/rotor"]);
+    assert!(scene.model.wrenches()[0].in_body);
+    // `gear` of the defaults is 50 in its first component alone
+    let words = &entry(&imported, "motor[rotor]").words;
+    assert!(words.contains("force [0.0, 0.0, 1.0] N, torque [0.0, 0.0, -0.02] N·m"), "{words}");
+    assert!(imported.scene().contains("for a control of 1: force [0.0, 0.0, 1.0] N"), "{}", imported.scene());
+}
+
+#[test]
 fn equalities_close_loops_and_couple_joints() {
     let folder = Folder::new();
     let text = HOPPER.replace(
