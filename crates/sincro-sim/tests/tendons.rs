@@ -181,6 +181,15 @@ fn converges(tendon: &str, exact: &[Vec<f64>]) {
 }
 
 #[test]
+fn elastic_couplings_stand_beside_paths() {
+    let gear = "[[coupling]]\nname = \"gear\"\njoints = [\"x\", \"y\"]\nratio = 0.5\nstiffness = 25.0\ndamping = 0.3\n";
+    let both = format!("{SPATIAL}\n{gear}");
+    let exact = columns(&scene(&both).load(&["accuracy=1e-11"]).unwrap());
+    assert!(exact[6].iter().all(|balance| balance.abs() < 1e-8));
+    converges(&both, &exact);
+}
+
+#[test]
 fn three_joints_share_a_force_by_their_coefficients() {
     let tendon = "[[tendon]]\nname = \"t\"\njoints = [\"x\", \"y\", \"z\"]\ncoefficients = [1.0, -2.0, 0.5]\nstiffness = 30.0\ndamping = 1.0\nfree_length = -0.4\n";
     let explicit = columns(&scene(tendon).load(&["accuracy=1e-11"]).unwrap());

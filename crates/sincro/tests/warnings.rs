@@ -160,6 +160,7 @@ fn words_of_other_programs_are_answered_with_the_right_ones() {
     };
     // a suggestion keeps the unit
     assert!(help("position = 0.3", "positon_deg = 17.0").contains("did you mean `position_deg`?"));
+    assert!(help("position = 0.3", "position_dg = 17.0").contains("did you mean `position_deg`?"));
     assert!(help("position = 0.3", "angle_deg = 17.0").contains("write `position_deg`"));
     assert!(help("\"revolute\"", "\"hing\"").contains("did you mean `revolute`?"));
     let said = help("inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }", "inertia = [0.01, 0.01, 0.01]");

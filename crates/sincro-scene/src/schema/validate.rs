@@ -10,7 +10,7 @@ use super::{alternatives, exclusive_keys, property, property_names};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Document, NonJson, escape, unescape};
 use crate::suggest::{self, quoted};
-use crate::vocabulary::{self, unit_of_suffix, unit_suffix};
+use crate::vocabulary::{self, SUFFIXES, unit_of_suffix, unit_suffix};
 
 /// Units that keys may carry as a suffix, wherever they come from.
 const UNITS: [&str; 14] =
@@ -184,6 +184,9 @@ impl<'a> Walker<'a> {
         if let Some(near) = self.near_with_suffix(key, choice) {
             return format!("did you mean `{near}`?");
         }
+        if let Some(near) = self.near_to_suffixed(key, choice) {
+            return format!("did you mean `{near}`?");
+        }
         let suffix = |key: &str| UNITS.iter().find(|unit| key.ends_with(**unit)).copied();
         let near = suggest::nearest(key, known.iter().copied()).filter(|near| suffix(near) != suffix(key));
         let Some(near) = near else { return suggest::help(key, &known, "keys here") };
@@ -199,6 +202,24 @@ impl<'a> Walker<'a> {
         let near = suggest::nearest(plain, property_names(choice))?;
         let units = describe::units(describe::description(self.root, property(choice, near)?));
         units.contains(&unit_of_suffix(suffix)).then(|| format!("{near}{suffix}"))
+    }
+
+    /// The key with the suffix of a unit that it may have, if that is nearer than all keys: `position_deg` for
+    /// `position_dg`.
+    fn near_to_suffixed(&self, key: &str, choice: &Map<String, Value>) -> Option<String> {
+        if unit_suffix(key).is_some() {
+            return None;
+        }
+        let known = property_names(choice);
+        let with_suffix = |name: &&str| -> Vec<String> {
+            let schema = property(choice, name).expect("it is one of its properties");
+            let units = describe::units(describe::description(self.root, schema));
+            let fitting = SUFFIXES.iter().filter(|(_, unit, ..)| units.contains(unit));
+            fitting.map(|(suffix, ..)| format!("{name}{suffix}")).collect()
+        };
+        let variants: Vec<String> = known.iter().flat_map(with_suffix).collect();
+        let all = known.iter().copied().chain(variants.iter().map(String::as_str));
+        suggest::nearest(key, all).and_then(|near| variants.iter().find(|v| *v == near).cloned())
     }
 
     fn help_of(&self, schema: &Value) -> Option<String> {
