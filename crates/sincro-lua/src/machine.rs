@@ -344,7 +344,10 @@ impl Machine {
         }
         let call_type = CALL_TYPES.iter().find(|(name, _)| *name == call_type).map(|(_, number)| *number);
         self.lua.globals().set("sim_call_type", call_type)?;
-        self.chunk.call(())
+        self.chunk.call::<()>(())?;
+        let count = self.shared.execution_count(self.index);
+        self.shared.set_execution_count(self.index, count.saturating_add(1));
+        Ok(())
     }
 
     fn call_entry(&mut self, which: fn(&Entries) -> &Option<Function>) -> Result<(), ScriptError> {

@@ -43,6 +43,8 @@ struct Known {
     /// Its Lua state; none before it and those that are started with it are there, and after it has ended.
     state: Option<WeakLua>,
     has_ended: bool,
+    /// Number of the calls of an old script, unless it has set another one itself.
+    n_executions: i64,
 }
 
 impl fmt::Debug for Shared {
@@ -69,7 +71,7 @@ impl Shared {
         let is_same =
             |known: &Known| known.has_ended && (known.script.object, known.script.kind) == (script.object, script.kind);
         let earlier = scripts.iter().position(is_same);
-        let new = Known { script, state: None, has_ended: false };
+        let new = Known { script, state: None, has_ended: false, n_executions: 0 };
         if let Some(place) = earlier {
             scripts[place] = new;
             return place;
@@ -97,6 +99,16 @@ impl Shared {
     /// The Lua state of a script.
     pub fn state(&self, place: usize) -> Option<Lua> {
         open(&self.scripts)[place].state.as_ref()?.try_upgrade()
+    }
+
+    /// Number of the calls of an old script before the present one.
+    pub fn execution_count(&self, place: usize) -> i64 {
+        open(&self.scripts)[place].n_executions
+    }
+
+    /// Sets the number of the calls of an old script.
+    pub fn set_execution_count(&self, place: usize, count: i64) {
+        open(&self.scripts)[place].n_executions = count;
     }
 
     /// The object of a script.

@@ -4,6 +4,7 @@
 //! becomes Lua, as `sim.fooBar` and, as V-REP had it, `simFooBar`; beside it stands what only scripts have: their
 //! parameters, each other, threads.
 
+mod attributes;
 mod callbacks;
 mod modules;
 mod moves;
@@ -60,6 +61,7 @@ pub(crate) fn offer(
     }
     context.replace_some()?;
     scripts::offer(&context)?;
+    attributes::offer(&context)?;
     threads::offer(&context, waits)?;
     moves::offer(&context, waits)?;
     callbacks::offer(&context)?;

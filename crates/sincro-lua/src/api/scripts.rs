@@ -37,7 +37,7 @@ fn handle_of_place(k: usize) -> i64 {
     FIRST_SCRIPT + k as i64
 }
 
-fn unknown(handle: i64, function: &str) -> Error {
+pub(super) fn unknown(handle: i64, function: &str) -> Error {
     Error::RuntimeError(format!("there is no script with the handle {handle} (in function 'sim.{function}')"))
 }
 
@@ -144,7 +144,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
 }
 
 /// Objects of all scripts, or of those on the script's own object and below.
-fn scripts_below(shared: &Arc<Shared>, index: usize, in_tree: bool) -> Vec<Handle> {
+pub(super) fn scripts_below(shared: &Arc<Shared>, index: usize, in_tree: bool) -> Vec<Handle> {
     let own = shared.object(index);
     let tree = shared.with_sim(own, |sim| Ok(sim.registry.visible_tree(own))).unwrap_or_default();
     let mut all = shared.objects();

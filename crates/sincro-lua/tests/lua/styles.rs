@@ -165,3 +165,32 @@ fn a_script_that_stops_the_simulation_ends_the_run_there() {
     assert!(matches!(simulated.status, Status::Stopped { tick: 3, .. }), "{:?}", simulated.status);
     assert_eq!(simulated.table.times().len(), 4);
 }
+
+#[test]
+fn lines_that_v_rep_wrote_around_older_scripts_keep_their_meaning() {
+    let code = "
+        if sim_call_type == sim_childscriptcall_initialization then
+            print(simSetScriptAttribute(sim_handle_self, sim_childscriptattribute_automaticcascadingcalls, false))
+        end
+        if sim_call_type == sim_childscriptcall_sensing then print(simHandleChildScripts(sim_call_type)) end
+        if sim_call_type == sim_childscriptcall_actuation then
+            first = first or 0
+            simSetScriptAttribute(sim_handle_self, sim_scriptattribute_executioncount, first)
+            first = first + 1
+            if simGetScriptExecutionCount() == 0 then print('first') end
+            print(simGetScriptExecutionCount(), simGetScriptAttribute(sim_handle_self, sim_scriptattribute_executioncount))
+        end";
+    assert_eq!(said(code)[..6], ["1", "first", "0\t0", "0", "1\t1", "0"]);
+}
+
+#[test]
+fn calls_of_an_old_script_are_counted_and_those_below_get_no_arguments() {
+    let counted = said("print(simGetScriptExecutionCount(), pcall(simHandleChildScripts, sim_call_type, 1))");
+    assert!(
+        counted[0].starts_with("0\tfalse\t")
+            && counted[0].contains("the scripts below are called by the step itself, without arguments")
+    );
+    assert!(counted[1].starts_with("1\tfalse\t"), "{counted:?}");
+    let refused = said("print(pcall(sim.setScriptAttribute, sim.handle_self, sim.scriptattribute_enabled, 0))");
+    assert!(refused[0].contains("there is no attribute 4: "), "{refused:?}");
+}

@@ -7,7 +7,7 @@ use sincro_testing::clients::legacy::{Client as Legacy, Command, ONCE, ints, tex
 use sincro_testing::clients::zmq::{Client as Zmq, field};
 
 /// Functions that only scripts have: of a thread, of a Lua state.
-const OF_SCRIPTS: [&str; 11] = [
+const OF_SCRIPTS: [&str; 15] = [
     "waitForSignal",
     "setThreadResumeLocation",
     "getScriptHandle",
@@ -16,6 +16,10 @@ const OF_SCRIPTS: [&str; 11] = [
     "getNameSuffix",
     "setNameSuffix",
     "getThreadId",
+    "getScriptExecutionCount",
+    "getScriptAttribute",
+    "setScriptAttribute",
+    "handleChildScripts",
     "getStackTraceback",
     "invertMatrix",
     "getRandom",
