@@ -6,6 +6,9 @@ use sincro_dynamics::joint::JointKind;
 
 use crate::shared::Shared;
 
+/// `sim.jointfloatparam_upper_limit`: the limit of a motor's velocity, infinite if it has none.
+const MAX_VELOCITY: i64 = 2017;
+
 /// Arguments of the callback of a joint.
 struct Seen {
     handle: i32,
@@ -17,6 +20,7 @@ struct Seen {
     target_position: f64,
     target_velocity: f64,
     max_force: f64,
+    max_velocity: f64,
     effort: f64,
 }
 
@@ -37,6 +41,7 @@ fn look(sim: &mut SimApi<'_>) -> Result<Seen, ApiError> {
         target_position: sim.target_position(own)?,
         target_velocity: sim.target_velocity(own)?,
         max_force: sim.target_force(own)?,
+        max_velocity: sim.object_float(own, MAX_VELOCITY)?,
         effort: sim.joint_force(own)?.unwrap_or(0.0),
     })
 }
@@ -78,6 +83,7 @@ fn table_of(lua: &Lua, seen: &Seen, step: f64, is_first: bool) -> mlua::Result<T
         ("currentVel", seen.velocity),
         ("targetVel", seen.target_velocity),
         ("maxForce", seen.max_force),
+        ("velUpperLimit", seen.max_velocity),
         ("effort", seen.effort),
         ("dynStepSize", step),
     ] {

@@ -26,7 +26,7 @@ fn texts(run: &Simulated) -> Vec<&str> {
 }
 
 const JOINT: &str = "function sysCall_joint(joint)
-    if joint.first then print(joint.revolute, joint.lowLimit, joint.highLimit, joint.dynStepSize, joint.targetPos) end
+    if joint.first then print(joint.revolute, joint.lowLimit, joint.highLimit, joint.dynStepSize, joint.targetPos, joint.velUpperLimit) end
     return { velocity = 2 * (0.3 - joint.currentPos) }
 end";
 
@@ -79,7 +79,7 @@ fn a_force_sensor_transmits_the_push_of_a_script() {
 fn a_script_on_a_joint_says_how_fast_its_motor_is() {
     let more = "[[script]]\nobject = \"/first\"\nfile = \"b.lua\"\n";
     let run = with_box("x = 1", "record = [\"/first.position\"]", more);
-    assert_eq!(texts(&run), ["false\t-0.5\t1.0\t0.01\t0.0"]);
+    assert_eq!(texts(&run), ["false\t-0.5\t1.0\t0.01\t0.0\tinf"]);
     let q = &run.table.column("/first.position").unwrap().values;
     // q += h·2·(0.3 − q) at each step of 0.01 s
     let mut expected = 0.0;
