@@ -246,3 +246,17 @@ fn settings_that_would_change_the_physics_are_refused_and_others_taken() {
     let or = masks.map(|(a, b)| call(&mut session, "boolOr32", &[a.into(), b.into()]).remove(0));
     assert_eq!(or, [Value::Int(0xff), Value::Int(-1)]);
 }
+
+#[test]
+fn plug_ins_are_listed_until_there_is_no_further_one() {
+    let mut session = scene();
+    let mut names = Vec::new();
+    for index in 0..10_i64 {
+        match call(&mut session, "getModuleName", &[index.into()]).remove(0) {
+            Value::Nil => break,
+            name => names.push(name),
+        }
+    }
+    assert_eq!(names, [Value::from("RemoteApi"), "IK".into(), "UI".into()]);
+    assert_eq!(call(&mut session, "getPluginName", &[Value::Int(-1)]), [Value::Nil, Value::Nil]);
+}

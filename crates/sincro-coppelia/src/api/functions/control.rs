@@ -4,6 +4,9 @@ use super::{Function, Outcome, done, one};
 use crate::api::stored::check_name;
 use crate::api::{Arguments, Phase, Request, SimApi, Value};
 
+/// Plug-ins of V-REP and CoppeliaSim whose functions are built in, by their names there.
+const MODULES: [&str; 3] = ["RemoteApi", "IK", "UI"];
+
 pub(super) const FUNCTIONS: &[Function] = &[
     Function { name: "startSimulation", tip: "int result=sim.startSimulation()", run: |d, _| ask(d, Request::Start) },
     Function { name: "pauseSimulation", tip: "int result=sim.pauseSimulation()", run: |d, _| ask(d, Request::Pause) },
@@ -39,6 +42,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "getSimulatorMessage",
         tip: "int message,int[4] auxiliaryData,int[] auxiliaryData2=sim.getSimulatorMessage()",
         run: |_, _| Ok(vec![Value::Int(-1), Value::List(vec![Value::Int(0); 4]), Value::List(Vec::new())]),
+    },
+    Function {
+        name: "getModuleName",
+        tip: "string moduleName,int moduleVersion=sim.getModuleName(int index)",
+        run: module,
+    },
+    Function {
+        name: "getPluginName",
+        tip: "string pluginName,int pluginVersion=sim.getPluginName(int index)",
+        run: module,
     },
     Function { name: "addLog", tip: "sim.addLog(int verbosityLevel,string logMessage)", run: log },
     Function { name: "addStatusbarMessage", tip: "int result=sim.addStatusbarMessage(string message)", run: message },
@@ -185,4 +198,11 @@ impl Phase {
     pub fn is_on(self) -> bool {
         self != Self::Stopped
     }
+}
+
+/// Name and version of a plug-in; nothing after the last one, so that loops over all of them end.
+fn module(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let index = usize::try_from(a.int(0)?).ok();
+    let name = index.and_then(|index| MODULES.get(index));
+    Ok(name.map_or_else(|| vec![Value::Nil, Value::Nil], |name| vec![(*name).into(), Value::Int(0)]))
 }

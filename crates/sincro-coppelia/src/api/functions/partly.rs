@@ -55,6 +55,7 @@ const PARTLY: &[(&[&str], &str)] = &[
     ),
     (&["getObjectSel", "setObjectSel"], "nothing shows what is selected"),
     (&["getExtensionString"], "always empty"),
+    (&["getModuleName", "getPluginName"], "RemoteApi, IK and UI, whose functions are built in; version 0"),
     (&["getSimulatorMessage"], "there are none: −1"),
     (&["setJointDependency"], "of joints that have a coupling in the scene"),
     (&["getIsRealTimeSimulation"], "always 0: real time is a flag of the server"),
