@@ -600,6 +600,31 @@ fn a_joint_that_is_made_has_the_stops_that_it_was_given() {
 }
 
 #[test]
+fn a_joint_that_is_made_has_the_motor_that_it_was_given() {
+    let mut session = open(&box_above_floor(0.05));
+    session.start().unwrap();
+    let joint = call(&mut session, "sim.createJoint", &[10_i64.into(), 5_i64.into(), 0_i64.into()])[0].clone();
+    let joint = joint.as_int().unwrap();
+    put(&mut session, joint, [0.0, 2.0, 1.0]);
+    let off = session.call("sim.setJointTargetForce", &[joint.into(), 5.0.into()]).unwrap_err().0;
+    assert!(off.contains("is off"), "{off}");
+    call(&mut session, "sim.setObjectInt32Param", &[joint.into(), 2000_i64.into(), 1_i64.into()]);
+    call(&mut session, "sim.setJointTargetForce", &[joint.into(), 5.0.into()]);
+    let size = Value::reals([0.1, 0.1, 0.1]);
+    let made = call(&mut session, "sim.createPureShape", &[1_i64.into(), 0_i64.into(), size, 2.0.into()])[0].clone();
+    let ball = made.as_int().unwrap();
+    put(&mut session, ball, [0.0, 2.0, 1.0]);
+    call(&mut session, "sim.setObjectParent", &[ball.into(), joint.into(), true.into()]);
+    call(&mut session, "sim.setJointTargetVelocity", &[joint.into(), 0.5.into()]);
+    assert_eq!(call(&mut session, "sim.getJointTargetForce", &[joint.into()]), [Value::Real(5.0)]);
+    let before = call(&mut session, "sim.getJointPosition", &[joint.into()])[0].as_real().unwrap();
+    steps(&mut session, 10);
+    let after = call(&mut session, "sim.getJointPosition", &[joint.into()])[0].as_real().unwrap();
+    // 10 steps of 5 ms at 0.5 rad/s, which 5 N·m on 2/5 m r² reach at 2500 rad/s²
+    assert!((after - before - (0.025 - 0.5 * 0.25 / 2500.0)).abs() < 1e-9, "{} rad", after - before);
+}
+
+#[test]
 fn a_force_sensor_that_is_made_measures_what_is_hung_on_it() {
     let mut session = open(&box_above_floor(0.05));
     session.start().unwrap();

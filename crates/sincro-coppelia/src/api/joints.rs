@@ -96,6 +96,9 @@ impl SimApi<'_> {
         if self.rotor(handle)?.is_some() {
             return Ok(MotorMode::Velocity);
         }
+        if let Some(mode) = self.parked_mode(handle) {
+            return Ok(mode);
+        }
         Ok(self.joint_motor(handle)?.map_or(MotorMode::Free, |m| m.mode))
     }
 
@@ -106,6 +109,9 @@ impl SimApi<'_> {
     ///
     /// `handle` is no object or no joint with one coordinate, or the joint has no motor (give it one in the scene).
     pub fn set_joint_mode(&mut self, handle: Handle, mode: MotorMode) -> Result<(), ApiError> {
+        if self.parked_mode(handle).is_some() {
+            return self.set_parked_mode(handle, mode, POSITION_GAIN);
+        }
         self.change_motor(handle, |motor| {
             motor.mode = mode;
             if mode == MotorMode::Position && motor.kp == 0.0 {
@@ -217,6 +223,9 @@ impl SimApi<'_> {
     /// `handle` is no object or no joint with one coordinate, the joint has no motor, or the effort is not finite.
     pub fn set_target_force(&mut self, handle: Handle, force: f64, signed: bool) -> Result<(), ApiError> {
         let force = finite(force, "force")?;
+        if self.parked_mode(handle).is_some() {
+            return self.set_parked_effort(handle, force.abs());
+        }
         let joint = self.joint_with_motor(handle)?;
         let is_torque = joint.drive.is_some_and(|m| m.mode == MotorMode::Torque);
         if !is_torque {

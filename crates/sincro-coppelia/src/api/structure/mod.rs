@@ -11,6 +11,7 @@ mod group;
 mod hang;
 mod make;
 mod model;
+mod motors;
 mod needed;
 mod remove;
 mod stops;
