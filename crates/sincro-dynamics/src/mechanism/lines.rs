@@ -1,5 +1,5 @@
-//! Springs and dampers along paths, and elastic gears: their forces on links, at one instant or at the end of a linearly
-//! implicit step, and their power. Torques of those on joints are in [`torques`](super::torques).
+//! Springs and dampers along paths, and elastic gears: their forces on links, at one instant or at the end of a
+//! linearly implicit step, and their power. Torques of those on joints are in [`torques`](super::torques).
 
 use sincro_math::Real;
 

@@ -15,7 +15,7 @@ pub(super) struct Law {
     pub bias: [f64; 3],
 }
 
-/// What an actuator becomes.
+/// Part of the robot that an actuator becomes.
 enum Made {
     Motor(Motor),
     Tendon(Tendon),
