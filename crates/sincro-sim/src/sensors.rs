@@ -49,6 +49,7 @@ pub(crate) struct Sensors {
 #[derive(Clone, Debug)]
 struct Sensor {
     kind: SensorKind,
+    path: String,
     /// Its object in the scene; of one that looks, what it looks into.
     object: usize,
     proximity: Option<ProximitySensor>,
@@ -78,6 +79,7 @@ impl Sensors {
             let proximity = ProximitySensor::of(spec, scene);
             list.push(Sensor {
                 kind: spec.kind,
+                path: spec.path.clone(),
                 object: object_of(&spec.path).expect("a sensor is an object"),
                 proximity,
                 of: frame_of(&spec.of).unwrap_or(usize::MAX),
@@ -97,6 +99,13 @@ impl Sensors {
         let scenery = if looks { scene.scenery().clone() } else { Scenery::default() };
         let zero = vec![0.0; if looks { scene.model.n_v() } else { 0 }];
         Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
+    }
+
+    /// Draws the noise of the samples to come by another seed of the experiment.
+    pub fn reseed(&mut self, seed: u64) {
+        for sensor in &mut self.list {
+            sensor.seed = seed_of(seed, &sensor.path);
+        }
     }
 
     /// Sensors of another scene; those that both have keep their last values.

@@ -86,13 +86,18 @@ struct OwnTask(PathBuf);
 
 impl OwnTask {
     fn new(name: &str, experiment: &str, diagram: &str) -> Self {
+        Self::with_scene(name, experiment, diagram, |text| text)
+    }
+
+    /// With a scene that is changed further.
+    fn with_scene(name: &str, experiment: &str, diagram: &str, change: impl Fn(String) -> String) -> Self {
         let folder = std::env::temp_dir().join(format!("sincro-task-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let text = std::fs::read_to_string(scene("cart-pole-balance").join("scene.toml")).unwrap();
         // a motor at the hinge, too
         let text =
             text.replace("parent = \"/rail/cart\"\n", "parent = \"/rail/cart\"\nmotor = { mode = \"torque\" }\n");
-        std::fs::write(folder.join("scene.toml"), text).unwrap();
+        std::fs::write(folder.join("scene.toml"), change(text)).unwrap();
         std::fs::write(folder.join("experiment.toml"), experiment).unwrap();
         std::fs::write(folder.join("control.toml"), diagram).unwrap();
         Self(folder)
@@ -285,4 +290,104 @@ fn a_continuous_diagram_leaves_commands_of_controllers_alone() {
     // from rest, under 2 N alone: the gravity of the tilted pole takes part, the regulator's 8 N do not
     let v = lockstep.state().v[0];
     assert!((0.02..0.045).contains(&v), "{v}");
+}
+
+/// Sensors of every kind that the motion alone decides, at different rates.
+const SENSORS: &str = r#"
+[[sensor]]
+name = "imu"
+parent = "/rail/cart/hinge/pole"
+position = [0.02, 0.01, 0.7]
+rotation_deg = [20.0, 10.0, -30.0]
+sample_time = 0.02
+imu = { accelerometer_bias = [0.1, 0.0, -0.2], accelerometer_noise_density = 0.02, gyro_noise_density = 1e-3 }
+
+[[sensor]]
+name = "tip"
+parent = "/rail/cart/hinge/pole"
+position = [0.0, 0.0, 1.0]
+sample_time = 0.03
+pose = { position_noise = 0.01, angle_noise = 0.005 }
+
+[[sensor]]
+name = "doppler"
+parent = "/rail/cart"
+velocity = { noise = 0.02 }
+
+[[sensor]]
+name = "altimeter"
+parent = "/rail/cart/hinge/pole"
+position = [0.0, 0.0, 1.0]
+sample_time = 0.07
+height = { bias = 0.25, noise = 0.003 }
+"#;
+
+/// A task that observes noisy samples, and whose reward and end depend on them.
+const NOISY_TASK: &str = r#"
+title = "Noisy"
+duration = 1.0
+step = 0.01
+seed = 5
+integrator = "rk4"
+record = ["/rail.position"]
+
+[task]
+period = 0.05
+time_limit = 0.6
+observations = ["ax", "wy", "tip", "pitch", "v", "h", "x", "q", "f", "g", "noise"]
+reward = "sqrt(1.256 - h) + x"
+terminated = "wy > 1.5 or abs(tip) > 0.4"
+
+[task.signals]
+ax = "/rail/cart/hinge/pole/imu.accelerometer.x"
+wy = "/rail/cart/hinge/pole/imu.gyro.y"
+tip = "/rail/cart/hinge/pole/tip.measured_position.x"
+pitch = "/rail/cart/hinge/pole/tip.measured_pitch"
+v = "/rail/cart/doppler.measured_velocity.x"
+h = "/rail/cart/hinge/pole/altimeter.measured_height"
+x = "/rail.position"
+q = "/rail/cart/hinge.position"
+f = "/rail.command"
+g = "/rail/cart/hinge.command"
+
+[task.commands]
+"/rail" = "0.3*push + 2*tip + noise - 0.4*wy"
+
+[[task.action]]
+name = "push"
+range = [-4.0, 5.0]
+
+[[task.random]]
+name = "noise"
+normal = [0.0, 0.3]
+
+[[task.random]]
+signal = "/rail/cart/hinge.position"
+range = [-0.05, 0.05]
+"#;
+
+/// The scene of [`NOISY_TASK`]; without a diagram, the command of the motor at the hinge is a signal that
+/// changes with time.
+fn noisy_scene(text: &str, has_diagram: bool, mode: &str) -> String {
+    let hinge = |motor: &str| format!("parent = \"/rail/cart\"\nmotor = {{ {motor} }}");
+    let wave = "command = { sine = { amplitude = 0.2, angular_frequency = 7.0, offset = 0.1 } }";
+    let motor = if has_diagram { format!("mode = \"{mode}\"") } else { format!("mode = \"{mode}\", {wave}") };
+    text.replace(&hinge("mode = \"torque\""), &hinge(&motor)) + SENSORS
+}
+
+#[test]
+fn noise_of_sensors_differs_from_world_to_world_and_from_episode_to_episode() {
+    let own = OwnTask::with_scene("noise", NOISY_TASK, "", |text| noisy_scene(&text, false, "torque"));
+    let loaded = load(&own.0, &[], Extensions::default()).unwrap_or_else(|found| panic!("{found}"));
+    let mut worlds = TaskWorlds::new(&loaded, 2, 1).unwrap();
+    let n = worlds.plan().n_observations();
+    // the velocity of the cart, which is at rest
+    let mut first = |seeds: [Option<u64>; 2]| {
+        let mut observations = vec![0.0; 2 * n];
+        worlds.reset(&seeds, &[true; 2], &mut observations);
+        [observations[4], observations[n + 4]]
+    };
+    let (one, other, again) = (first([Some(1), Some(2)]), first([None, None]), first([Some(1), Some(2)]));
+    assert_eq!(one, again);
+    assert!(one[0] != one[1] && one[0] != other[0], "{one:?} {other:?}");
 }

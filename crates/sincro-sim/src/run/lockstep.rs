@@ -332,6 +332,12 @@ impl LockStep {
         }
     }
 
+    /// Draws the noise of sensors by another seed than that of the experiment, from the next sample on.
+    pub(crate) fn reseed_sensors(&mut self, seed: u64) {
+        self.timing.seed = seed;
+        self.sensors.reseed(seed);
+    }
+
     /// Returns the controller that runs the scene's diagram; `None` if there is no diagram.
     #[must_use]
     pub fn control(&self) -> Option<&DiagramController<f64>> {

@@ -108,6 +108,8 @@ pub(super) struct Drawn {
     pub named: Vec<f64>,
     /// Numbers of the scene and the diagram.
     pub overrides: Vec<Override>,
+    /// Seed of the noise of sensors, in place of that of the experiment.
+    pub noise_seed: u64,
 }
 
 impl Plan {
@@ -276,7 +278,7 @@ impl Plan {
     /// Draws of an episode: number `k` is number `k` of the generator of the seed's episode, whatever was drawn before.
     pub(super) fn drawn(&self, seed: u64, episode: u64) -> Drawn {
         let state = self.loaded.scene.initial.clone();
-        let mut drawn = Drawn { state, named: Vec::new(), overrides: Vec::new() };
+        let mut drawn = Drawn { state, named: Vec::new(), overrides: Vec::new(), noise_seed: 0 };
         self.draw(seed, episode, &mut drawn);
         drawn
     }
@@ -284,6 +286,8 @@ impl Plan {
     /// As [`Plan::drawn`], into what an earlier call gave.
     pub(super) fn draw(&self, seed: u64, episode: u64, drawn: &mut Drawn) {
         let key = splitmix64(seed, episode);
+        // by a number that no random number of the task has
+        drawn.noise_seed = splitmix64(key, u64::MAX) ^ self.loaded.experiment.seed;
         let value = |k: usize| {
             let key = splitmix64(key, k as u64);
             match self.task.random[k].distribution {

@@ -76,6 +76,7 @@ impl SingleWorld {
             *now = if drawn == nominal { *now } else { *drawn };
         }
         lockstep.set_state(state, &[]);
+        lockstep.reseed_sensors(drawn.noise_seed);
         self.is_good = lockstep.start().is_ok();
         let entries = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
         let recorder = Recorder::new(&plan.task.signals, &loaded.scene.model, &entries);
