@@ -5,8 +5,9 @@ use sincro_blocks::program::seed_of;
 use sincro_dynamics::constraint::ContactPoint;
 use sincro_dynamics::coupled::StateView;
 use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
-use sincro_dynamics::spatial::{Quat, Vec3};
+use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_dynamics::world::World;
+use sincro_math::Real;
 use sincro_math::random::splitmix64;
 
 use crate::controller::Controller;
@@ -46,10 +47,13 @@ pub(crate) struct Sensors {
     zero: Vec<f64>,
 }
 
+/// Sensor of a scene with its sample time and the seed of its noise.
 #[derive(Clone, Debug)]
-struct Sensor {
+pub(crate) struct Sensor {
     kind: SensorKind,
     path: String,
+    /// Its frame among those of the model.
+    frame: usize,
     /// Its object in the scene; of one that looks, what it looks into.
     object: usize,
     proximity: Option<ProximitySensor>,
@@ -57,12 +61,41 @@ struct Sensor {
     of: usize,
     with: Vec<usize>,
     at: Attached<f64>,
-    every: u64,
+    /// Sample time, in base steps.
+    pub every: u64,
     /// 1/√(sample time).
     root_rate: f64,
     seed: u64,
     first: usize,
     n: usize,
+}
+
+/// Measurement without its errors, of a sensor that needs the kinematics alone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Exact<R> {
+    /// Specific force `[m/s²]` and angular velocity `[rad/s]` in the sensor's axes.
+    Imu { force: Vec3<R>, rate: Vec3<R> },
+    /// Pose in the world `[m]`.
+    Pose(Pose<R>),
+    /// Velocity in world axes `[m/s]`.
+    Velocity(Vec3<R>),
+    /// Height above z = 0 `[m]`.
+    Height(R),
+}
+
+impl<R: Real> Exact<R> {
+    /// Measurement of one lane.
+    pub fn lane(&self, k: usize) -> Exact<f64> {
+        let vector = |v: Vec3<R>| Vec3(v.0.map(|x| x.lane(k)));
+        match *self {
+            Self::Imu { force, rate } => Exact::Imu { force: vector(force), rate: vector(rate) },
+            Self::Pose(Pose { rot, pos }) => {
+                Exact::Pose(Pose { rot: Mat3(rot.0.map(|row| row.map(|x| x.lane(k)))), pos: vector(pos) })
+            }
+            Self::Velocity(v) => Exact::Velocity(vector(v)),
+            Self::Height(z) => Exact::Height(z.lane(k)),
+        }
+    }
 }
 
 impl Sensors {
@@ -80,6 +113,7 @@ impl Sensors {
             list.push(Sensor {
                 kind: spec.kind,
                 path: spec.path.clone(),
+                frame,
                 object: object_of(&spec.path).expect("a sensor is an object"),
                 proximity,
                 of: frame_of(&spec.of).unwrap_or(usize::MAX),
@@ -101,10 +135,15 @@ impl Sensors {
         Self { list, values: vec![0.0; first], accelerations, points, scenery, zero }
     }
 
+    /// The sensors alone, in the order of the scene.
+    pub fn into_list(self) -> Vec<Sensor> {
+        self.list
+    }
+
     /// Draws the noise of the samples to come by another seed of the experiment.
     pub fn reseed(&mut self, seed: u64) {
         for sensor in &mut self.list {
-            sensor.seed = seed_of(seed, &sensor.path);
+            sensor.seed = sensor.seed_in(seed);
         }
     }
 
@@ -174,42 +213,76 @@ impl Sensors {
 impl Sensor {
     /// Sample `k`, after the kinematics.
     fn measure(&self, seen: &StateView<'_, f64>, k: u64, points: &[ContactPoint], y: &mut [f64]) {
-        let noise = |component: usize| gaussian(splitmix64(self.seed, component as u64), k);
-        let three = |first: usize, x: Vec3<f64>, errors: &Errors, scale: f64| -> [f64; 3] {
-            core::array::from_fn(|i| x[i] + errors.bias[i] + scale * errors.noise * noise(first + i))
+        let SensorKind::Contact { force_noise, torque_noise, threshold } = &self.kind else {
+            let exact = self.exact(seen).expect("proximity sensors have their samples taken before");
+            return self.add_errors(&exact, self.seed, k, y);
         };
-        let plain = |noise: f64| Errors { bias: [0.0; 3], noise };
         let pose = frame_pose(seen.scratch, &self.at);
-        match &self.kind {
-            SensorKind::Imu { accelerometer, gyro } => {
-                let own = |v: Vec3<f64>| pose.rot.transpose().mul_vec(v);
-                let force = own(frame_acceleration(seen.scratch, &self.at).lin - seen.model.gravity_at(pose.pos));
-                let rate = own(frame_velocity(seen.scratch, &self.at).ang);
-                y[..3].copy_from_slice(&three(0, force, accelerometer, self.root_rate));
-                y[3..].copy_from_slice(&three(3, rate, gyro, self.root_rate));
+        let (force, torque, n) = self.touch(seen, points, pose.pos, *threshold);
+        let own = |v: Vec3<f64>| pose.rot.tr_mul_vec(v);
+        let noise = Noise { seed: self.seed, k };
+        y[..3].copy_from_slice(&noise.three(0, own(force), &plain(*force_noise), 1.0));
+        y[3..6].copy_from_slice(&noise.three(3, own(torque), &plain(*torque_noise), 1.0));
+        y[6] = f64::from(n > 0);
+        y[7] = f64::from(n);
+    }
+
+    /// Returns true if it measures accelerations.
+    pub fn measures_accelerations(&self) -> bool {
+        matches!(self.kind, SensorKind::Imu { .. })
+    }
+
+    /// Seed of its noise in an experiment with the seed `seed`.
+    pub fn seed_in(&self, seed: u64) -> u64 {
+        seed_of(seed, &self.path)
+    }
+
+    /// Range of its values among those of all sensors.
+    pub fn values(&self) -> core::ops::Range<usize> {
+        self.first..self.first + self.n
+    }
+
+    /// Measurement without errors, after the kinematics, those of an IMU with the accelerations; none of a sensor that
+    /// measures anything else.
+    #[inline(always)]
+    pub fn exact<R: Real>(&self, seen: &StateView<'_, R>) -> Option<Exact<R>> {
+        let at = attached(seen.model, self.frame);
+        Some(match self.kind {
+            SensorKind::Imu { .. } => {
+                let pose = frame_pose(seen.scratch, &at);
+                let own = |v: Vec3<R>| pose.rot.transpose().mul_vec(v);
+                let gravity = seen.model.gravity_at(pose.pos);
+                let force = own(frame_acceleration(seen.scratch, &at).lin - gravity);
+                Exact::Imu { force, rate: own(frame_velocity(seen.scratch, &at).ang) }
             }
-            SensorKind::Pose { position_noise, angle_noise } => {
-                y[..3].copy_from_slice(&three(0, pose.pos, &plain(*position_noise), 1.0));
-                let half = Vec3(core::array::from_fn(|i| 0.5 * angle_noise * noise(3 + i)));
+            SensorKind::Pose { .. } => Exact::Pose(frame_pose(seen.scratch, &at)),
+            SensorKind::Velocity { .. } => Exact::Velocity(frame_velocity(seen.scratch, &at).lin),
+            SensorKind::Height { .. } => Exact::Height(frame_pose(seen.scratch, &at).pos[2]),
+            SensorKind::Contact { .. } | SensorKind::Proximity { .. } => return None,
+        })
+    }
+
+    /// Writes sample `k` of a measurement: with bias, and with noise drawn by the seed `seed` ([`Sensor::seed_in`]).
+    pub fn add_errors(&self, exact: &Exact<f64>, seed: u64, k: u64, y: &mut [f64]) {
+        let noise = Noise { seed, k };
+        match (&self.kind, exact) {
+            (SensorKind::Imu { accelerometer, gyro }, Exact::Imu { force, rate }) => {
+                y[..3].copy_from_slice(&noise.three(0, *force, accelerometer, self.root_rate));
+                y[3..].copy_from_slice(&noise.three(3, *rate, gyro, self.root_rate));
+            }
+            (SensorKind::Pose { position_noise, angle_noise }, Exact::Pose(pose)) => {
+                y[..3].copy_from_slice(&noise.three(0, pose.pos, &plain(*position_noise), 1.0));
+                let half = Vec3(core::array::from_fn(|i| 0.5 * angle_noise * noise.of(3 + i)));
                 let turned = Quat::from_matrix(&pose.rot).mul(&Quat { w: 1.0, xyz: half }.normalized());
                 y[3] = turned.w;
                 y[4..7].copy_from_slice(&turned.xyz.0);
                 y[7..].copy_from_slice(&kinematics::roll_pitch_yaw(&turned.matrix()).0);
             }
-            SensorKind::Velocity { noise } => {
-                let velocity = frame_velocity(seen.scratch, &self.at).lin;
-                y.copy_from_slice(&three(0, velocity, &plain(*noise), 1.0));
+            (SensorKind::Velocity { noise: std }, Exact::Velocity(velocity)) => {
+                y.copy_from_slice(&noise.three(0, *velocity, &plain(*std), 1.0));
             }
-            SensorKind::Height { bias, noise: std } => y[0] = pose.pos[2] + bias + std * noise(0),
-            SensorKind::Contact { force_noise, torque_noise, threshold } => {
-                let (force, torque, n) = self.touch(seen, points, pose.pos, *threshold);
-                let own = |v: Vec3<f64>| pose.rot.tr_mul_vec(v);
-                y[..3].copy_from_slice(&three(0, own(force), &plain(*force_noise), 1.0));
-                y[3..6].copy_from_slice(&three(3, own(torque), &plain(*torque_noise), 1.0));
-                y[6] = f64::from(n > 0);
-                y[7] = f64::from(n);
-            }
-            SensorKind::Proximity { .. } => unreachable!("proximity sensors have their samples taken before"),
+            (SensorKind::Height { bias, noise: std }, Exact::Height(z)) => y[0] = z + bias + std * noise.of(0),
+            _ => unreachable!("the measurement is of the sensor's kind"),
         }
     }
 
@@ -277,4 +350,27 @@ impl Sensor {
         }
         (force, torque, n)
     }
+}
+
+/// Noise of sample `k`.
+struct Noise {
+    seed: u64,
+    k: u64,
+}
+
+impl Noise {
+    /// Standard normal number of a component.
+    fn of(&self, component: usize) -> f64 {
+        gaussian(splitmix64(self.seed, component as u64), self.k)
+    }
+
+    /// Vector with its errors, components from `first` on.
+    fn three(&self, first: usize, x: Vec3<f64>, errors: &Errors, scale: f64) -> [f64; 3] {
+        core::array::from_fn(|i| x[i] + errors.bias[i] + scale * errors.noise * self.of(first + i))
+    }
+}
+
+/// Errors without bias.
+fn plain(noise: f64) -> Errors {
+    Errors { bias: [0.0; 3], noise }
 }

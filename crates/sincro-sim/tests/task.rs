@@ -366,6 +366,53 @@ signal = "/rail/cart/hinge.position"
 range = [-0.05, 0.05]
 "#;
 
+/// A number of the scene that is drawn for each episode, always the same: worlds of its task are stepped one by one.
+const ONE_BY_ONE: &str = r#"
+[[task.random]]
+path = "/rail/cart/hinge/pole.mass"
+range = [0.1, 0.1]
+"#;
+
+/// A diagram that reads noisy samples at ticks, two of its rates, a source that changes with time and noise of its own;
+/// a block of it may fail.
+const NOISY_DIAGRAM: &str = r#"
+sample_time = 0.01
+wires = [
+  "/rail/cart/hinge/pole/imu.gyro.y -> late -> both.w",
+  "/rail/cart/hinge/pole/tip.measured_pitch -> both.p",
+  "/rail/cart/doppler.measured_velocity.x -> both.v",
+  "/rail/cart/hinge.position -> both.q",
+  "dither -> both.d",
+  "hiss -> both.n",
+  "both -> /rail/cart/hinge",
+]
+
+[[block]]
+name = "hiss"
+type = "noise"
+sample_time = 0.02
+std = 0.01
+
+[[block]]
+name = "late"
+type = "unit-delay"
+sample_time = 0.03
+initial = 0.01
+
+[[block]]
+name = "dither"
+type = "sine"
+sample_time = 0.01
+amplitude = 0.05
+angular_frequency = 9.0
+
+[[block]]
+name = "both"
+type = "expression"
+inputs = ["w", "p", "v", "q", "d", "n"]
+expression = "sqrt(0.06 - q) - 2*p - 0.1*w - 0.05*v + d + n"
+"#;
+
 /// The scene of [`NOISY_TASK`]; without a diagram, the command of the motor at the hinge is a signal that
 /// changes with time.
 fn noisy_scene(text: &str, has_diagram: bool, mode: &str) -> String {
@@ -373,6 +420,49 @@ fn noisy_scene(text: &str, has_diagram: bool, mode: &str) -> String {
     let wave = "command = { sine = { amplitude = 0.2, angular_frequency = 7.0, offset = 0.1 } }";
     let motor = if has_diagram { format!("mode = \"{mode}\"") } else { format!("mode = \"{mode}\", {wave}") };
     text.replace(&hinge("mode = \"torque\""), &hinge(&motor)) + SENSORS
+}
+
+#[test]
+fn worlds_with_noisy_sensors_run_in_lanes_as_one_by_one() {
+    let n = 64 + 3;
+    let with_diagram = NOISY_TASK.replace("step = 0.01", "step = 0.01\ndiagram = \"control.toml\"");
+    let euler = NOISY_TASK.replace("rk4", "semi-implicit-euler");
+    let implicit = with_diagram.replace("rk4", "implicit");
+    let tasks = [
+        ("sensors", NOISY_TASK, ""),
+        ("sensors-euler", &euler, ""),
+        ("sensors-driven", &NOISY_TASK.replace("1.256 - h", "0.05 - q"), ""),
+        ("sensors-diagram", &with_diagram, NOISY_DIAGRAM),
+        ("sensors-implicit", &implicit, NOISY_DIAGRAM),
+    ];
+    for (name, task, diagram) in tasks {
+        let mode = if name == "sensors-driven" { "velocity" } else { "torque" };
+        let scene = |text: String| noisy_scene(&text, !diagram.is_empty(), mode);
+        let lanes = OwnTask::with_scene(name, task, diagram, scene);
+        let alone = OwnTask::with_scene(&format!("{name}-alone"), &(task.to_owned() + ONE_BY_ONE), diagram, scene);
+        let [lanes, alone] = [&lanes, &alone]
+            .map(|own| load(&own.0, &[], Extensions::default()).unwrap_or_else(|found| panic!("{name}: {found}")));
+        for autoreset in [Autoreset::SameStep, Autoreset::NextStep, Autoreset::Disabled] {
+            let mut worlds = TaskWorlds::new(&alone, n, 2).unwrap();
+            assert!(worlds.plan().lanes_refused().is_some_and(|why| why.contains("drawn")), "{name}");
+            let expected = episodes(&mut worlds, autoreset, 60);
+            for threads in [1, 2] {
+                let mut worlds = TaskWorlds::new(&lanes, n, threads).unwrap();
+                if sincro_math::lanes::width() > 1 {
+                    assert_eq!(worlds.plan().lanes_refused(), None, "{name}");
+                }
+                let found = episodes(&mut worlds, autoreset, 60);
+                for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                    let differs = found.iter().zip(expected).position(|(a, b)| a != b);
+                    let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
+                    assert_eq!(differs.map(of), None, "{name}, {autoreset:?}, {threads} threads, world {world}");
+                    assert_eq!(found.len(), expected.len());
+                }
+            }
+            let n_stopped = expected.iter().flatten().filter(|x| **x == STOPPED).count();
+            assert!(n_stopped > 5, "{name}: worlds that cannot go on: {n_stopped}");
+        }
+    }
 }
 
 #[test]

@@ -43,6 +43,8 @@ pub struct LaneWorlds<R> {
     pub(super) mechanism: Mechanism<R>,
     pub(super) y: Vec<R>,
     pub(super) reach_target_velocities: Vec<R>,
+    /// Time derivative of `y`, as last computed for a view with accelerations.
+    slope: Vec<R>,
     method: FixedMethod<R>,
     compiled: Option<Arc<dyn CompiledStep>>,
     /// State and commands as the compiled step has them.
@@ -86,6 +88,22 @@ impl<R: Real> Task for Step<'_, R> {
     }
 }
 
+/// Computation of the accelerations in the present state under the present commands.
+struct FindSlope<'a, R> {
+    worlds: &'a mut LaneWorlds<R>,
+}
+
+impl<R: Real> Task for FindSlope<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let LaneWorlds { mechanism, y, slope, .. } = self.worlds;
+        mechanism.mark_locked();
+        mechanism.slope(0.0, y, slope);
+    }
+}
+
 impl<R: Real> LaneWorlds<R> {
     /// Puts `models[k]` into lane k; the last model fills the remaining lanes. All coordinates and velocities are zero.
     ///
@@ -107,7 +125,8 @@ impl<R: Real> LaneWorlds<R> {
         };
         let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
         let (compiled, rows) = (None, Vec::new());
-        Ok(Self { y: vec![R::zero(); dim], reach_target_velocities, mechanism, method, compiled, rows })
+        let zeros = || vec![R::zero(); dim];
+        Ok(Self { y: zeros(), slope: zeros(), reach_target_velocities, mechanism, method, compiled, rows })
     }
 
     /// Lets a compiled step make the steps from now on, wherever it can.
@@ -178,6 +197,25 @@ impl<R: Real> LaneWorlds<R> {
             zeros.fill(R::zero());
             kinematics::motions(&mechanism.model, &mechanism.base, v, zeros, &mut mechanism.scratch);
         }
+        let (model, q, commands) = (&mechanism.model, &*mechanism.base, &*mechanism.commands);
+        StateView { t: 0.0, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
+    }
+
+    /// As [`LaneWorlds::view`] with the kinematics, and with the accelerations of links `[rad/s²]`, `[m/s²]` under the
+    /// present commands. A number type of one lane has zeros for these: one world alone is a
+    /// [`World`](crate::world::World).
+    #[inline(always)]
+    pub(super) fn view_with_accelerations(&mut self) -> StateView<'_, R> {
+        // one world alone is a `World`: no copy of the recursions for it
+        if R::IS_SCALAR {
+            return self.view(true);
+        }
+        R::run_hot(FindSlope { worlds: self });
+        let Self { mechanism, y, slope, .. } = self;
+        let layout = mechanism.layout();
+        let (v, rotors) = (&y[layout.velocities()], &y[layout.rotor_states()]);
+        let accelerations = &slope[layout.velocities()];
+        kinematics::motions(&mechanism.model, &mechanism.base, v, accelerations, &mut mechanism.scratch);
         let (model, q, commands) = (&mechanism.model, &*mechanism.base, &*mechanism.commands);
         StateView { t: 0.0, model, q, v, rotors, commands, scratch: &mut mechanism.scratch }
     }

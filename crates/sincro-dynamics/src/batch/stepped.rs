@@ -92,6 +92,13 @@ impl SteppedLanes {
         dispatch_lanes(Observe { lanes: self, observer })
     }
 
+    /// As [`SteppedLanes::observe`] with the kinematics, and with the accelerations of links `[rad/s²]`, `[m/s²]` under
+    /// the present commands in the scratch.
+    pub fn observe_with_accelerations<O: LaneObserver>(&mut self, observer: O) -> O::Output {
+        dispatch_lanes(FindAccelerations { lanes: self });
+        dispatch_lanes(Observe { lanes: self, observer })
+    }
+
     fn worlds<R: Real>(&mut self) -> &mut LaneWorlds<R> {
         self.worlds.downcast_mut().expect("the dispatch takes the same lanes each time")
     }
@@ -200,6 +207,19 @@ impl LaneVisitor for UpdateKinematics<'_> {
     #[inline(always)]
     fn visit<R: Real>(self) {
         self.lanes.worlds::<R>().view(true);
+    }
+}
+
+struct FindAccelerations<'a> {
+    lanes: &'a mut SteppedLanes,
+}
+
+impl LaneVisitor for FindAccelerations<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        self.lanes.worlds::<R>().view_with_accelerations();
     }
 }
 

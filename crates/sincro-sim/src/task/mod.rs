@@ -1,14 +1,15 @@
 //! Tasks of scenes: many worlds at once for reinforcement learning, each with its own random starts.
 //!
 //! [`TaskWorlds`] steps all worlds by one action each and gives observations, rewards and the ends of episodes. Worlds
-//! that lanes can advance together do so (fixed steps; no contacts, diagrams, scripts and limited drives), the others
-//! are lock-steps of their own; threads share them out. Nothing that a world gives depends on its neighbours: the same
-//! seed gives the same episodes on any number of worlds, lanes and threads.
+//! that lanes can advance together do so (fixed steps; no contacts, scripts, limited drives and continuous diagrams),
+//! with a diagram and the noise of sensors for each; the others are lock-steps of their own; threads share them out.
+//! Nothing that a world gives depends on its neighbours: the same seed gives the same episodes on any number of worlds,
+//! lanes and threads.
 //!
 //! | file | content |
 //! |---|---|
 //! | `plan` | the task with its names resolved, and the draws of an episode |
-//! | `lanes` | a bundle of worlds in lanes |
+//! | `lanes` | a bundle of worlds in lanes, with their diagrams and sensors |
 //! | `single` | a world as a lock-step |
 //! | `compiled` | the actions of a task as compiled programs |
 //! | `threads` | groups shared out to threads |
@@ -37,7 +38,7 @@ use sincro_scene::diagnostic::Diagnostics;
 /// each; training takes thousands of steps.
 const WORTH_COMPILING: usize = 256;
 
-/// Number of worlds with a diagram from which a compilation pays: these are lock-steps else, and it saves some
+/// Number of worlds with a diagram from which a compilation pays: these have a diagram each else, and it saves some
 /// microseconds a step of each.
 const WORTH_COMPILING_A_DIAGRAM: usize = 16;
 
@@ -307,7 +308,7 @@ fn compile_task(plan: &Plan, n: usize, compile: Compile) -> Result<(CompiledTask
     if let Some(part) = plan.obstacle_to_programs() {
         return Err(Obstacle::new(format!("there is {part}")));
     }
-    let worth = if plan.recursions_refused().is_none() { WORTH_COMPILING } else { WORTH_COMPILING_A_DIAGRAM };
+    let worth = if plan.loaded.controller.is_none() { WORTH_COMPILING } else { WORTH_COMPILING_A_DIAGRAM };
     match compile {
         Compile::Never => Err(Obstacle::new("that is not wanted")),
         Compile::IfItPays if n < worth => Err(Obstacle::new("it would take longer than the steps")),

@@ -16,12 +16,13 @@ use super::compiled::CompiledTask;
 use crate::load::Loaded;
 use crate::run::method_for;
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
-use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::diagram::{ControlDiagram, is_known_at_ticks_only};
 use sincro_scene::experiment::task::{Distribution, Target, Task, command_index};
 use sincro_scene::overrides::Override;
 use sincro_scene::record::probe::{needs_kinematics, of_state};
 use sincro_scene::record::{Probe, Recorder, catalogue};
 use sincro_scene::scene::Scene;
+use sincro_scene::sensor::SensorKind;
 
 /// A formula, the plain ones known as such.
 #[derive(Clone, Debug)]
@@ -92,6 +93,8 @@ pub struct Plan {
     pub(super) of_actions: Vec<Option<usize>>,
     /// Commands by formulas.
     pub(super) of_formulas: Vec<(usize, Formula)>,
+    /// Commands that signals of the scene give which change with time, and which the task leaves to them.
+    pub(super) varying_commands: Vec<usize>,
     starts: Vec<(usize, StartAt)>,
     /// Reason why the recursions cannot advance the worlds in lanes.
     recursions_refused: Option<String>,
@@ -150,12 +153,16 @@ impl Plan {
             terminated: task.terminated.as_ref().map(of),
             of_actions: task.actions.iter().map(|a| a.command.as_ref().and_then(|c| command(&c.value))).collect(),
             of_formulas: task.commands.iter().filter_map(|(c, f)| Some((command(&c.value)?, of(f)))).collect(),
+            varying_commands: Vec::new(),
             starts: starts.collect(),
             recursions_refused: None,
             compiled: None,
             loaded: loaded.clone(),
             task,
         };
+        let is_varying = |command: &usize| !matches!(loaded.scene.commands[*command], Signal::Constant(_));
+        let left = |command: &usize| !plan.own_commands().any(|own| own == *command);
+        plan.varying_commands = (0..plan.n_commands()).filter(is_varying).filter(left).collect();
         plan.recursions_refused = plan.obstacle_to_recursions().map(ToOwned::to_owned);
         let middle = plan.drawn(0, 0);
         if !middle.overrides.is_empty() {
@@ -166,11 +173,61 @@ impl Plan {
 
     /// Part of the scene that keeps the recursions from advancing its worlds in lanes, in words.
     fn obstacle_to_recursions(&self) -> Option<&str> {
-        if self.loaded.controller.is_some() { Some("a diagram") } else { self.obstacle_to_programs() }
+        self.common_obstacle().or_else(|| self.obstacle_in_diagram()).or_else(|| {
+            let is_known = |probe: &Probe| is_of_state(&self.loaded.scene.model, *probe) || self.is_of_lanes(*probe);
+            (!self.probes.iter().all(is_known)).then_some(
+                "a signal that lanes do not compute, such as a contact, an acceleration or a proximity sensor",
+            )
+        })
+    }
+
+    /// Part of the diagram that keeps it from running beside lanes, in words.
+    fn obstacle_in_diagram(&self) -> Option<&'static str> {
+        let wiring = &self.loaded.controller.as_ref()?.wiring;
+        if wiring.program().is_continuous() {
+            return Some("a diagram that acts between the steps");
+        }
+        if !wiring.late.is_empty() {
+            return Some("a diagram that measures accelerations or motor torques");
+        }
+        let measured = |probe: &Probe| !is_known_at_ticks_only(*probe) || self.is_of_lanes(*probe);
+        (!wiring.early.iter().flat_map(|reading| &reading.probes).all(measured))
+            .then_some("a diagram that measures a contact, a proximity sensor, or a mean over the step")
+    }
+
+    /// Returns true for the value of a sensor that the state and the accelerations decide, with its noise.
+    fn is_of_lanes(&self, probe: Probe) -> bool {
+        let Probe::Sensor(value) = probe else { return false };
+        let sensors = self.loaded.scene.sensors.iter();
+        let mut of_values = sensors.flat_map(|sensor| sensor.kind.values().into_iter().map(|_| sensor.kind));
+        !matches!(of_values.nth(value), None | Some(SensorKind::Contact { .. } | SensorKind::Proximity { .. }))
+    }
+
+    /// Values of sensors that the task or its diagram reads, by their numbers among those of all sensors.
+    pub(super) fn read_sensor_values(&self) -> impl Iterator<Item = usize> {
+        let wiring = self.loaded.controller.as_ref().map(|controller| &controller.wiring);
+        let of_diagram = wiring.into_iter().flat_map(|wiring| &wiring.early).flat_map(|reading| &reading.probes);
+        self.probes.iter().chain(of_diagram).filter_map(|probe| match probe {
+            Probe::Sensor(value) => Some(*value),
+            _ => None,
+        })
     }
 
     /// Part of the scene that keeps compiled programs from advancing its worlds, in words; its diagram apart.
     pub(super) fn obstacle_to_programs(&self) -> Option<&str> {
+        self.common_obstacle().or_else(|| {
+            let scene = &self.loaded.scene;
+            if !scene.commands.iter().all(|s| matches!(s, Signal::Constant(_))) {
+                return Some("signals of the scene that change with time");
+            }
+            (!self.probes.iter().all(|probe| is_of_state(&scene.model, *probe))).then_some(
+                "a signal that the state alone does not decide, such as a sensor, a contact or an acceleration",
+            )
+        })
+    }
+
+    /// Part of the scene that neither recursions nor programs advance in lanes, in words.
+    fn common_obstacle(&self) -> Option<&'static str> {
         let scene = &self.loaded.scene;
         let fixed = matches!(self.method, MethodKind::SemiImplicitEuler | MethodKind::Rk4 | MethodKind::Implicit);
         let model = &*scene.model;
@@ -186,13 +243,8 @@ impl Plan {
         if self.task.random.iter().any(|random| matches!(random.target, Target::Parameter(_))) {
             return Some("numbers of the scene that are drawn for each episode");
         }
-        if !is_time_invariant(model) || !scene.commands.iter().all(|s| matches!(s, Signal::Constant(_))) {
-            return Some("signals, gusts or turbulence that change with time");
-        }
-        if self.probes.iter().any(|probe| !is_of_state(model, *probe)) {
-            return Some(
-                "a signal that the state alone does not decide, such as a sensor, a contact or an acceleration",
-            );
+        if !is_time_invariant(model) {
+            return Some("forces, gusts or turbulence that change with time");
         }
         if sincro_math::lanes::width() == 1 {
             return Some("a processor without AVX2");

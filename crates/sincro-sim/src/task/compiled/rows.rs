@@ -1,5 +1,6 @@
 //! Numbers of a bundle of worlds as the compiled programs have them: a row of lanes for each.
 
+use sincro_blocks::runner::State as DiagramState;
 use sincro_dynamics::state::State;
 
 use super::{Action, CompiledTask, Layout, flags, native};
@@ -135,9 +136,16 @@ impl Rows {
     }
 
     /// Signals and memory of the diagram of a world.
-    pub fn read_diagram(&self, lane: usize, signals: &mut [f64], memory: &mut [f64]) {
-        for (k, x) in signals.iter_mut().chain(memory).enumerate() {
+    pub fn read_diagram(&self, lane: usize, diagram: &mut DiagramState<f64>) {
+        for (k, x) in diagram.signals.iter_mut().chain(&mut diagram.memory).enumerate() {
             *x = self.get(lane, self.layout.signals() + k);
+        }
+    }
+
+    /// Sets signals and memory of the diagram of a world.
+    pub fn set_diagram(&mut self, lane: usize, diagram: &DiagramState<f64>) {
+        for (k, x) in diagram.signals.iter().chain(&diagram.memory).enumerate() {
+            self.set(lane, self.layout.signals() + k, *x);
         }
     }
 

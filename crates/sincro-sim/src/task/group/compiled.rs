@@ -244,6 +244,9 @@ impl Group {
                 for (k, commands) in self.commands.chunks_exact(layout.n_commands.max(1)).enumerate() {
                     commands.iter().enumerate().for_each(|(i, x)| rows.set(k, layout.n_state + i, *x));
                 }
+                for k in (0..task.width()).filter(is_here) {
+                    bundle.diagram(k).into_iter().for_each(|diagram| rows.set_diagram(k, diagram));
+                }
             }
             Worlds::Single(worlds) => {
                 for k in (0..task.width()).filter(is_here) {
@@ -251,9 +254,7 @@ impl Group {
                     let State { q, v, rotors, commands, .. } = state;
                     let numbers = q.iter().chain(v).chain(rotors).chain(commands);
                     numbers.enumerate().for_each(|(i, x)| rows.set(k, i, *x));
-                    let of_diagram =
-                        diagram.into_iter().flat_map(|diagram| diagram.signals.iter().chain(&diagram.memory));
-                    of_diagram.enumerate().for_each(|(i, x)| rows.set(k, layout.signals() + i, *x));
+                    diagram.into_iter().for_each(|diagram| rows.set_diagram(k, diagram));
                 }
             }
         }
@@ -287,16 +288,17 @@ impl Group {
             self.episodes.actions[k] = rows.get(k, layout.count()) as u64;
             let commands = &mut self.commands[k * layout.n_commands..][..layout.n_commands];
             commands.iter_mut().enumerate().for_each(|(i, x)| *x = unsigned_zero(rows.get(k, layout.n_state + i)));
+            let tick = self.episodes.actions[k] * plan.task.ticks;
             match &mut self.worlds {
-                Worlds::Lanes(bundle) => bundle.place(plan, k, &state),
+                Worlds::Lanes(bundle) => bundle.resume(plan, k, tick, &state, |diagram| rows.read_diagram(k, diagram)),
                 Worlds::Single(worlds) => {
-                    worlds[k].resume(self.episodes.actions[k] * plan.task.ticks, |now, diagram| {
+                    worlds[k].resume(tick, |now, diagram| {
                         now.q.copy_from_slice(&state.q);
                         now.v.copy_from_slice(&state.v);
                         now.rotors.copy_from_slice(&state.rotors);
                         now.commands.copy_from_slice(commands);
                         if let Some(diagram) = diagram {
-                            rows.read_diagram(k, &mut diagram.signals, &mut diagram.memory);
+                            rows.read_diagram(k, diagram);
                         }
                     });
                 }

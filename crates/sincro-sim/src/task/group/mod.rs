@@ -81,7 +81,7 @@ impl Group {
         }
         let commands = &plan.loaded.scene.initial.commands;
         let worlds = match plan.recursions_refused() {
-            None => Worlds::Lanes(LaneBundle::default()),
+            None => Worlds::Lanes(LaneBundle::new(plan, n_worlds)),
             Some(_) => Worlds::Single((0..n_worlds).map(|_| SingleWorld::new()).collect()),
         };
         let (none, no) = (vec![0; n_worlds], vec![false; n_worlds]);
@@ -238,7 +238,9 @@ impl Group {
     fn advance(&mut self, plan: &Plan, scratch: &mut Scratch) {
         let n = plan.n_commands();
         match &mut self.worlds {
-            Worlds::Lanes(bundle) => bundle.advance(plan, &self.commands, &scratch.was_over[..self.is_finite.len()]),
+            Worlds::Lanes(bundle) => {
+                bundle.advance(plan, &mut self.commands, &scratch.was_over[..self.is_finite.len()])
+            }
             Worlds::Single(worlds) => {
                 for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| !scratch.was_over[*k]) {
                     for command in plan.own_commands() {
@@ -258,12 +260,12 @@ impl Group {
             }
             self.draw(plan, k, scratch);
             match &mut self.worlds {
-                Worlds::Lanes(bundle) => bundle.place(plan, k, &scratch.drawn.state),
+                Worlds::Lanes(bundle) => bundle.begin(plan, k, &scratch.drawn),
                 Worlds::Single(worlds) => worlds[k].start(plan, &scratch.drawn),
             }
         }
         if let Worlds::Lanes(bundle) = &mut self.worlds {
-            bundle.set_commands(plan, &self.commands);
+            bundle.start(plan, &self.commands, &scratch.begins_anew);
         }
     }
 
