@@ -14,4 +14,4 @@ pub mod systems;
 pub use command_line::{CommandLine, Exit};
 pub use folder::{SceneFolder, repository_scene};
 pub use run::{last, run, with_scripts};
-pub use serve::{OpenSession, ServedSession, finished, options};
+pub use serve::{OpenSession, ServedSession, finished, free_port, options};

@@ -2,6 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 use std::path::Path;
+use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::Duration;
 
 use sincro_coppelia::session::{Finished, Session};
@@ -93,4 +94,22 @@ pub fn finished(server: &Server) -> Finished {
             return *finished;
         }
     }
+}
+
+/// Port of this machine that is free now, and stays so: it lies below those that the system gives to servers which ask
+/// for any, and no other test of this process gets it.
+///
+/// # Panics
+///
+/// If all ports of the range are taken.
+#[must_use]
+pub fn free_port() -> u16 {
+    static NEXT: AtomicU16 = AtomicU16::new(0);
+    let first = std::process::id() % 10_000;
+    let next = |_| {
+        let next = u32::from(NEXT.fetch_add(1, Ordering::Relaxed));
+        20_000 + ((first * 7 + next) % 10_000) as u16
+    };
+    let is_free = |port: &u16| std::net::TcpListener::bind(("127.0.0.1", *port)).is_ok();
+    (0..10_000).map(next).find(is_free).expect("a port between 20000 and 29999 is free")
 }

@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sincro_testing::scenes::ROD_PENDULUM;
-use sincro_testing::{CommandLine, Exit, SceneFolder};
+use sincro_testing::{CommandLine, Exit, SceneFolder, free_port};
 use tungstenite::{Message, WebSocket};
 
 const SINCRO: CommandLine = CommandLine::new(env!("CARGO_BIN_EXE_sincro"));
@@ -205,7 +205,7 @@ fn the_first_interrupt_ends_the_server_while_a_script_does_not_return() {
 
 #[test]
 fn a_run_that_starts_with_the_server_may_open_ports() {
-    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let port = free_port();
     let code =
         format!("function sysCall_init() opened = simRemoteApi.start({port}) end\nfunction told() return opened end");
     let folder = pendulum(&format!("[[frame]]\nname = \"s\"\n[[script]]\nobject = \"/s\"\ncode = '''\n{code}\n'''\n"));

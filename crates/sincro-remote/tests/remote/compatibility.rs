@@ -5,7 +5,7 @@ use std::net::TcpStream;
 use sincro_coppelia::api::Value;
 use sincro_testing::clients::legacy::{Client as Legacy, ints};
 use sincro_testing::clients::zmq::{Client as Zmq, field};
-use sincro_testing::{options, scenes, with_scripts};
+use sincro_testing::{free_port, options, scenes, with_scripts};
 
 use super::scene::serve;
 
@@ -110,8 +110,7 @@ fn modules_are_told_and_maps_of_handles_have_numbers_as_keys() {
 
 #[test]
 fn a_script_has_a_port_of_the_legacy_api_opened() {
-    // a port that is free now
-    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let port = free_port();
     let folder = scenes::two_link_arm("");
     let script = format!(
         "[[script]]\nobject = \"/joint1\"\ncode = '''\nfunction sysCall_init()\n  print('answers', simRemoteApi.start({port}), simExtRemoteApiStart(80), (simRemoteApi.status({port})), (simRemoteApi.status(80)), simRemoteApi.stop({port}))\nend\n'''\n"
@@ -144,8 +143,7 @@ fn a_script_has_a_port_of_the_legacy_api_opened() {
 
 #[test]
 fn clients_of_a_port_without_a_trigger_do_not_step() {
-    let free = || std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
-    let (plain, triggered) = (free(), free());
+    let (plain, triggered) = (free_port(), free_port());
     let folder = scenes::two_link_arm("");
     let script = format!(
         "[[script]]\nobject = \"/joint1\"\ncode = '''\nfunction sysCall_init()\n  simRemoteApi.start({plain})\n  simRemoteApi.start({triggered}, 1300, false, true)\nend\n'''\n"
