@@ -5,7 +5,7 @@ use sincro_blocks::program::seed_of;
 use sincro_dynamics::constraint::ContactPoint;
 use sincro_dynamics::coupled::StateView;
 use sincro_dynamics::kinematics::{self, Attached, frame_acceleration, frame_pose, frame_velocity};
-use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
+use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_dynamics::world::World;
 use sincro_math::Real;
 use sincro_math::random::splitmix64;
@@ -51,6 +51,7 @@ pub(crate) struct Sensors {
 #[derive(Clone, Debug)]
 pub(crate) struct Sensor {
     kind: SensorKind,
+    #[cfg(feature = "tasks")]
     path: String,
     /// Its frame among those of the model.
     frame: usize,
@@ -85,12 +86,14 @@ pub(crate) enum Exact<R> {
 
 impl<R: Real> Exact<R> {
     /// Measurement of one lane.
+    #[cfg(feature = "tasks")]
     pub fn lane(&self, k: usize) -> Exact<f64> {
         let vector = |v: Vec3<R>| Vec3(v.0.map(|x| x.lane(k)));
         match *self {
             Self::Imu { force, rate } => Exact::Imu { force: vector(force), rate: vector(rate) },
             Self::Pose(Pose { rot, pos }) => {
-                Exact::Pose(Pose { rot: Mat3(rot.0.map(|row| row.map(|x| x.lane(k)))), pos: vector(pos) })
+                let rot = sincro_dynamics::spatial::Mat3(rot.0.map(|row| row.map(|x| x.lane(k))));
+                Exact::Pose(Pose { rot, pos: vector(pos) })
             }
             Self::Velocity(v) => Exact::Velocity(vector(v)),
             Self::Height(z) => Exact::Height(z.lane(k)),
@@ -112,6 +115,7 @@ impl Sensors {
             let proximity = ProximitySensor::of(spec, scene);
             list.push(Sensor {
                 kind: spec.kind,
+                #[cfg(feature = "tasks")]
                 path: spec.path.clone(),
                 frame,
                 object: object_of(&spec.path).expect("a sensor is an object"),
@@ -136,11 +140,13 @@ impl Sensors {
     }
 
     /// The sensors alone, in the order of the scene.
+    #[cfg(feature = "tasks")]
     pub fn into_list(self) -> Vec<Sensor> {
         self.list
     }
 
     /// Draws the noise of the samples to come by another seed of the experiment.
+    #[cfg(feature = "tasks")]
     pub fn reseed(&mut self, seed: u64) {
         for sensor in &mut self.list {
             sensor.seed = sensor.seed_in(seed);
@@ -228,16 +234,19 @@ impl Sensor {
     }
 
     /// Returns true if it measures accelerations.
+    #[cfg(feature = "tasks")]
     pub fn measures_accelerations(&self) -> bool {
         matches!(self.kind, SensorKind::Imu { .. })
     }
 
     /// Seed of its noise in an experiment with the seed `seed`.
+    #[cfg(feature = "tasks")]
     pub fn seed_in(&self, seed: u64) -> u64 {
         seed_of(seed, &self.path)
     }
 
     /// Range of its values among those of all sensors.
+    #[cfg(feature = "tasks")]
     pub fn values(&self) -> core::ops::Range<usize> {
         self.first..self.first + self.n
     }

@@ -333,6 +333,7 @@ impl LockStep {
     }
 
     /// Draws the noise of sensors by another seed than that of the experiment, from the next sample on.
+    #[cfg(feature = "tasks")]
     pub(crate) fn reseed_sensors(&mut self, seed: u64) {
         self.timing.seed = seed;
         self.sensors.reseed(seed);
