@@ -21,14 +21,17 @@ use crate::normalize::{Parameters, normalize};
 use crate::scene::{Scene, SceneSource, compile_edited, scene_schema, scripts_of_model};
 use crate::schema::validate;
 use crate::script::{Script, ScriptParser};
-use crate::tree::{KINDS, join};
+use crate::tree::{JOINING, KINDS, join};
 
-/// Lists of a scene file whose entries join objects, and go with them.
-const JOINING: [&str; 5] = ["closure", "coupling", "spring_damper", "tendon", "contact_pair"];
 /// Lists of a scene file whose entries are objects of the tree.
 const OBJECTS: [&str; 8] = ["joint", "body", "frame", "force", "rotor", "drag", "sensor", "camera"];
 /// Keys of a scene file that have done their work once it is written out.
 const SPENT: [&str; 5] = ["include", "default", "instance", "parameters", "initial_pose"];
+
+/// True for a list of a scene file whose entries join objects, and go with them.
+fn is_joining(list: &str) -> bool {
+    JOINING.contains(&list) || list == "contact_pair"
+}
 
 /// Table of a scene file: an object, or what joins objects.
 #[derive(Clone, Debug, PartialEq)]
@@ -336,7 +339,7 @@ impl SceneDraft {
         for item in &self.items {
             let is_own = item.is_object() && is_copied(&item.path());
             let references = item.references();
-            let joins = JOINING.contains(&item.list.as_str()) && references.iter().all(|(_, text)| is_copied(text));
+            let joins = is_joining(&item.list) && references.iter().all(|(_, text)| is_copied(text));
             if !(is_own || joins) {
                 continue;
             }
@@ -455,8 +458,7 @@ impl SceneDraft {
         }
         let frame = Map::from_iter([("name".to_owned(), name.into()), ("parent".to_owned(), "/".into())]);
         other.add("frame", frame);
-        let is_flat = |list: &str| matches!(list, "closure" | "coupling" | "spring_damper" | "tendon");
-        for item in other.items.iter_mut().filter(|item| is_flat(&item.list)) {
+        for item in other.items.iter_mut().filter(|item| JOINING.contains(&&*item.list)) {
             let flat = format!("{name}-{}", item.name());
             item.table.insert("name".into(), flat.into());
         }
@@ -489,7 +491,7 @@ impl SceneDraft {
         let mut part = self.clone();
         let keep: BTreeSet<String> = self.subtree(path).into_iter().collect();
         part.items.retain(|item| {
-            let joins = JOINING.contains(&item.list.as_str());
+            let joins = is_joining(&item.list);
             let is_own = |text: &String| keep.contains(text);
             if item.is_object() {
                 is_own(&item.path())

@@ -21,31 +21,19 @@ use crate::normalize::{Parameters, compute, normalize, normalize_object, paramet
 use crate::overrides::Override;
 use crate::scene::scene_schema;
 use crate::schema::validate;
-use crate::tree::{KINDS, RawObject, join, raw_objects};
+use crate::tree::{JOINING, KINDS, RawObject, join, raw_objects};
 
 /// Deepest nesting of files.
 const MAX_DEPTH: usize = 16;
 /// Most objects that instances inside instances may come to.
 const MAX_OBJECTS: usize = 100_000;
-/// Lists of a scene file that an instance brings along.
-const LISTS: [&str; 14] = [
-    "joint",
-    "body",
-    "frame",
-    "force",
-    "rotor",
-    "drag",
-    "sensor",
-    "camera",
-    "closure",
-    "coupling",
-    "spring_damper",
-    "tendon",
-    "contact_pair",
-    "script",
-];
 /// Tables of objects that a default fills up key by key.
 const MERGED: [&str; 6] = ["initial", "spring", "motor", "contact", "limits", "inertia"];
+
+/// Lists of a scene file that an instance brings along.
+fn brought_lists() -> impl Iterator<Item = &'static str> {
+    KINDS.into_iter().chain(["contact_pair", "script"])
+}
 
 /// Writes out what a scene file reuses, with names of parameters for its formulas. Parameters of instances are set by
 /// those of `settings` that name one; returns all others.
@@ -220,7 +208,7 @@ impl Expander<'_> {
         }
         self.frame(document, pointer, name, &parent, copy);
         prefix(&mut inner, &path);
-        for list in LISTS {
+        for list in brought_lists() {
             let n = inner.get(&format!("/{list}")).and_then(Value::as_array).map_or(0, Vec::len);
             self.n_objects += n;
             for k in 0..n {
@@ -389,11 +377,11 @@ fn copies(document: &Document, pointer: &str) -> Vec<Copied> {
 fn prefix(document: &mut Document, path: &str) {
     let moved = |text: &str| if text == "/" { path.to_owned() } else { format!("{path}{text}") };
     let names: Vec<String> = raw_objects(document).into_iter().map(|o| o.path).collect();
-    for list in LISTS {
+    for list in brought_lists() {
         let n = document.get(&format!("/{list}")).and_then(Value::as_array).map_or(0, Vec::len);
         for k in 0..n {
             let pointer = format!("/{list}/{k}");
-            if matches!(list, "closure" | "coupling" | "spring_damper" | "tendon") {
+            if JOINING.contains(&list) {
                 // their path is `/` and the name, wherever they stand
                 let own = document.text(&format!("{pointer}/name")).unwrap_or("").to_owned();
                 let flat = path.trim_start_matches('/').replace('/', "-");

@@ -20,6 +20,9 @@ pub const KINDS: [&str; 12] = [
     "tendon",
 ];
 
+/// Keys of the lists whose elements join objects: their path is `/` and the name, wherever they stand.
+pub(crate) const JOINING: [&str; 4] = ["closure", "coupling", "spring_damper", "tendon"];
+
 /// Object of a scene file by path and place, before it is validated; found by [`raw_objects`].
 #[derive(Clone, Debug)]
 pub struct RawObject {

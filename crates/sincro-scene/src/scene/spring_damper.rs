@@ -72,6 +72,21 @@ pub(crate) struct LineActuatorFile {
     pub max_force: Option<f64>,
 }
 
+impl LineActuatorFile {
+    /// Command of the actuator of an element at `pointer`; notes what is no signal.
+    pub(super) fn signal(&self, pointer: &str, signals: &mut SignalReader<'_>) -> Signal {
+        match &self.command {
+            Some(command) => signals.read(command, &format!("{pointer}/actuator/command")),
+            None => Signal::Constant(0.0),
+        }
+    }
+
+    /// Largest force, infinite for none `[N]`.
+    pub(super) fn largest_force(&self) -> f64 {
+        self.max_force.unwrap_or(f64::INFINITY)
+    }
+}
+
 /// The specification, for ends that were found, and the command of its actuator; none, with the reasons noted, if it
 /// cannot be.
 pub(super) fn spec(
@@ -82,16 +97,13 @@ pub(super) fn spec(
 ) -> Option<(SpringDamperSpec, Option<Signal>)> {
     let of = format!("spring_damper `{}`", file.name);
     let nonlinear = nonlinear(file.law.as_deref(), file.table.as_deref(), &of, pointer, signals)?;
-    let command = file.actuator.as_ref().map(|actuator| match &actuator.command {
-        Some(command) => signals.read(command, &format!("{pointer}/actuator/command")),
-        None => Signal::Constant(0.0),
-    });
+    let command = file.actuator.as_ref().map(|actuator| actuator.signal(pointer, signals));
     let spec = SpringDamperSpec {
         path: PathSpec::Points(ends.into_iter().zip(file.points).collect()),
         free_length: file.free_length,
         law: ForceLaw { stiffness: file.stiffness, damping: file.damping, preload: file.preload, nonlinear },
         tension_only: file.tension_only,
-        actuator: file.actuator.as_ref().map(|actuator| actuator.max_force.unwrap_or(f64::INFINITY)),
+        actuator: file.actuator.as_ref().map(LineActuatorFile::largest_force),
     };
     if file.law.is_none() && file.table.is_none() && command.is_none() {
         let numbers = [file.stiffness, file.damping, file.preload];

@@ -148,16 +148,13 @@ pub(super) fn spec(
         signals.diagnostics.push(Diagnostic::error(&at, format!("{of} has no force")).with_help(help));
         return None;
     }
-    let command = file.actuator.as_ref().map(|actuator| match &actuator.command {
-        Some(command) => signals.read(command, &format!("{pointer}/actuator/command")),
-        None => Signal::Constant(0.0),
-    });
+    let command = file.actuator.as_ref().map(|actuator| actuator.signal(pointer, signals));
     let spec = SpringDamperSpec {
         path,
         free_length: free,
         law: ForceLaw { stiffness, damping: file.damping, preload: file.preload, nonlinear },
         tension_only: file.tension_only,
-        actuator: file.actuator.as_ref().map(|actuator| actuator.max_force.unwrap_or(f64::INFINITY)),
+        actuator: file.actuator.as_ref().map(LineActuatorFile::largest_force),
     };
     spring_damper::check(&spec, &of, pointer, signals).then_some((spec, command))
 }
