@@ -293,16 +293,25 @@ impl Worlds {
     /// Writes the values that are chosen by their numbers; an error names the first that is none.
     fn choose(&self, chosen: &[i64], given: &mut [f64]) -> Result<(), String> {
         for (action, (name, values)) in self.values.iter().enumerate() {
-            let chosen = chosen.iter().skip(action).step_by(self.n_actions);
             // a negative number is a huge one without its sign
             let is_one = |index: i64| (index as u64) < values.len() as u64;
+            let Some(last) = values.len().checked_sub(1) else { continue };
+            let mut are_all = true;
             // all are looked at: a search that ends early is slower
-            if !chosen.clone().fold(true, |all, index| all & is_one(*index)) {
-                let index = chosen.into_iter().find(|index| !is_one(**index)).copied().unwrap_or_default();
-                return Err(format!("`{name}` is chosen from 0 to {}, not {index}", values.len().saturating_sub(1)));
+            let mut choose = |to: &mut f64, index: i64| {
+                are_all &= is_one(index);
+                *to = values[(index as usize).min(last)];
+            };
+            if self.n_actions == 1 {
+                given.iter_mut().zip(chosen).for_each(|(to, index)| choose(to, *index));
+            } else {
+                let of_action = given.iter_mut().zip(chosen).skip(action).step_by(self.n_actions);
+                of_action.for_each(|(to, index)| choose(to, *index));
             }
-            for (to, index) in given.iter_mut().skip(action).step_by(self.n_actions).zip(chosen) {
-                *to = values[*index as usize];
+            if !are_all {
+                let mut chosen = chosen.iter().skip(action).step_by(self.n_actions);
+                let index = chosen.find(|index| !is_one(**index)).copied().unwrap_or_default();
+                return Err(format!("`{name}` is chosen from 0 to {last}, not {index}"));
             }
         }
         Ok(())
@@ -344,7 +353,9 @@ impl Worlds {
             autoreset == Autoreset::SameStep && (terminated.contains(&true) || truncated.contains(&true))
         };
         let finals = has_finals.then(|| self.rows(py, finals)).transpose()?;
-        let stopped_now = stopped.contains(&true).then(|| PyArray1::from_slice(py, &stopped));
+        // all are looked at: a search that ends early is slower
+        let any_stopped = stopped.iter().fold(false, |any, stopped| any | stopped);
+        let stopped_now = any_stopped.then(|| PyArray1::from_slice(py, &stopped));
         {
             let mut spare = self.spare();
             (spare.given, spare.stopped) = (given, stopped);

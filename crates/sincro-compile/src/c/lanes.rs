@@ -78,6 +78,13 @@ INLINE lanes flip_by_1(lanes x, lanes n) {{
     return (lanes)((bits)x ^ (((bits)n << 62) & BITS(0x8000000000000000ull)));
 }}
 
+/* Writes the lanes to places a distance apart. */
+INLINE void put(lanes x, double *to, int distance) {{
+    int k;
+    if (distance == 1) *(row *)to = x;
+    else for (k = 0; k < {width}; k++) to[k * distance] = x[k];
+}}
+
 /* Sine and cosine of x [rad] below the limit of the reduction. */
 INLINE void sine_cosine(lanes x, lanes *sine, lanes *cosine) {{
 {sine}}}

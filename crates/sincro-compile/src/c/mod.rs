@@ -91,16 +91,25 @@ pub(crate) fn statements(
     input: impl Fn(usize) -> String,
     output: impl Fn(usize) -> String,
 ) -> String {
-    statement_parts(program, dialect, input, output).concat()
+    let StatementParts { computed, outputs } = statement_parts(program, dialect, input, output);
+    computed + &outputs.concat()
 }
 
-/// As [`statements`]: those that compute, then those that write the outputs.
+/// Statements of a program in parts.
+pub(crate) struct StatementParts {
+    /// Those that read the inputs and compute.
+    pub computed: String,
+    /// The one that writes each output.
+    pub outputs: Vec<String>,
+}
+
+/// As [`statements`], in parts.
 pub(crate) fn statement_parts(
     program: &Program,
     dialect: Dialect<'_>,
     input: impl Fn(usize) -> String,
     output: impl Fn(usize) -> String,
-) -> [String; 2] {
+) -> StatementParts {
     let (mut text, prefix) = (String::new(), dialect.prefix());
     let operations = program.operations();
     let mut has_angle = vec![false; operations.len()];
@@ -149,7 +158,7 @@ pub(crate) fn statement_parts(
         _ = writeln!(text, "    const {} t{k} = {value};", dialect.number_type());
     }
     let write = |(k, &result): (usize, &u32)| format!("    {} = {};\n", output(k), name(result));
-    [text, program.outputs().iter().enumerate().map(write).collect()]
+    StatementParts { computed: text, outputs: program.outputs().iter().enumerate().map(write).collect() }
 }
 
 /// Statements of sine and cosine of `x` within the limit of the reduction, into `*sine` and `*cosine`.

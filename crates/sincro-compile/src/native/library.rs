@@ -12,8 +12,9 @@ use sincro_math::elementary::{Binary, Unary};
 /// Elementary functions by their number, those of two arguments after the others.
 type Call = extern "C" fn(i32, f64, f64) -> f64;
 
-/// Function on rows of inputs, of parameters, of outputs and of results: see [`super::text::library`].
-type Signature = unsafe extern "C" fn(*const f64, *const f64, *mut f64, *mut f64, Call) -> i64;
+/// Function on rows of inputs, of parameters and of outputs, two arrays of results, and lanes whose first flag does not
+/// count: see [`super::text::library`].
+type Signature = unsafe extern "C" fn(*const f64, *const f64, *mut f64, *mut f64, *mut f64, u64, Call) -> i64;
 
 extern "C" fn call(f: i32, x: f64, y: f64) -> f64 {
     let f = f as usize;
@@ -51,10 +52,14 @@ impl LoadedLibrary {
         inputs: *const f64,
         parameters: &[f64],
         outputs: *mut f64,
-        results: &mut [f64],
+        [first, second]: [&mut [f64]; 2],
+        uncounted: u64,
     ) -> i64 {
-        // SAFETY: the library is open while `self` lives; the function reads and writes rows within the arrays alone,
-        // and reads all of its inputs before it writes
-        unsafe { f(inputs, parameters.as_ptr(), outputs, results.as_mut_ptr(), call) }
+        // SAFETY: the library is open while `self` lives; the function reads and writes within the arrays alone, and
+        // reads all of its inputs before it writes
+        unsafe {
+            let (first, second) = (first.as_mut_ptr(), second.as_mut_ptr());
+            f(inputs, parameters.as_ptr(), outputs, first, second, uncounted, call)
+        }
     }
 }

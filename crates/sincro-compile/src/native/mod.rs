@@ -38,18 +38,23 @@ const ROUNDS_OF_SMALL: u64 = 8;
 /// Places of a program's outputs: the first are its outputs proper, results and flags follow them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OutputForm {
-    /// Number of outputs that are results: they go to a place of their own.
-    pub n_results: usize,
+    /// Numbers of outputs in two groups of results. Each group goes to an array of its own, all results of a lane after
+    /// those of the lane before, and without the signs of zeros.
+    pub n_results: [usize; 2],
     /// Number of outputs that are flags, 7 at most: they are true above 0.5, and come as bits.
     pub n_flags: usize,
+    /// True if the program refuses inputs for which its first flag is true in a lane that counts.
+    pub refuses_by_flag: bool,
     /// True if the caller knows that the magnitudes of the inputs add up to less than [`INPUT_LIMIT`].
     pub inputs_are_checked: bool,
 }
 
 impl OutputForm {
-    /// First result and first flag among `n` outputs.
-    fn bounds(self, n: usize) -> [usize; 2] {
-        [n - self.n_flags - self.n_results, n - self.n_flags]
+    /// First result of each group and first flag among `n` outputs.
+    fn bounds(self, n: usize) -> [usize; 3] {
+        let [_, second] = self.n_results;
+        let first_flag = n - self.n_flags;
+        [first_flag - self.n_results.iter().sum::<usize>(), first_flag - second, first_flag]
     }
 }
 
@@ -158,7 +163,7 @@ fn load(
             library: Arc::clone(&library),
             n_inputs: program.n_inputs(),
             n_parameters: program.parameters().len(),
-            n_outputs: program.outputs().len() - form.n_results - form.n_flags,
+            n_outputs: form.bounds(program.outputs().len())[0],
             form: *form,
             width,
         };
@@ -170,6 +175,7 @@ fn load(
 
 impl NativeProgram {
     /// Number of lanes: the length of the rows of inputs and outputs.
+    #[inline]
     #[must_use]
     pub fn width(&self) -> usize {
         self.width
@@ -188,11 +194,12 @@ impl NativeProgram {
         assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
         assert_eq!(outputs.len(), self.n_outputs * self.width, "one row an output");
         assert_eq!(self.form, OutputForm::default(), "there are neither results nor flags");
-        self.library.call(self.function, inputs.as_ptr(), parameters, outputs.as_mut_ptr(), &mut []) >= 0
+        self.library.call(self.function, inputs.as_ptr(), parameters, outputs.as_mut_ptr(), [&mut [], &mut []], 0) >= 0
     }
 
     /// As [`evaluate`](Self::evaluate), of a program with results and flags. Returns the flags: bit `k·width + lane` is
-    /// that of flag `k`; none where the program refuses the inputs.
+    /// that of flag `k`; none, with all arrays as they were, where the program refuses the inputs. Lanes of the bits
+    /// `uncounted` may have any first flag ([`OutputForm::refuses_by_flag`]).
     ///
     /// # Panics
     ///
@@ -203,13 +210,35 @@ impl NativeProgram {
         inputs: &[f64],
         parameters: &[f64],
         outputs: &mut [f64],
-        results: &mut [f64],
+        results: [&mut [f64]; 2],
+        uncounted: u64,
     ) -> Option<u64> {
         assert_eq!(inputs.len(), self.n_inputs * self.width, "one row an input");
         assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
         assert_eq!(outputs.len(), self.n_outputs * self.width, "one row an output");
-        assert_eq!(results.len(), self.form.n_results * self.width, "one row a result");
-        let flags = self.library.call(self.function, inputs.as_ptr(), parameters, outputs.as_mut_ptr(), results);
+        self.check_results(&results);
+        let outputs = outputs.as_mut_ptr();
+        let flags = self.library.call(self.function, inputs.as_ptr(), parameters, outputs, results, uncounted);
+        u64::try_from(flags).ok()
+    }
+
+    /// As [`evaluate_in_form`](Self::evaluate_in_form), with the outputs in place of the first inputs.
+    ///
+    /// # Panics
+    ///
+    /// If an array has another length, or there are more outputs than inputs.
+    #[inline]
+    pub fn evaluate_in_form_in_place(
+        &self,
+        rows: &mut [f64],
+        parameters: &[f64],
+        results: [&mut [f64]; 2],
+        uncounted: u64,
+    ) -> Option<u64> {
+        self.check_rows(rows, parameters);
+        self.check_results(&results);
+        let rows = rows.as_mut_ptr();
+        let flags = self.library.call(self.function, rows.cast_const(), parameters, rows, results, uncounted);
         u64::try_from(flags).ok()
     }
 
@@ -220,18 +249,32 @@ impl NativeProgram {
     /// If an array has another length, or there are more outputs than inputs.
     #[inline]
     pub fn evaluate_in_place(&self, rows: &mut [f64], parameters: &[f64]) -> bool {
+        self.check_rows(rows, parameters);
+        assert_eq!(self.form, OutputForm::default(), "there are neither results nor flags");
+        let rows = rows.as_mut_ptr();
+        self.library.call(self.function, rows.cast_const(), parameters, rows, [&mut [], &mut []], 0) >= 0
+    }
+
+    /// Checks the lengths of rows that are inputs and outputs.
+    #[inline]
+    fn check_rows(&self, rows: &[f64], parameters: &[f64]) {
         assert_eq!(rows.len(), self.n_inputs * self.width, "one row an input");
         assert!(self.n_outputs <= self.n_inputs, "outputs take the place of inputs");
         assert_eq!(parameters.len(), self.n_parameters * self.width, "one row a parameter");
-        assert_eq!(self.form, OutputForm::default(), "there are neither results nor flags");
-        let rows = rows.as_mut_ptr();
-        self.library.call(self.function, rows.cast_const(), parameters, rows, &mut []) >= 0
+    }
+
+    #[inline]
+    fn check_results(&self, results: &[&mut [f64]; 2]) {
+        for (results, n) in results.iter().zip(self.form.n_results) {
+            assert_eq!(results.len(), n * self.width, "a result a lane");
+        }
     }
 
     /// Compares the outputs with the program's, for random inputs of many sizes.
     fn compare(&self, program: &Program) -> Result<(), String> {
         let width = self.width;
-        let [mut outputs, mut results] = [self.n_outputs, self.form.n_results].map(|n| vec![0.0; n * width]);
+        let [n_first, n_second] = self.form.n_results;
+        let [mut outputs, mut first, mut second] = [self.n_outputs, n_first, n_second].map(|n| vec![0.0; n * width]);
         // a parameter has a value for each world: those of the first lanes
         let parameters = rows_of_parameters(program, 0, width);
         let mut n_compared = 0;
@@ -249,13 +292,21 @@ impl NativeProgram {
                 size * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
             };
             let inputs: Vec<f64> = (0..(self.n_inputs * width) as u64).map(draw).collect();
-            let Some(flags) = self.evaluate_in_form(&inputs, &parameters, &mut outputs, &mut results) else { continue };
+            let results = [&mut first[..], &mut second];
+            let Some(flags) = self.evaluate_in_form(&inputs, &parameters, &mut outputs, results, u64::MAX) else {
+                continue;
+            };
             n_compared += 1;
             for lane in 0..width {
                 let of_lane: Vec<f64> = inputs.iter().skip(lane).step_by(width).copied().collect();
                 let wanted = program.evaluate(&of_lane, lane);
                 let (wanted, wanted_flags) = wanted.split_at(wanted.len() - self.form.n_flags);
-                let found = outputs.iter().chain(&results).skip(lane).step_by(width);
+                let (wanted, wanted_results) = wanted.split_at(self.n_outputs);
+                let unsigned: Vec<f64> = wanted_results.iter().map(|x| x + 0.0).collect();
+                let found = outputs.iter().skip(lane).step_by(width);
+                let found =
+                    found.chain(&first[lane * n_first..][..n_first]).chain(&second[lane * n_second..][..n_second]);
+                let wanted = wanted.iter().chain(&unsigned);
                 let flag = |k: usize| flags >> (k * width + lane) & 1 == 1;
                 if found.zip(wanted).any(|(a, b)| a.to_bits() != b.to_bits() && !(a.is_nan() && b.is_nan()))
                     || wanted_flags.iter().enumerate().any(|(k, x)| flag(k) != (*x > 0.5))

@@ -110,6 +110,7 @@ pub struct StepMut<'a> {
 
 impl<'a> StepMut<'a> {
     /// Takes those of the next `n` worlds.
+    #[inline]
     fn take(&mut self, n: usize, n_observations: usize) -> StepMut<'a> {
         fn front<'a, T>(rest: &mut &'a mut [T], n: usize) -> &'a mut [T] {
             let (mine, others) = std::mem::take(rest).split_at_mut(n);

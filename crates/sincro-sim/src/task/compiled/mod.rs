@@ -15,7 +15,7 @@ use sincro_math::record::{Program, Recorded};
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{View, of_state};
 
-pub(super) use rows::{CompiledScratch, Rows};
+pub(super) use rows::{CompiledScratch, ResultsMut, Rows, each};
 
 use super::plan::Plan;
 use crate::rollout::StepsBy;
@@ -143,8 +143,13 @@ impl CompiledTask {
         let whole = parts.whole(layout)?.filter(|whole| whole.operations().len() <= MAX_WHOLE);
         let n_observations = plan.n_observations();
         // the rows were looked at when the worlds came into them, and after each action
-        let of_action = OutputForm { n_results: 1 + n_observations, n_flags: flags::N, inputs_are_checked: true };
-        let of_look = OutputForm { n_results: n_observations, n_flags: 1, inputs_are_checked: false };
+        let of_action = OutputForm {
+            n_results: [1, n_observations],
+            n_flags: flags::N,
+            refuses_by_flag: true,
+            inputs_are_checked: true,
+        };
+        let of_look = OutputForm { n_results: [0, n_observations], n_flags: 1, ..OutputForm::default() };
         let plain = OutputForm::default();
         let mut programs: Vec<(&Program, OutputForm)> = vec![(&parts.look, of_look)];
         let control = parts.control.as_ref();
@@ -182,6 +187,7 @@ impl CompiledTask {
     }
 
     /// Number of worlds that are advanced together.
+    #[inline]
     pub fn width(&self) -> usize {
         self.look.width()
     }

@@ -3,7 +3,7 @@
 use sincro_blocks::runner::State as DiagramState;
 use sincro_dynamics::state::State;
 
-use super::{Action, CompiledTask, Layout, flags, native};
+use super::{Action, CompiledTask, Layout, native};
 use crate::task::plan::{Plan, copy_unsigned, unsigned_zero};
 
 /// Worlds of a bundle, one in each lane.
@@ -15,21 +15,19 @@ pub(in super::super) struct Rows {
     rows: Vec<f64>,
 }
 
-/// Working memory of an action, with its results.
+/// Working memory of an action.
 #[derive(Debug)]
 pub(in super::super) struct CompiledScratch {
     /// Commands and actions as they act.
     commanded: Vec<f64>,
     /// Results of the diagram's programs.
     controlled: Vec<f64>,
-    /// Rows after the steps of an action by its parts.
+    /// Rows after the steps of an action by its parts: it may turn out that it cannot be judged.
     stepped: Vec<f64>,
-    /// Rows after an action: it may turn out that it cannot be judged. One place for all bundles stays in the nearest
-    /// cache, where two places for each would not fit into the next one.
-    next: Vec<f64>,
-    /// Reward, then observations.
-    results: Vec<f64>,
-    width: usize,
+    /// Rows before an action that leaves some worlds as they are.
+    before: Vec<f64>,
+    /// Observations of all worlds where some are looked at, world by world.
+    observations: Vec<f64>,
 }
 
 impl CompiledScratch {
@@ -41,23 +39,29 @@ impl CompiledScratch {
             commanded: of(layout.n_commands + layout.n_actions),
             controlled: of(task.n_controlled()),
             stepped: of(if is_whole { 0 } else { layout.given() }),
-            next: of(layout.given()),
-            results: of(1 + plan.n_observations()),
-            width,
+            before: of(layout.given()),
+            observations: of(plan.n_observations()),
         }
     }
+}
 
-    /// Rewards of an action.
-    #[inline]
-    pub fn rewards(&self) -> &[f64] {
-        &self.results[..self.width]
-    }
+/// Places of the results of an action of a bundle's worlds.
+#[derive(Debug)]
+pub(in super::super) struct ResultsMut<'a> {
+    /// A reward a world.
+    pub rewards: &'a mut [f64],
+    /// Observations, world by world.
+    pub observations: &'a mut [f64],
+}
 
-    /// Observations, row by row.
-    #[inline]
-    pub fn observations(&self) -> &[f64] {
-        &self.results[self.width..]
-    }
+/// Numbers of the bits that are set.
+#[inline]
+pub(in super::super) fn each(mut bits: u64) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let first = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (first < u64::BITS).then_some(first as usize)
+    })
 }
 
 impl Rows {
@@ -110,8 +114,9 @@ impl Rows {
         &self.rows[..self.layout.given() * self.width]
     }
 
-    /// Evaluates the diagram at the start of an episode, in the worlds of a mask; false if a signal is not finite.
-    pub fn start_diagram(&mut self, task: &CompiledTask, mask: &[bool], scratch: &mut CompiledScratch) -> bool {
+    /// Evaluates the diagram at the start of an episode, in the worlds of the bits `lanes`; false if a signal is not
+    /// finite.
+    pub fn start_diagram(&mut self, task: &CompiledTask, lanes: u64, scratch: &mut CompiledScratch) -> bool {
         let Some(control) = &task.control else { return true };
         let (layout, width) = (self.layout, self.width);
         let found = &mut scratch.controlled[..(1 + layout.n_signals) * width];
@@ -120,19 +125,32 @@ impl Rows {
         }
         let (finite, signals) = found.split_at(width);
         let signals_of_rows = &mut self.rows[layout.signals() * width..];
-        for lane in (0..width).filter(|lane| mask[*lane]) {
+        for lane in each(lanes) {
             for k in (0..layout.n_signals).map(|k| k * width + lane) {
                 signals_of_rows[k] = unsigned_zero(signals[k]);
             }
         }
-        (0..width).all(|lane| !mask[lane] || finite[lane] == 0.0)
+        each(lanes).all(|lane| finite[lane] == 0.0)
     }
 
-    /// Observes the present state; false if those of a world of the mask are not finite.
-    pub fn look(&self, task: &CompiledTask, mask: &[bool], scratch: &mut CompiledScratch) -> bool {
-        let observations = &mut scratch.results[self.width..];
-        let bad = task.look.evaluate_in_form(self.known(), &[], &mut [], observations);
-        bad.is_some_and(|bad| (0..self.width).all(|lane| !mask[lane] || bad >> lane & 1 == 0))
+    /// Writes what the agent sees of the present state in the worlds of the bits `lanes`; false, with nothing written, if
+    /// something there is not finite.
+    pub fn look(
+        &self,
+        task: &CompiledTask,
+        lanes: u64,
+        scratch: &mut CompiledScratch,
+        observations: &mut [f64],
+    ) -> bool {
+        let (seen, n) = (&mut scratch.observations, task.n_observations);
+        let bad = task.look.evaluate_in_form(self.known(), &[], &mut [], [&mut [], &mut seen[..]], 0);
+        let is_seen = bad.is_some_and(|bad| bad & lanes == 0);
+        if is_seen {
+            for lane in each(lanes) {
+                observations[lane * n..(lane + 1) * n].copy_from_slice(&seen[lane * n..(lane + 1) * n]);
+            }
+        }
+        is_seen
     }
 
     /// Signals and memory of the diagram of a world.
@@ -162,15 +180,16 @@ impl Rows {
     }
 
     /// Makes one action, `lane × action`, of all worlds but those of the bits `kept`. Returns the [`flags`]; none, with
-    /// everything as it was, where the programs do not have the bits of the recursions or give what is not finite in a
-    /// world that is not among those of the bits `but`.
+    /// the state as it was, where the programs do not have the bits of the recursions or give what is not finite in a
+    /// world that is not among those of the bits `over`.
     #[inline]
     pub fn act(
         &mut self,
         task: &CompiledTask,
         actions: &[f64],
-        [but, kept]: [u64; 2],
+        [over, kept]: [u64; 2],
         scratch: &mut CompiledScratch,
+        results: ResultsMut<'_>,
     ) -> Option<u64> {
         let (layout, width, n_actions) = (self.layout, self.width, self.layout.n_actions);
         let given = &mut self.rows[layout.given() * width..];
@@ -181,29 +200,34 @@ impl Rows {
                 of_lane.iter().enumerate().for_each(|(action, x)| given[action * width + lane] = *x);
             }
         }
-        let found = match &task.action {
-            Action::Whole(whole) => whole.evaluate_in_form(&self.rows, &[], &mut scratch.next, &mut scratch.results),
-            Action::Parts { .. } => self.act_in_parts(task, scratch),
-        }?;
-        let bad = found >> (flags::BAD * width) & ((1 << width) - 1) & !but;
-        if bad != 0 {
-            return None;
-        }
         if kept != 0 {
-            for lane in (0..width).filter(|lane| kept >> lane & 1 == 1) {
-                for k in (0..layout.given()).map(|k| k * width + lane) {
-                    scratch.next[k] = self.rows[k];
-                }
+            scratch.before.copy_from_slice(self.known());
+        }
+        let found = match &task.action {
+            Action::Whole(whole) => {
+                let results = [results.rewards, results.observations];
+                whole.evaluate_in_form_in_place(&mut self.rows, &[], results, over)
+            }
+            Action::Parts { .. } => self.act_in_parts(task, over, scratch, results),
+        }?;
+        for lane in each(kept) {
+            for k in (0..layout.given()).map(|k| k * width + lane) {
+                self.rows[k] = scratch.before[k];
             }
         }
-        self.rows[..layout.given() * width].copy_from_slice(&scratch.next);
         Some(found)
     }
 
-    fn act_in_parts(&mut self, task: &CompiledTask, scratch: &mut CompiledScratch) -> Option<u64> {
+    fn act_in_parts(
+        &mut self,
+        task: &CompiledTask,
+        over: u64,
+        scratch: &mut CompiledScratch,
+        results: ResultsMut<'_>,
+    ) -> Option<u64> {
         let Action::Parts { command, step, finish, control, n_steps } = &task.action else { return None };
         let (layout, width) = (self.layout, self.width);
-        let CompiledScratch { commanded, controlled, stepped: new, next, results, .. } = scratch;
+        let CompiledScratch { commanded, controlled, stepped: new, .. } = scratch;
         if !command.evaluate(&self.rows, &[], commanded) {
             return None;
         }
@@ -232,6 +256,7 @@ impl Rows {
                 copy_unsigned(&mut new[layout.signals() * width..], signals);
             }
         }
-        finish.evaluate_in_form(new, &[], next, results)
+        let next = &mut self.rows[..layout.given() * width];
+        finish.evaluate_in_form(new, &[], next, [results.rewards, results.observations], over)
     }
 }

@@ -5,7 +5,7 @@ pub(super) use crate::task::compiled::CompiledScratch;
 use sincro_dynamics::state::State;
 
 use super::{Group, Scratch, Worlds};
-use crate::task::compiled::{CompiledTask, Rows, flags};
+use crate::task::compiled::{CompiledTask, ResultsMut, Rows, each, flags};
 use crate::task::plan::{Plan, copy_unsigned, unsigned_zero};
 use crate::task::{Autoreset, StepMut};
 
@@ -15,9 +15,9 @@ pub(super) struct CompiledWorlds {
     rows: Rows,
     /// True while these have the state of the worlds, false while the bundle in lanes has it.
     are_current: bool,
-    /// Worlds whose state stays in the bundle while the rows are current: their episode was over when the others were
-    /// moved, and may have ended with what no program can compute.
-    is_away: Vec<bool>,
+    /// Bits of the worlds whose state stays in the bundle while the rows are current: their episode was over when the
+    /// others were moved, and may have ended with what no program can compute.
+    away: u64,
     /// Bits of the worlds whose episode is over, while the rows are current.
     over: u64,
 }
@@ -26,7 +26,7 @@ impl CompiledWorlds {
     /// None where the task is not compiled, or the worlds do not fill the lanes.
     pub fn new(plan: &Plan, n_worlds: usize) -> Option<Self> {
         let task = plan.compiled.as_ref().filter(|task| task.width() == n_worlds)?;
-        Some(Self { rows: Rows::new(task), are_current: false, is_away: vec![false; n_worlds], over: 0 })
+        Some(Self { rows: Rows::new(task), are_current: false, away: 0, over: 0 })
     }
 }
 
@@ -79,16 +79,8 @@ impl Group {
         let (CompiledWorlds { rows, over, .. }, compiled) = (self.compiled.as_mut()?, scratch.compiled.as_mut()?);
         // those that begin anew have nothing to keep
         let kept = if autoreset == Autoreset::NextStep { 0 } else { *over };
-        let found = rows.act(task, actions, [*over, kept], compiled)?;
-        let n = task.n_observations;
-        let observations = compiled.observations().as_chunks::<WIDTH>().0;
-        for (i, row) in observations.iter().enumerate() {
-            for (x, to) in row.iter().zip(out.observations[i..].iter_mut().step_by(n)) {
-                *to = unsigned_zero(*x);
-            }
-        }
-        let (rewards, written) = (compiled.rewards().first_chunk::<WIDTH>()?, out.rewards.first_chunk_mut::<WIDTH>()?);
-        *written = rewards.map(unsigned_zero);
+        let results = ResultsMut { rewards: &mut *out.rewards, observations: &mut *out.observations };
+        let found = rows.act(task, actions, [*over, kept], compiled, results)?;
         for flags in [&mut *out.terminated, &mut *out.truncated, &mut *out.stopped] {
             *flags.first_chunk_mut::<WIDTH>()? = [false; WIDTH];
         }
@@ -116,10 +108,9 @@ impl Group {
             Autoreset::SameStep => (compiled.over & !was_over, was_over),
             Autoreset::Disabled => (0, was_over),
         };
-        let over = compiled.over;
-        for k in 0..task.width() {
+        for k in each(compiled.over) {
             let is_set = |bits: u64| bits >> k & 1 == 1;
-            self.episodes.is_over[k] = is_set(over);
+            self.episodes.is_over[k] = true;
             if is_set(was_over) {
                 out.rewards[k] = 0.0;
             } else {
@@ -132,11 +123,8 @@ impl Group {
         if keeps != 0 {
             self.show_as_they_are(plan, task, keeps, out.observations, scratch);
         }
-        for (k, begins_anew) in scratch.begins_anew[..task.width()].iter_mut().enumerate() {
-            *begins_anew = begins >> k & 1 == 1;
-        }
         if begins != 0 {
-            self.start_compiled(plan, task, out.observations, scratch);
+            self.start_compiled(plan, task, begins, out.observations, scratch);
         }
     }
 
@@ -149,20 +137,13 @@ impl Group {
         observations: &mut [f64],
         scratch: &mut Scratch,
     ) {
-        let (Some(CompiledWorlds { rows, .. }), Some(compiled)) = (&mut self.compiled, &mut scratch.compiled) else {
-            return;
-        };
-        let mask = &mut scratch.begins_anew[..task.width()];
-        for (k, is_kept) in mask.iter_mut().enumerate() {
-            *is_kept = worlds >> k & 1 == 1;
-        }
-        let is_seen = rows.look(task, mask, compiled);
+        let Some(CompiledWorlds { rows, away, .. }) = &self.compiled else { return };
+        let Some(compiled) = &mut scratch.compiled else { return };
+        let away = *away & worlds;
+        let is_seen = rows.look(task, worlds & !away, compiled, observations);
         debug_assert!(is_seen, "what ended could be looked at before");
-        copy_observations_of(mask, task, compiled, observations);
-        for k in (0..task.width()).filter(|k| scratch.begins_anew[*k]) {
-            if self.compiled.as_ref().is_some_and(|compiled| compiled.is_away[k]) {
-                self.write(plan, k, observations, &mut scratch.stack);
-            }
+        for k in each(away) {
+            self.write(plan, k, observations, &mut scratch.stack);
         }
     }
 
@@ -184,38 +165,41 @@ impl Group {
         if !self.enter_rows(plan, task) {
             return false;
         }
-        scratch.begins_anew[..mask.len()].copy_from_slice(mask);
-        self.start_compiled(plan, task, observations, scratch);
+        let begins = mask.iter().enumerate().fold(0, |bits, (k, begins)| bits | u64::from(*begins) << k);
+        self.start_compiled(plan, task, begins, observations, scratch);
         true
     }
 
-    /// Begins the next episodes of the worlds that begin anew, and writes what the agent sees of them.
-    fn start_compiled(&mut self, plan: &Plan, task: &CompiledTask, observations: &mut [f64], scratch: &mut Scratch) {
-        for k in 0..task.width() {
-            if !scratch.begins_anew[k] {
-                continue;
-            }
+    /// Begins the next episodes of the worlds of the bits `begins`, and writes what the agent sees of them.
+    fn start_compiled(
+        &mut self,
+        plan: &Plan,
+        task: &CompiledTask,
+        begins: u64,
+        observations: &mut [f64],
+        scratch: &mut Scratch,
+    ) {
+        for k in each(begins) {
             self.draw(plan, k, scratch);
-            let Some(CompiledWorlds { rows, is_away, over, .. }) = &mut self.compiled else { return };
+            let Some(CompiledWorlds { rows, away, over, .. }) = &mut self.compiled else { return };
             rows.start(task, k, &scratch.drawn.state, &scratch.drawn.named);
-            is_away[k] = false;
+            *away &= !(1 << k);
             *over &= !(1 << k);
         }
         let Some(CompiledWorlds { rows, .. }) = &mut self.compiled else { return };
         let Some(compiled) = &mut scratch.compiled else { return };
-        let begins_anew = &scratch.begins_anew[..task.width()];
-        if rows.start_diagram(task, begins_anew, compiled) && rows.look(task, begins_anew, compiled) {
-            copy_observations_of(begins_anew, task, compiled, observations);
+        if rows.start_diagram(task, begins, compiled) && rows.look(task, begins, compiled, observations) {
             return;
         }
         // a start that the programs cannot judge
         self.leave_rows(plan);
-        for (number, begins_anew) in self.episodes.numbers.iter_mut().zip(begins_anew) {
-            *number -= u64::from(*begins_anew);
+        for (k, begins_anew) in scratch.begins_anew[..task.width()].iter_mut().enumerate() {
+            *begins_anew = begins >> k & 1 == 1;
+            self.episodes.numbers[k] -= u64::from(*begins_anew);
         }
         self.start(plan, scratch);
         self.look(plan);
-        for k in (0..task.width()).filter(|k| scratch.begins_anew[*k]) {
+        for k in each(begins) {
             self.write(plan, k, observations, &mut scratch.stack);
         }
     }
@@ -231,9 +215,8 @@ impl Group {
     }
 
     fn move_into_rows(&mut self, plan: &Plan, task: &CompiledTask) -> Option<()> {
-        let CompiledWorlds { rows, are_current, is_away, over } = self.compiled.as_mut()?;
+        let CompiledWorlds { rows, are_current, away, over } = self.compiled.as_mut()?;
         let layout = task.layout;
-        is_away.copy_from_slice(&self.episodes.is_over);
         let is_here = |k: &usize| !self.episodes.is_over[*k];
         if (0..task.width()).filter(is_here).any(|k| !self.is_finite[k]) {
             return None;
@@ -272,6 +255,7 @@ impl Group {
             rows.set(k, layout.count(), self.episodes.actions[k] as f64);
             rows.set(k, layout.finite(), 0.0);
         }
+        *away = *over;
         *are_current = rows.are_computable();
         are_current.then_some(())
     }
@@ -280,10 +264,10 @@ impl Group {
     pub(super) fn leave_rows(&mut self, plan: &Plan) {
         let Some(compiled) = &mut self.compiled else { return };
         let Some(task) = plan.compiled.as_ref().filter(|_| core::mem::take(&mut compiled.are_current)) else { return };
-        let (CompiledWorlds { rows, is_away, .. }, layout, n) = (&*compiled, task.layout, self.n_signals);
-        let is_away = is_away.clone();
+        let (CompiledWorlds { rows, away, .. }, layout, n) = (&*compiled, task.layout, self.n_signals);
+        let here = !*away & ((1 << task.width()) - 1);
         let mut state = plan.loaded.scene.initial.clone();
-        for k in (0..task.width()).filter(|k| !is_away[*k]) {
+        for k in each(here) {
             rows.read_state(k, &mut state);
             self.episodes.actions[k] = rows.get(k, layout.count()) as u64;
             let commands = &mut self.commands[k * layout.n_commands..][..layout.n_commands];
@@ -308,8 +292,8 @@ impl Group {
             bundle.set_commands(plan, &self.commands);
         }
         self.observe(plan);
-        for k in 0..task.width() {
-            if is_away[k] || !self.is_finite[k] {
+        for k in each(here) {
+            if !self.is_finite[k] {
                 continue;
             }
             copy_unsigned(&mut self.values[k * self.n_slots..], &self.signals[k * n..(k + 1) * n]);
@@ -326,13 +310,5 @@ impl Group {
             *x = unsigned_zero(rows.get(k, layout.acted() + i));
         }
         of_world[known] = rows.get(k, layout.count()) * plan.period();
-    }
-}
-
-/// Writes the observations of the worlds of a mask.
-fn copy_observations_of(mask: &[bool], task: &CompiledTask, from: &CompiledScratch, to: &mut [f64]) {
-    let (width, from) = (task.width(), from.observations());
-    for (k, to) in to.chunks_exact_mut(task.n_observations.max(1)).enumerate().filter(|(k, _)| mask[*k]) {
-        to.iter_mut().enumerate().for_each(|(i, x)| *x = unsigned_zero(from[i * width + k]));
     }
 }
