@@ -71,10 +71,7 @@ fn a_heap_comes_to_rest_and_the_floor_carries_its_weight() {
     for seed in [1, 2, 3] {
         let (scene, mass) = heap(12, seed);
         let done = run(&scene, 5.0, "\"energy.kinetic\", \"energy.total\", \"/floor.normal_force\"");
-        // while boxes hit each other the sweeps may miss their residual, and nothing else may be found
-        let findings = &done.main.audit.findings;
-        assert!(findings.iter().all(|finding| finding.law == "contact-island"), "seed {seed}: {findings:?}");
-        assert!(findings.iter().all(|finding| finding.time < 2.0), "seed {seed}: {findings:?}");
+        assert!(done.main.audit.ok, "seed {seed}: {:?}", done.main.audit.findings);
         let kinetic = column(&done, "energy.kinetic");
         assert!(*kinetic.last().unwrap() < 1e-12, "seed {seed}: {:e} J", kinetic.last().unwrap());
         let total = column(&done, "energy.total");
@@ -82,6 +79,14 @@ fn a_heap_comes_to_rest_and_the_floor_carries_its_weight() {
         assert!(risen < 1e-2 * (total[0] - total.last().unwrap()), "seed {seed}: energy rose by {risen:e} J");
         let weight = column(&done, "/floor.normal_force").last().unwrap().abs();
         assert!((weight / (mass * G) - 1.0).abs() < 1e-5, "seed {seed}: {weight} N for {} N", mass * G);
+    }
+}
+
+#[test]
+fn boxes_that_hit_each_other_keep_to_their_laws() {
+    for (n, seed) in [(40, 1), (40, 2), (60, 3), (80, 4), (80, 5)] {
+        let done = run(&heap(n, seed).0, 0.9, "\"energy.total\"");
+        assert!(done.main.audit.ok, "{n} boxes, seed {seed}: {:?}", done.main.audit.findings);
     }
 }
 

@@ -41,6 +41,13 @@ const NEXT_SWEEPS: usize = 12;
 /// Limit of Newton steps of an island; beyond it the best iterate is taken and its residual reported.
 const MAX_NEWTON_STEPS: usize = 12;
 
+/// Residual above which an island is not left: further sweeps, which need many but no mode, follow the Newton steps.
+const LARGEST_RESIDUAL: f64 = 3e-3;
+
+/// Number of these sweeps at a time, and how often they are made.
+const LAST_SWEEPS: usize = 200;
+const MAX_LAST_ROUNDS: usize = 20;
+
 /// Residual below which one Newton step must do, unless the island hardly moves: bodies that hit each other share
 /// forces that soon are others, and those at rest would creep.
 const ROUGH_TOLERANCE: f64 = 1e-4;
@@ -511,6 +518,19 @@ impl Task for Island<'_> {
         }
         self.restore();
         self.sweeper.newton = newton;
+        for _ in 0..MAX_LAST_ROUNDS {
+            if best <= LARGEST_RESIDUAL {
+                break;
+            }
+            self.find_velocities();
+            let swept = self.sweep(LAST_SWEEPS);
+            sweeps += swept.sweeps;
+            if swept.residual < best {
+                best = swept.residual;
+                self.keep();
+            }
+        }
+        self.restore();
         (best, sweeps)
     }
 }
