@@ -98,6 +98,11 @@ impl Folder {
         self.named(name, |path| self.bytes.get(&self.path_of(path), read_bytes))
     }
 
+    /// Gives the bytes of the file `name` of the folder, which are not read from there then.
+    pub fn keep(&self, name: &str, bytes: Arc<Vec<u8>>) {
+        self.bytes.all().insert(self.path_of(name), bytes);
+    }
+
     /// Bytes of a file of the folder.
     pub(crate) fn bytes(&self, name: &str) -> Result<Arc<Vec<u8>>, String> {
         self.bytes.get(&self.path_of(name), read_bytes)

@@ -45,6 +45,7 @@
 //! | [`scene`], [`record`], [`experiment`], [`diagram`] | the three files, and the catalogue of signals between them |
 //! | [`open`], [`numbers`] | a folder with all of them; every number in it that a setting reaches |
 //! | [`draft`] | a compiled scene that is edited object by object, and compiled again |
+//! | [`parallel`] | independent work on several threads |
 
 pub mod apply_overrides;
 pub mod diagnostic;
@@ -61,6 +62,7 @@ pub mod normalize;
 pub mod numbers;
 pub mod open;
 pub mod overrides;
+pub mod parallel;
 pub mod prelude;
 pub mod record;
 pub mod scene;

@@ -1,6 +1,5 @@
 //! Triangle meshes from files: STL, binary and text, and Wavefront OBJ; what of them makes a solid.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -138,14 +137,16 @@ fn triangles_named(named: &Located<String>, scale: &[f64], folder: &Folder) -> R
     let bytes = folder.bytes_named(named)?;
     let found = triangles_of(&bytes, &folder.path_of(&named.value));
     // what has no place of its own in the file stands where the file is named
-    let found = found.map_err(|p| match p.source {
+    let mut found = found.map_err(|p| match p.source {
         Some(_) => p,
         None => {
             Diagnostic { help: p.help, ..Diagnostic::error(&named.at, format!("`{}`: {}", named.value, p.message)) }
         }
     })?;
-    let corners = found.corners.iter().map(|p| std::array::from_fn(|c| p[c] * scale[c.min(scale.len() - 1)]));
-    Ok(Triangles { corners: corners.collect(), triangles: found.triangles })
+    for p in &mut found.corners {
+        (0..3).for_each(|c| p[c] *= scale[c.min(scale.len() - 1)]);
+    }
+    Ok(found)
 }
 
 /// The triangles of a file's bytes; its name tells what it is.
@@ -248,20 +249,73 @@ fn text_of(bytes: &[u8]) -> Result<&str, Diagnostic> {
 }
 
 /// Collects triangles whose corners are given again and again; the same bits are the same corner.
-#[derive(Default)]
+///
+/// Corners are found in a hash table with open addressing. Its seed differs from run to run, so that no file can be
+/// made of corners that all collide; the order of the corners does not depend on it.
 struct Weld {
     mesh: Triangles,
-    known: BTreeMap<[u64; 3], u32>,
+    /// Index of a corner, or [`FREE`]; a power of two of them, of which half are free at least.
+    slots: Vec<u32>,
+    seed: u64,
+}
+
+/// Slot of the hash table without a corner.
+const FREE: u32 = u32::MAX;
+
+impl Default for Weld {
+    fn default() -> Self {
+        let seed = std::hash::BuildHasher::build_hasher(&std::hash::RandomState::new());
+        Self { mesh: Triangles::default(), slots: vec![FREE; 64], seed: std::hash::Hasher::finish(&seed) }
+    }
 }
 
 impl Weld {
     fn corner(&mut self, p: [f64; 3]) -> u32 {
-        // zero has two signs
-        let key = p.map(|x| (x + 0.0).to_bits());
-        *self.known.entry(key).or_insert_with(|| {
+        if 2 * self.mesh.corners.len() >= self.slots.len() {
+            self.grow();
+        }
+        let key = Self::key(p);
+        let slot = self.slot(key);
+        if self.slots[slot] == FREE {
+            self.slots[slot] = self.mesh.corners.len() as u32;
             self.mesh.corners.push(p);
-            (self.mesh.corners.len() - 1) as u32
-        })
+        }
+        self.slots[slot]
+    }
+
+    /// Bits of a corner; zero has two signs.
+    fn key([x, y, z]: [f64; 3]) -> [u64; 3] {
+        [(x + 0.0).to_bits(), (y + 0.0).to_bits(), (z + 0.0).to_bits()]
+    }
+
+    /// Slot that holds the corner with these bits, or the free one where it belongs.
+    fn slot(&self, [x, y, z]: [u64; 3]) -> usize {
+        let fold = |hash: u64, word: u64| {
+            let product = u128::from(hash ^ word) * 0x9e37_79b9_7f4a_7c15;
+            product as u64 ^ (product >> 64) as u64 ^ self.seed
+        };
+        let (mask, mut slot) = (self.slots.len() - 1, fold(fold(fold(self.seed, x), y), z) as usize);
+        loop {
+            slot &= mask;
+            let known = self.slots[slot];
+            if known == FREE {
+                return slot;
+            }
+            let [a, b, c] = Self::key(self.mesh.corners[known as usize]);
+            // one branch: corners differ in any of the three
+            if (a ^ x) | (b ^ y) | (c ^ z) == 0 {
+                return slot;
+            }
+            slot += 1;
+        }
+    }
+
+    fn grow(&mut self) {
+        self.slots = vec![FREE; 2 * self.slots.len()];
+        for k in 0..self.mesh.corners.len() {
+            let slot = self.slot(Self::key(self.mesh.corners[k]));
+            self.slots[slot] = k as u32;
+        }
     }
 }
 
@@ -286,14 +340,13 @@ fn stl(bytes: &[u8], source: &dyn Fn(&str) -> Arc<SourceText>) -> Result<Triangl
 
 fn binary_stl(bytes: &[u8], n: usize) -> Triangles {
     let mut weld = Weld::default();
+    weld.mesh.triangles.reserve_exact(n);
     for record in bytes.chunks_exact(STL_TRIANGLE).take(n) {
-        let number = |k: usize| {
-            let b = &record[4 * k..4 * k + 4];
-            f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-        };
         // after the normal, which says nothing that the corners do not
-        let t = [3, 6, 9].map(|k| weld.corner([number(k), number(k + 1), number(k + 2)]));
-        weld.mesh.triangles.push(t);
+        let number = |k: usize| f64::from(f32::from_le_bytes(record[k..k + 4].try_into().unwrap_or_default()));
+        let mut corner = |k: usize| weld.corner([number(k), number(k + 4), number(k + 8)]);
+        let triangle = [corner(12), corner(24), corner(36)];
+        weld.mesh.triangles.push(triangle);
     }
     weld.mesh
 }

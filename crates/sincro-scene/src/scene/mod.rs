@@ -61,6 +61,7 @@ pub use text::from_text;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
 use crate::folder::Folder;
+use crate::parallel;
 use crate::scenery::Scenery;
 use crate::script::{Script, ScriptParser};
 use crate::sensor::SensorSpec;
@@ -184,9 +185,9 @@ fn compile_from(
     let entries = tree::entries(&file);
     let mut diagnostics = Diagnostics::new();
     let order = tree::order(&entries, document, &mut diagnostics);
-    let mut maker = Maker { document, folder, air_density: file.air_density.uniform(), diagnostics: &mut diagnostics };
-    let mut made: Vec<(Spec, Pose<f64>, Vec<ShownSurface>)> =
-        entries.iter().map(|entry| (maker.spec(entry), maker.pose(entry), maker.visuals(entry))).collect();
+    let air_density = file.air_density.uniform();
+    let mut made = made(&entries, (document, folder), air_density, &mut diagnostics);
+    let mut maker = Maker { document, folder, air_density, diagnostics: &mut diagnostics };
     let joints: Vec<&str> =
         entries.iter().filter(|e| matches!(e.file, tree::AnyFile::Joint(_))).map(|e| e.path.as_str()).collect();
     for entry in &entries {
@@ -222,6 +223,36 @@ fn compile_from(
     let paths: Vec<&str> = assembly.objects.iter().map(|object| object.path.as_str()).collect();
     let scripts = script::read(&file.script, &paths, document, folder, parser, &mut diagnostics);
     assembly.finish(&entries, &file, (scripts, is_start), document, diagnostics)
+}
+
+/// Specification, pose in its parent and visuals of an entry.
+type Made = (Spec, Pose<f64>, Vec<ShownSurface>);
+
+/// Makes all entries, in their order; on several threads where meshes are read.
+fn made(
+    entries: &[Entry<'_>],
+    (document, folder): (&Document, &Folder),
+    air_density: f64,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Made> {
+    let make = |k: usize| {
+        let (entry, mut own) = (&entries[k], Diagnostics::new());
+        let mut maker = Maker { document, folder, air_density, diagnostics: &mut own };
+        ((maker.spec(entry), maker.pose(entry), maker.visuals(entry)), own)
+    };
+    let has_meshes = entries.iter().any(|entry| match entry.file {
+        tree::AnyFile::Body(file) => {
+            file.shape.iter().any(|s| s.mesh.is_some()) || file.visual.iter().any(|v| v.mesh.is_some())
+        }
+        tree::AnyFile::Frame(file) => file.visual.iter().any(|v| v.mesh.is_some()),
+        _ => false,
+    });
+    let all = if has_meshes { parallel::map(entries.len(), make) } else { (0..entries.len()).map(make).collect() };
+    let note = |(made, own): (Made, Diagnostics)| {
+        diagnostics.0.extend(own.0);
+        made
+    };
+    all.into_iter().map(note).collect()
 }
 
 /// Makes specifications, noting what is wrong.
