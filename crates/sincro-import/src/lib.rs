@@ -59,6 +59,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
+use sincro_scene::parallel;
 
 pub use report::Report;
 pub use source::{ElementStatus, Entry};
@@ -132,8 +133,6 @@ pub struct Imported {
     scene: String,
     experiment: String,
     files: BTreeMap<String, Content>,
-    /// The scene as it was verified: its files are moved rather than written again.
-    verified: Option<verify::Temporary>,
 }
 
 /// Returns true for a file that [`import`] reads, by the ending of its name: `.urdf`, `.xacro`, `.sdf`, `.world`,
@@ -216,14 +215,8 @@ pub fn import(path: &Path, options: &Options) -> Result<Imported, Diagnostics> {
         missing_collision_meshes: written.missing_collisions.clone(),
         elements,
     };
-    let mut imported = Imported {
-        report,
-        warnings,
-        scene: written.scene,
-        experiment: written.experiment,
-        files: written.files,
-        verified: None,
-    };
+    let (scene, experiment, files) = (written.scene, written.experiment, written.files);
+    let mut imported = Imported { report, warnings, scene, experiment, files };
     verify::compare(&mut imported, &source_robot, &written.link_paths, options)?;
     Ok(imported)
 }
@@ -254,30 +247,34 @@ impl Imported {
     ///
     /// # Errors
     ///
-    /// A file cannot be written or copied; those before it are there.
+    /// A file cannot be written or copied; others are there.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         self.write_scene(folder)?;
         std::fs::write(folder.join("import-report.json"), self.report.json())?;
         std::fs::write(folder.join("import-report.html"), self.report.html())
     }
 
-    /// Writes what a run needs.
-    fn write_scene(&self, folder: &Path) -> io::Result<()> {
+    /// Writes the texts of the scene folder.
+    fn write_texts(&self, folder: &Path) -> io::Result<()> {
         std::fs::create_dir_all(folder)?;
         std::fs::write(folder.join("scene.toml"), &self.scene)?;
-        std::fs::write(folder.join("experiment.toml"), &self.experiment)?;
-        for (name, content) in &self.files {
-            let path = folder.join(name);
-            std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
-            let moved = self.verified.as_ref().map(|from| std::fs::rename(from.0.join(name), &path));
-            if moved.is_some_and(|moved| moved.is_ok()) {
-                continue;
-            }
-            match content {
-                Content::Bytes(bytes) => std::fs::write(path, bytes)?,
-                Content::Copy(from) => std::fs::copy(from, path).map(|_| ())?,
-            }
+        std::fs::write(folder.join("experiment.toml"), &self.experiment)
+    }
+
+    /// Writes what a run needs.
+    fn write_scene(&self, folder: &Path) -> io::Result<()> {
+        self.write_texts(folder)?;
+        for name in self.files.keys() {
+            std::fs::create_dir_all(folder.join(name).parent().unwrap_or(folder))?;
         }
-        Ok(())
+        let files: Vec<_> = self.files.iter().collect();
+        let written = parallel::map(files.len(), |k| {
+            let (name, content) = files[k];
+            match content {
+                Content::Bytes(bytes) => std::fs::write(folder.join(name), &**bytes),
+                Content::Copy(from) => std::fs::copy(from, folder.join(name)).map(|_| ()),
+            }
+        });
+        written.into_iter().collect()
     }
 }

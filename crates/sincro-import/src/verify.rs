@@ -1,9 +1,13 @@
 //! The scene that was written, read again by the scene reader, and compared with the source.
 
+use std::sync::Arc;
+
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 use sincro_scene::fmu::Loaders;
+use sincro_scene::folder::Folder;
 use sincro_scene::scene::{Object, ObjectKind, Scene};
 
+use crate::mesh::Content;
 use crate::report::{Comparison, LinkComparison};
 use crate::robot::Robot;
 use crate::{Imported, Options, policy};
@@ -21,9 +25,19 @@ pub(crate) fn compare(
 ) -> Result<(), Diagnostics> {
     let folder = Temporary::new().map_err(|e| Diagnostic::without_location(format!("no temporary folder: {e}")))?;
     imported
-        .write_scene(&folder.0)
+        .write_texts(&folder.0)
         .map_err(|e| Diagnostic::without_location(format!("the scene cannot be written: {e}")))?;
-    let opened = sincro_scene::open::open(&folder.0, &[], Loaders::default(), true).map_err(refused)?;
+    let files = Arc::new(Folder::new(&folder.0));
+    for (name, content) in &imported.files {
+        let bytes = match content {
+            Content::Bytes(bytes) => bytes.clone(),
+            Content::Copy(from) => Arc::new(std::fs::read(from).map_err(|e| {
+                Diagnostic::without_location(format!("the mesh `{}` cannot be read: {e}", from.display()))
+            })?),
+        };
+        files.keep(name, bytes);
+    }
+    let opened = sincro_scene::open::open_in(&files, &[], Loaders::default(), true).map_err(refused)?;
     let scene = &opened.scene;
     let report = &mut imported.report;
     let dofs = source.joints.iter().map(|j| j.kind.dofs()).sum::<usize>();
@@ -43,7 +57,6 @@ pub(crate) fn compare(
         let after = path.as_ref().and_then(|path| scene.object(path)).and_then(mass_of);
         report.links.push(LinkComparison::new(&link.name, &link.at, before, after));
     }
-    imported.verified = Some(folder);
     Ok(())
 }
 
@@ -128,7 +141,7 @@ fn norm([x, y, z]: [f64; 3]) -> f64 {
 
 /// A folder that is removed when it is let go.
 #[derive(Debug)]
-pub(crate) struct Temporary(pub std::path::PathBuf);
+struct Temporary(std::path::PathBuf);
 
 impl Temporary {
     fn new() -> std::io::Result<Self> {

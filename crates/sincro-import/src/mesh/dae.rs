@@ -6,18 +6,12 @@
 //! of each material. Lines, skins, animations and textures are not.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
-use roxmltree::{Document, Node, ParsingOptions};
+use roxmltree::{Document, Node, NodeId, ParsingOptions};
 
-use super::Part;
-
-/// Deepest nesting of nodes, which may also place each other.
-const MAX_DEPTH: usize = 64;
-/// Most triangles of a document; nodes that place each other could multiply them without bound.
-const MAX_TRIANGLES: usize = 20_000_000;
-
-type Matrix = [[f64; 4]; 4];
-const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+use super::matrix::{IDENTITY, Matrix, Y_TO_Z_UP, determinant, moved, product};
+use super::{MAX_DEPTH, MAX_TRIANGLES, Part};
 
 /// Reads a document.
 pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
@@ -29,7 +23,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
     }
     let ids: BTreeMap<&str, Node<'_, '_>> =
         root.descendants().filter_map(|n| n.attribute("id").map(|id| (id, n))).collect();
-    let mut reader = Reader { ids, parts: Vec::new(), n_triangles: 0 };
+    let mut reader = Reader { ids, parts: Vec::new(), n_triangles: 0, last_positions: None };
     let upright = upright(root);
     let scenes = root.descendants().filter(|n| n.has_tag_name(tag(root, "visual_scene")));
     for scene in scenes.take(1) {
@@ -65,7 +59,7 @@ fn upright(root: Node<'_, '_>) -> Matrix {
     let mut m = match axis {
         "Z_UP" => IDENTITY,
         "X_UP" => [[0.0, -1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [1.0, 0.0, 0.0, 0.0], IDENTITY[3]],
-        _ => [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], IDENTITY[3]],
+        _ => Y_TO_Z_UP,
     };
     m[..3].iter_mut().flatten().for_each(|x| *x *= unit);
     m
@@ -75,10 +69,15 @@ fn named<'a, 'd>(node: Node<'a, 'd>, name: &'static str) -> impl Iterator<Item =
     node.children().filter(move |n| n.is_element() && n.tag_name().name() == name)
 }
 
+/// Positions of a mesh.
+type Points = Rc<Vec<[f64; 3]>>;
+
 struct Reader<'a, 'd> {
     ids: BTreeMap<&'a str, Node<'a, 'd>>,
     parts: Vec<Part>,
     n_triangles: usize,
+    /// Positions of the source that was read last: primitives of one mesh share them.
+    last_positions: Option<(NodeId, Points)>,
 }
 
 impl<'a, 'd> Reader<'a, 'd> {
@@ -154,15 +153,15 @@ impl<'a, 'd> Reader<'a, 'd> {
             }
             let symbol = primitive.attribute("material");
             let color = symbol.and_then(|s| materials.get(s).copied().or_else(|| self.color(Some(s))));
-            let faces = faces(primitive, kind)?;
             let (stride, offset, positions) = self.positions(primitive)?;
-            self.add(&faces, (stride, offset), &positions, at, color)?;
+            let faces = faces(primitive, kind, (stride, offset))?;
+            self.add(&faces, &positions, at, color)?;
         }
         Ok(())
     }
 
     /// Indices a corner, offset of the position among them, and the positions.
-    fn positions(&self, primitive: Node<'a, 'd>) -> Result<(usize, usize, Vec<[f64; 3]>), String> {
+    fn positions(&mut self, primitive: Node<'a, 'd>) -> Result<(usize, usize, Points), String> {
         let inputs: Vec<_> = named(primitive, "input").collect();
         let offset = |n: &Node<'_, '_>| n.attribute("offset").and_then(|o| o.parse::<usize>().ok()).unwrap_or(0);
         let stride = inputs.iter().map(offset).max().unwrap_or(0).saturating_add(1).min(64);
@@ -170,40 +169,48 @@ impl<'a, 'd> Reader<'a, 'd> {
         let vertices = self.target(vertex.attribute("source")).ok_or("its vertices are missing")?;
         let position = named(vertices, "input").find(|n| n.attribute("semantic") == Some("POSITION"));
         let source = self.target(position.and_then(|n| n.attribute("source"))).ok_or("its positions are missing")?;
-        let array = named(source, "float_array").next().and_then(|n| n.text()).unwrap_or("");
-        let numbers = array.split_whitespace().map(str::parse::<f64>);
-        let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().map_err(|_| "a position is no number")?;
-        if numbers.iter().any(|x| !x.is_finite()) {
-            return Err("a position is not finite".into());
+        let offset = offset(vertex).min(stride - 1);
+        if let Some((_, positions)) = self.last_positions.as_ref().filter(|(id, _)| *id == source.id()) {
+            return Ok((stride, offset, positions.clone()));
         }
+        let array = named(source, "float_array").next().and_then(|n| n.text()).unwrap_or("");
         let step = source.descendants().find(|n| n.tag_name().name() == "accessor");
         let step = step.and_then(|n| n.attribute("stride")).and_then(|s| s.parse().ok()).unwrap_or(3_usize).max(3);
-        Ok((stride, offset(vertex), numbers.chunks_exact(step).map(|c| [c[0], c[1], c[2]]).collect()))
+        let mut positions = Vec::with_capacity(array.len() / (9 * step));
+        let mut p = [0.0; 3];
+        for (k, word) in array.split_ascii_whitespace().enumerate() {
+            let x: f64 = word.parse().map_err(|_| "a position is no number")?;
+            if !x.is_finite() {
+                return Err("a position is not finite".into());
+            }
+            if k % step < 3 {
+                p[k % step] = x;
+            }
+            if k % step == step - 1 {
+                positions.push(p);
+            }
+        }
+        let positions = Rc::new(positions);
+        self.last_positions = Some((source.id(), positions.clone()));
+        Ok((stride, offset, positions))
     }
 
     fn add(
         &mut self,
         faces: &Faces,
-        (stride, offset): (usize, usize),
         positions: &[[f64; 3]],
         at: &Matrix,
         color: Option<[u8; 3]>,
     ) -> Result<(), String> {
-        let k = match self.parts.iter().position(|part| part.color == color) {
-            Some(k) => k,
-            None => {
-                self.parts.push(Part { color, ..Part::default() });
-                self.parts.len() - 1
-            }
-        };
-        let part = &mut self.parts[k];
+        let part = Part::of_color(&mut self.parts, color);
         let first = part.corners.len() as u32;
+        part.triangles.reserve(faces.n_triangles());
         part.corners.extend(positions.iter().map(|p| moved(at, p)));
         let mirrored = determinant(at) < 0.0;
         let mut start = 0_usize;
         for n in &faces.corners {
             let corner = |k: usize| -> Result<u32, String> {
-                let index = faces.indices.get((start + k) * stride + offset.min(stride - 1)).copied();
+                let index = faces.indices.get(start + k).copied();
                 let index = index.filter(|i| (*i as usize) < positions.len()).ok_or("an index is out of range")?;
                 Ok(first + index)
             };
@@ -225,30 +232,49 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 }
 
-/// Corners of each face, and indices of all.
+/// Number of corners of each face, and the positions of all of them, by index.
 struct Faces {
     corners: Vec<usize>,
     indices: Vec<u32>,
 }
 
-fn faces(primitive: Node<'_, '_>, kind: &str) -> Result<Faces, String> {
-    let integers = |node: Node<'_, '_>| -> Result<Vec<u32>, String> {
-        let text = node.text().unwrap_or("");
-        text.split_whitespace().map(|w| w.parse::<u32>().map_err(|_| format!("`{w}` is no index"))).collect()
-    };
-    let inputs = named(primitive, "input");
-    let stride = inputs.filter_map(|n| n.attribute("offset")?.parse::<usize>().ok()).max().unwrap_or(0) + 1;
-    let stride = stride.min(64);
-    let lists: Vec<Vec<u32>> = named(primitive, "p").map(integers).collect::<Result<_, _>>()?;
-    let corners = match kind {
-        "triangles" => lists.iter().flat_map(|l| std::iter::repeat_n(3, l.len() / stride / 3)).collect(),
-        "polygons" => lists.iter().map(|l| l.len() / stride).collect(),
-        _ => {
-            let counts = named(primitive, "vcount").next().map(integers).transpose()?.unwrap_or_default();
-            counts.into_iter().map(|n| n as usize).collect()
+impl Faces {
+    /// Number of triangles that they are split into, as far as there are indices for them.
+    fn n_triangles(&self) -> usize {
+        let all = self.corners.iter().fold(0_usize, |sum, n| sum.saturating_add(n.saturating_sub(2)));
+        all.min(self.indices.len())
+    }
+}
+
+/// Faces of a primitive whose corners have `stride` indices, that of the position at `offset`.
+fn faces(primitive: Node<'_, '_>, kind: &str, (stride, offset): (usize, usize)) -> Result<Faces, String> {
+    let index = |word: &str| word.parse::<u32>().map_err(|_| format!("`{word}` is no index"));
+    let mut faces = Faces { corners: Vec::new(), indices: Vec::new() };
+    for list in named(primitive, "p") {
+        let (text, first) = (list.text().unwrap_or(""), faces.indices.len());
+        // indices have four digits or so
+        faces.indices.reserve(text.len() / (5 * stride));
+        let mut n_words = 0;
+        for word in text.split_ascii_whitespace() {
+            if n_words % stride == offset {
+                faces.indices.push(index(word)?);
+            }
+            n_words += 1;
         }
-    };
-    Ok(Faces { corners, indices: lists.concat() })
+        let n = n_words / stride;
+        faces.indices.truncate(first + n);
+        match kind {
+            "triangles" => faces.corners.extend(std::iter::repeat_n(3, n / 3)),
+            "polygons" => faces.corners.push(n),
+            _ => {}
+        }
+    }
+    if kind == "polylist" {
+        let counts = named(primitive, "vcount").next().and_then(|n| n.text()).unwrap_or("");
+        let counts = counts.split_ascii_whitespace().map(|word| index(word).map(|n| n as usize));
+        faces.corners = counts.collect::<Result<_, _>>()?;
+    }
+    Ok(faces)
 }
 
 /// Matrix of an element that moves its node.
@@ -284,19 +310,6 @@ fn rotation([x, y, z]: [f64; 3], angle: f64) -> Matrix {
         [z * x * d - y * s, z * y * d + x * s, c + z * z * d, 0.0],
         IDENTITY[3],
     ]
-}
-
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
-}
-
-fn moved(m: &Matrix, p: &[f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3])
-}
-
-fn determinant(m: &Matrix) -> f64 {
-    let minor = |a: usize, b: usize| m[1][a] * m[2][b] - m[1][b] * m[2][a];
-    m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1)
 }
 
 #[cfg(test)]

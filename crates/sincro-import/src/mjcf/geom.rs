@@ -1,5 +1,8 @@
 //! Geoms: what shows, what touches, and the mass they give their body. Assets: meshes and colours.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
 use sincro_dynamics::geometry::polyhedron;
 use sincro_dynamics::model::{MassProperties, Shape as Solid};
 use sincro_dynamics::spatial::Vec3;
@@ -27,6 +30,9 @@ pub(super) struct MeshAsset {
     reference: Placement,
     inertia: MeshInertia,
 }
+
+/// Mass properties of meshes by file and bits of their factors.
+pub(super) type MeshMasses = RefCell<BTreeMap<(String, [u64; 3]), MassProperties>>;
 
 /// Rules by which a mesh gives mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -251,6 +257,16 @@ impl<'d> Reader<'d> {
     }
 
     fn mesh_mass(&self, e: Element<'d>, uri: &str, scale: [f64; 3]) -> Result<MassProperties, Diagnostic> {
+        let key = (uri.to_owned(), scale.map(f64::to_bits));
+        if let Some(known) = self.mesh_masses.borrow().get(&key) {
+            return Ok(*known);
+        }
+        let mass = self.read_mesh_mass(e, uri, scale)?;
+        self.mesh_masses.borrow_mut().insert(key, mass);
+        Ok(mass)
+    }
+
+    fn read_mesh_mass(&self, e: Element<'d>, uri: &str, scale: [f64; 3]) -> Result<MassProperties, Diagnostic> {
         let path = crate::resolve::Resolver::new(&self.folder, &[]).find(uri);
         let parts = path.and_then(|path| crate::mesh::read(&path));
         let parts = parts.map_err(|why| {

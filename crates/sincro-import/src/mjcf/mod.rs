@@ -60,6 +60,8 @@ struct Reader<'d> {
     settings: Settings,
     /// Meshes of the assets by name.
     meshes: BTreeMap<String, geom::MeshAsset>,
+    /// Mass properties at density 1 of meshes that were read, by file and bits of the factors.
+    mesh_masses: geom::MeshMasses,
     /// Colours of materials by name.
     materials: BTreeMap<String, [u8; 3]>,
     /// Links by the names of bodies.
@@ -110,6 +112,7 @@ pub(crate) fn read<'d>(
         angles,
         settings,
         meshes: BTreeMap::new(),
+        mesh_masses: geom::MeshMasses::default(),
         materials: BTreeMap::new(),
         bodies: BTreeMap::new(),
         sites: BTreeMap::new(),

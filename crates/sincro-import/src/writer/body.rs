@@ -1,9 +1,12 @@
 //! Links as bodies, frames and fixtures, with what shows and what touches.
 
+use std::path::PathBuf;
+
 use super::{Context, Writer, keys, last, one_line, place};
 use crate::mesh::MeshUse;
 use crate::number::{list, number, quoted};
 use crate::policy;
+use crate::resolve::Resolver;
 use crate::robot::{Geometry, JointKind, Link, Placement, Robot, Shape};
 use crate::source::ElementStatus;
 
@@ -67,6 +70,19 @@ fn below(robot: &Robot, link: usize) -> Option<(usize, Placement)> {
         .find(|j| j.parent == Some(link) && j.kind == JointKind::Fixed && robot.links[j.child].inertial.is_some())?;
     let there = joint.pose.then(&robot.links[joint.child].pose).pose();
     Some((joint.child, Placement::of_pose(&there.inverse())))
+}
+
+/// Meshes that the links use: path, true if it shows, and factors. Those that are not found are left out.
+pub(super) fn mesh_uses(robot: &Robot, resolver: &Resolver) -> Vec<(PathBuf, bool, [f64; 3])> {
+    let pieces = robot.links.iter().filter(|link| !link.is_virtual).flat_map(|link| {
+        let collisions = link.collisions.iter().map(|piece| (piece, false));
+        collisions.chain(link.visuals.iter().map(|piece| (piece, true)))
+    });
+    let used = pieces.filter_map(|(piece, shows)| match &piece.shape {
+        Shape::Mesh { uri, scale } => Some((resolver.find(uri).ok()?, shows, *scale)),
+        _ => None,
+    });
+    used.collect()
 }
 
 impl Writer<'_> {

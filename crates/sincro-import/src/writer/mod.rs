@@ -59,10 +59,12 @@ pub(crate) fn write(robot: &mut Robot, context: &Context<'_>) -> Written {
     let fixed = policy::fixed_in_world(robot, context.options.free_base);
     body::gather_collisions(robot, &fixed, context);
     let starts = joint::starts(robot, context);
+    let mut meshes = Meshes::default();
+    meshes.convert(body::mesh_uses(robot, context.resolver).into_iter());
     let mut writer = Writer {
         context,
         text: String::new(),
-        meshes: Meshes::default(),
+        meshes,
         groups: groups(robot, &fixed),
         starts,
         link_paths: vec![None; robot.links.len()],
