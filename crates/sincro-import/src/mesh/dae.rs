@@ -11,7 +11,7 @@ use std::rc::Rc;
 use roxmltree::{Document, Node, NodeId, ParsingOptions};
 
 use super::matrix::{IDENTITY, Matrix, Y_TO_Z_UP, determinant, moved, product};
-use super::{MAX_DEPTH, MAX_TRIANGLES, Part};
+use super::{MAX_DEPTH, MAX_NODES, MAX_TRIANGLES, Part};
 
 /// Reads a document.
 pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
@@ -23,7 +23,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
     }
     let ids: BTreeMap<&str, Node<'_, '_>> =
         root.descendants().filter_map(|n| n.attribute("id").map(|id| (id, n))).collect();
-    let mut reader = Reader { ids, parts: Vec::new(), n_triangles: 0, last_positions: None };
+    let mut reader = Reader { ids, parts: Vec::new(), n_triangles: 0, n_nodes: 0, last_positions: None };
     let upright = upright(root);
     let scenes = root.descendants().filter(|n| n.has_tag_name(tag(root, "visual_scene")));
     for scene in scenes.take(1) {
@@ -76,6 +76,7 @@ struct Reader<'a, 'd> {
     ids: BTreeMap<&'a str, Node<'a, 'd>>,
     parts: Vec<Part>,
     n_triangles: usize,
+    n_nodes: usize,
     /// Positions of the source that was read last: primitives of one mesh share them.
     last_positions: Option<(NodeId, Points)>,
 }
@@ -86,8 +87,9 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     fn node(&mut self, node: Node<'a, 'd>, above: &Matrix, depth: usize) -> Result<(), String> {
-        if depth > MAX_DEPTH {
-            return Err(format!("its nodes are nested more than {MAX_DEPTH} deep"));
+        self.n_nodes += 1;
+        if depth > MAX_DEPTH || self.n_nodes > MAX_NODES {
+            return Err(format!("its nodes are nested more than {MAX_DEPTH} deep, or more than {MAX_NODES}"));
         }
         let mut at = *above;
         for child in node.children().filter(Node::is_element) {
@@ -354,5 +356,18 @@ mod tests {
         let circle = "<COLLADA><library_visual_scenes><visual_scene><node id=\"a\"><instance_node url=\"#a\"/></node>\
                       </visual_scene></library_visual_scenes></COLLADA>";
         assert!(read(circle).unwrap_err().contains("nested"));
+    }
+
+    #[test]
+    fn nodes_that_place_each_other_end() {
+        let node = |k: usize| {
+            let next = format!("<instance_node url=\"#n{}\"/>", k + 1);
+            format!("<node id=\"n{k}\">{next}{next}</node>")
+        };
+        let nodes: String = (0..40).map(node).collect();
+        let text = format!(
+            "<COLLADA><library_visual_scenes><visual_scene>{nodes}</visual_scene></library_visual_scenes></COLLADA>"
+        );
+        assert!(read(&text).unwrap_err().contains("nested"));
     }
 }

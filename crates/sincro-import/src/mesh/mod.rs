@@ -25,7 +25,9 @@ use convert::{Converted, Uses};
 const MAX_BYTES: u64 = 64 << 20;
 /// Deepest nesting of the nodes of a document, which may also place each other.
 const MAX_DEPTH: usize = 64;
-/// Most triangles of a document; nodes that place each other could multiply them without bound.
+/// Most nodes that are placed: some that place each other could multiply without bound, and so could triangles.
+const MAX_NODES: usize = 1_000_000;
+/// Most triangles of a document.
 const MAX_TRIANGLES: usize = 20_000_000;
 /// Bytes of a binary STL before its triangles, and of each of them.
 const STL_HEAD: usize = 84;
