@@ -52,7 +52,7 @@ fn shown(path: &Path, scale: [f64; 3], parts: &[Part]) -> Converted {
     }
     let (suffix, signs) = if mirrored { ("-mirrored", scale.map(f64::signum)) } else { ("", [1.0; 3]) };
     let pieces: Vec<_> = parts.iter().map(|part| (stl(part, signs), part.color)).collect();
-    let is_document = extension(path) == "dae";
+    let is_document = matches!(extension(path).as_str(), "dae" | "gltf" | "glb");
     let mut change = String::from(if is_document { "converted to STL, z up, in metres" } else { "converted to STL" });
     if mirrored {
         change = format!("mirrored, its triangles turned; {change}");

@@ -4,11 +4,12 @@
 //! |---|---|---|
 //! | STL, OBJ | a copy | a copy if its hull has few corners, else its hull |
 //! | MSH of MuJoCo | STL | its hull |
-//! | COLLADA | one STL for each colour, in metres, z up | its hull |
+//! | COLLADA, glTF | one STL for each colour, in metres, z up | its hull |
 //! | any, with a mirrored scale | converted, triangles turned | its hull |
 
 mod convert;
 mod dae;
+mod gltf;
 mod hull;
 mod matrix;
 
@@ -214,8 +215,9 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Part>, String> {
             let text = bytes_of(path)?;
             dae::read(std::str::from_utf8(&text).map_err(|_| "it is not UTF-8 text")?)
         }
+        "gltf" | "glb" => gltf::read(&bytes_of(path)?, path.parent().unwrap_or(Path::new(""))),
         "msh" => msh(&bytes_of(path)?).ok_or("it is no mesh of MuJoCo".into()),
-        other => Err(format!("meshes `.{other}` are not read: STL, OBJ, DAE and MSH are")),
+        other => Err(format!("meshes `.{other}` are not read: STL, OBJ, DAE, glTF and MSH are")),
     }
 }
 
