@@ -1,6 +1,7 @@
 //! Tendons in scene files: against elements that do the same, against their equations, and what is refused.
 
 use sincro_sim::Loaded;
+use sincro_sim::replay::SceneView;
 use sincro_testing::{SceneFolder, run};
 
 /// Three carts on rails along x, y and z; masses 1, 2 and 3 kg.
@@ -252,6 +253,37 @@ fn settings_and_instances_reach_it() {
     for k in 0..6 {
         assert!(worst(&moved[k], &plain[k]) < 1e-8, "{k}");
     }
+}
+
+/// Tendons of both kinds, with names of joints as they stand in [`CARTS`].
+const BOTH: &str = r#"
+[[tendon]]
+name = "t"
+through = ["one", "/eyelet", "two", "three"]
+free_length = 1.2
+stiffness = 40.0
+damping = 0.7
+actuator = { command = -6.0, max_force = 4.0 }
+
+[[tendon]]
+name = "sum"
+joints = ["x", "y", "z"]
+coefficients = [1.0, -2.0, 0.5]
+free_length = [-0.3, -0.1]
+stiffness = 30.0
+damping = 0.3
+"#;
+
+#[test]
+fn the_viewer_gets_one_line_for_each() {
+    let view = SceneView::new(&scene(BOTH).load(&[]).unwrap().scene);
+    let of = |path: &str| -> Vec<_> { view.objects.iter().filter(|object| object.path == path).collect() };
+    let (spatial, fixed) = (of("/t"), of("/sum"));
+    assert_eq!((spatial.len(), fixed.len()), (1, 1));
+    let movers: Vec<_> = spatial[0].line.iter().map(|(mover, _)| *mover).collect();
+    assert_eq!(movers, [Some(0), None, Some(1), Some(2)]);
+    assert_eq!(spatial[0].line[1].1, [0.5; 3]);
+    assert!(fixed[0].line.is_empty() && fixed[0].kind == "tendon");
 }
 
 /// Replaced text, replacement, and parts of the message.

@@ -12,7 +12,7 @@ use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::{Model, Shape};
 use sincro_dynamics::scratch::Scratch;
-use sincro_dynamics::spatial::{Pose, Quat};
+use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_dynamics::state::State;
 
 use super::surface::{self, Triangles};
@@ -48,7 +48,8 @@ pub struct SceneView {
     pub gravity: [f64; 3],
 }
 
-/// Object of the scene as it is drawn: joint, body, frame, force, rotor, drag element, sensor, camera or closure.
+/// Object of the scene as it is drawn: joint, body, frame, force, rotor, drag element, sensor, camera, closure,
+/// spring-damper, tendon or coupling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ObjectView {
     /// Path of the object, such as `/arm/link`.
@@ -85,6 +86,10 @@ pub struct ObjectView {
     /// Other end of a loop joint: index of its mover (`None`: the world), and pose there as in `pose`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub other_end: Option<(Option<usize>, [f64; 7])>,
+    /// Points of a spring-damper or spatial tendon in their order: index of a mover (`None`: the world), and position
+    /// in its frame `[m]`; empty for all else.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub line: Vec<(Option<usize>, [f64; 3])>,
 }
 
 /// Camera of the scene as it is drawn; it looks along z of its frame, y is up in the image.
@@ -262,6 +267,7 @@ impl Maker<'_> {
                 _ => None,
             },
             other_end: None,
+            line: Vec::new(),
         }
     }
 
@@ -288,18 +294,18 @@ impl Maker<'_> {
             objects.push(ObjectView { mover, pose, other_end, ..beside(&closure.name, kind) });
         }
         for (element, name) in self.model.spring_dampers().iter().zip(&self.model.names().spring_dampers) {
-            let is_tendon = element.segments().len() != 1;
-            for segment in element.segments() {
-                let [(mover, pose), other_end] = segment.ends.map(|end| {
+            let first = element.segments().first().map(|segment| segment.ends[0]);
+            let points = first.into_iter().chain(element.segments().iter().map(|segment| segment.ends[1]));
+            let line: Vec<_> = points
+                .map(|end| {
                     let mover = end.link.and_then(|link| self.links.iter().position(|l| *l == link));
-                    (mover, seven(&Pose::translation(end.position)))
-                });
-                let kind = if is_tendon { "tendon" } else { "spring_damper" };
-                objects.push(ObjectView { mover, pose, other_end: Some(other_end), ..beside(name, kind) });
-            }
-            if element.segments().is_empty() {
-                objects.push(beside(name, "tendon"));
-            }
+                    (mover, end.position.0)
+                })
+                .collect();
+            let (mover, position) = line.first().copied().unwrap_or((None, [0.0; 3]));
+            let pose = seven(&Pose::translation(Vec3(position)));
+            let kind = if line.len() == 2 { "spring_damper" } else { "tendon" };
+            objects.push(ObjectView { mover, pose, line, ..beside(name, kind) });
         }
         objects.extend(set.gears.iter().map(|coupling| beside(&coupling.name, "coupling")));
     }
@@ -368,6 +374,7 @@ fn beside(path: &str, kind: &str) -> ObjectView {
         volume: Vec::new(),
         camera: None,
         other_end: None,
+        line: Vec::new(),
     }
 }
 

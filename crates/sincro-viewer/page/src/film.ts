@@ -51,6 +51,8 @@ export interface ObjectView {
   camera?: { field_of_view_deg: number };
   /** Of a closure: mover and pose of its other end. */
   other_end?: [number | null, Pose];
+  /** Of a spring-damper or tendon: mover of each of its points, and position there [m]. */
+  line?: [number | null, [number, number, number]][];
 }
 
 export interface SceneView {

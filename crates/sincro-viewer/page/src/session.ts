@@ -13,7 +13,7 @@ export const SHOWN = {
   centers: { label: "centres of mass", on: false },
   inertia: { label: "inertia boxes", on: false },
   frames: { label: "frames", on: false },
-  springs: { label: "springs", on: true },
+  springs: { label: "springs and tendons", on: true },
   rotors: { label: "thrust", on: true },
   forces: { label: "external forces", on: true },
   contacts: { label: "contact points", on: true },
@@ -36,7 +36,7 @@ export function applies(view: SceneView, runs: Run[], key: Shown): boolean {
     case "axes": return some((o) => (o.joint?.axes.length ?? 0) > 0);
     case "centers":
     case "inertia": return some((o) => o.mass !== null);
-    case "springs": return some((o) => (o.joint?.springs.length ?? 0) > 0);
+    case "springs": return some((o) => (o.joint?.springs.length ?? 0) > 0 || o.line !== undefined);
     case "rotors": return view.n_rotors > 0;
     case "forces": return view.n_forces > 0;
     case "contacts":

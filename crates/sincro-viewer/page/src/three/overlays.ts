@@ -1,7 +1,8 @@
-// What is drawn over the bodies on wish: axes, centres of mass, boxes of inertia, frames, springs, closures, cameras, paths.
+// What is drawn over the bodies on wish: axes, centres of mass, boxes of inertia, frames, springs, tendons, closures, cameras,
+// paths.
 
 import {
-  AxesHelper, BoxGeometry, BufferGeometry, CatmullRomCurve3, EdgesGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial,
+  AxesHelper, BoxGeometry, BufferGeometry, CatmullRomCurve3, CylinderGeometry, EdgesGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, Object3D, SphereGeometry, TorusGeometry, TubeGeometry, Vector3, type Material, type Scene,
 } from "three";
 import type { ObjectView } from "../film";
@@ -17,8 +18,13 @@ const CLOSURE = "#7a3e9d";
 const PATH = "#0072b2";
 const VOLUME = "#009e73";
 
+/** Mover, and position in its frame [m]. */
+type LinePoint = NonNullable<ObjectView["line"]>[number];
+
 export class Overlays {
   private readonly made: Object3D[] = [];
+  /** Straight pieces of springs and tendons with the two points that each joins. */
+  private readonly pieces: { piece: Mesh; ends: [LinePoint, LinePoint] }[] = [];
 
   /** The camera through which one looks: it is not drawn. */
   through: number | null = null;
@@ -36,6 +42,7 @@ export class Overlays {
       });
       old.removeFromParent();
     }
+    this.pieces.length = 0;
     const { shown, view } = this.session;
     view.objects.forEach((object, k) => {
       const node = bodies.nodes[k] as Object3D;
@@ -45,11 +52,32 @@ export class Overlays {
       if (k === this.through) return;
       if (shown.frames && object.kind !== "force" && object.kind !== "coupling") this.frame(node, 0.12 * bodies.size);
       if (shown.springs && object.joint) this.springs(object, node, bodies.size);
+      if (shown.springs && object.line) this.line(object.line, bodies);
       if (shown.closures && object.other_end) this.closure(object, bodies);
       if (shown.volumes && object.volume) this.volume(node, object.volume);
       if (shown.frames && object.camera) this.camera(node, object.camera.field_of_view_deg, bodies.size);
     });
     if (shown.trace && this.session.selected !== null) this.path(this.session.selected, bodies);
+    this.place(bodies);
+  }
+
+  /** Puts springs and tendons where their points are now. */
+  place(bodies: Bodies): void {
+    const [up, from, to] = [new Vector3(0, 1, 0), new Vector3(), new Vector3()];
+    const put = ([mover, position]: LinePoint, out: Vector3) => {
+      const carrier = bodies.movers[mover ?? bodies.view.n_movers] as Group;
+      carrier.updateMatrix();
+      out.set(...position).applyMatrix4(carrier.matrix);
+    };
+    for (const { piece, ends } of this.pieces) {
+      put(ends[0], from);
+      put(ends[1], to);
+      piece.position.copy(from).add(to).multiplyScalar(0.5);
+      to.sub(from);
+      piece.visible = to.length() > 0;
+      piece.scale.set(1, to.length(), 1);
+      piece.quaternion.setFromUnitVectors(up, to.normalize());
+    }
   }
 
   private hang(node: Object3D, what: Object3D): void {
@@ -112,6 +140,17 @@ export class Overlays {
       const coil = new Mesh(new TubeGeometry(new CatmullRomCurve3(points), 220, 0.004 * size, 6), new MeshBasicMaterial({ color: SPRING }));
       coil.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...axis).normalize());
       this.hang(node, coil);
+    }
+  }
+
+  /** The line of a spring-damper or tendon, through its points. */
+  private line(points: LinePoint[], bodies: Bodies): void {
+    const radius = 0.006 * bodies.size;
+    for (let k = 1; k < points.length; k++) {
+      const piece = new Mesh(new CylinderGeometry(radius, radius, 1, 8), new MeshBasicMaterial({ color: SPRING }));
+      piece.name = "line";
+      this.pieces.push({ piece, ends: [points[k - 1] as LinePoint, points[k] as LinePoint] });
+      this.hang(bodies.root, piece);
     }
   }
 

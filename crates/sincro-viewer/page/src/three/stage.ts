@@ -370,6 +370,7 @@ export class Stage {
     for (const run of session.runs) this.bodies.get(run.id)?.place(run, session.t);
     this.runtime?.place(session.t, session.shown.volumes);
     this.node.dataset["runtime"] = String(this.runtime?.count ?? 0);
+    this.overlays.place(this.main);
     this.scene.updateMatrixWorld(true);
     this.vectors.place(session.t);
     this.drawLegend();
