@@ -274,6 +274,82 @@ stiffness = 30.0
 damping = 0.3
 "#;
 
+/// Methods, and how far motions by them may differ that are the same but for rounding: steps chosen by their error also
+/// fall differently about the ends of the free range.
+const METHODS: [(&str, f64); 3] =
+    [("accuracy=1e-11", 1e-7), ("integrator=implicit", 1e-9), ("integrator=semi-implicit-euler", 1e-9)];
+
+#[test]
+fn a_turned_scene_moves_as_it_did() {
+    // R = Rz·Ry·Rx of the instance takes gravity along
+    let [roll, pitch, yaw] = [30.0_f64, -40.0, 70.0].map(|a| sincro_math::elementary::sin_cos(a.to_radians()));
+    let down = [yaw.1 * pitch.0 * roll.1 + yaw.0 * roll.0, yaw.0 * pitch.0 * roll.1 - yaw.1 * roll.0, pitch.1 * roll.1];
+    let gravity = format!("gravity=[{:?}, {:?}, {:?}]", -9.81 * down[0], -9.81 * down[1], -9.81 * down[2]);
+    let outer = "[[instance]]\nfile = \"inner.toml\"\nname = \"unit\"\nposition = [0.3, -0.2, 1.0]\nrotation_deg = [30.0, -40.0, 70.0]\n";
+    let names = ["/x.", "/y.", "/z."]
+        .iter()
+        .fold(EXPERIMENT.to_owned(), |text, name| text.replace(&format!("\"{name}"), &format!("\"/unit{name}")));
+    let turned = SceneFolder::of(outer, &names.replace("/t.", "/unit-t."));
+    turned.write("inner.toml", &format!("{CARTS}\n{BOTH}"));
+    for (method, bound) in METHODS {
+        let plain = columns(&scene(BOTH).load(&[method]).unwrap());
+        let found = columns(&turned.load(&[&gravity, method]).unwrap());
+        for k in 0..6 {
+            assert!(worst(&found[k], &plain[k]) < bound, "{method}, {k}: {:e}", worst(&found[k], &plain[k]));
+        }
+    }
+}
+
+#[test]
+fn the_order_of_points_joints_and_tendons_does_not_matter() {
+    let (first, second) = BOTH.split_at(BOTH.rfind("[[tendon]]").unwrap());
+    let reordered = format!("{second}\n{first}")
+        .replace("\"one\", \"/eyelet\", \"two\", \"three\"", "\"three\", \"two\", \"/eyelet\", \"one\"")
+        .replace("\"x\", \"y\", \"z\"", "\"z\", \"x\", \"y\"")
+        .replace("1.0, -2.0, 0.5", "0.5, 1.0, -2.0");
+    for (method, bound) in METHODS {
+        let plain = columns(&scene(BOTH).load(&[method]).unwrap());
+        let found = columns(&scene(&reordered).load(&[method]).unwrap());
+        for k in 0..6 {
+            assert!(worst(&found[k], &plain[k]) < bound, "{method}, {k}: {:e}", worst(&found[k], &plain[k]));
+        }
+    }
+}
+
+/// A scene with all lengths and forces, in the lines that hold them, times a factor.
+fn scaled(text: &str, factor: f64) -> String {
+    let has_lengths =
+        |line: &str| ["gravity", "initial", "position", "free_length", "actuator"].iter().any(|k| line.starts_with(k));
+    let number = |word: &str| word.parse::<f64>().map_or_else(|_| word.to_owned(), |x| format!("{:?}", factor * x));
+    let line = |line: &str| match has_lengths(line) {
+        true => line
+            .split_inclusive([' ', '[', ']', ','])
+            .map(|piece| {
+                let word = piece.trim_end_matches([' ', '[', ']', ',']);
+                number(word) + &piece[word.len()..]
+            })
+            .collect(),
+        false => line.to_owned(),
+    };
+    text.lines().map(line).collect::<Vec<String>>().join("\n")
+}
+
+#[test]
+fn lengths_that_are_scaled_scale_the_motion_and_the_forces() {
+    for (method, bound) in METHODS {
+        let plain = columns(&scene(BOTH).load(&[method]).unwrap());
+        for factor in [4.0, 0.125] {
+            let text = scaled(&format!("{CARTS}\n{BOTH}"), factor);
+            let found = columns(&SceneFolder::of(&text, EXPERIMENT).load(&[method]).unwrap());
+            for k in 0..6 {
+                let expected: Vec<f64> = plain[k].iter().map(|x| factor * x).collect();
+                let difference = worst(&found[k], &expected) / factor;
+                assert!(difference < bound, "{method}, {factor}, {k}: {difference:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_viewer_gets_one_line_for_each() {
     let view = SceneView::new(&scene(BOTH).load(&[]).unwrap().scene);
