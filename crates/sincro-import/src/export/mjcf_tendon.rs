@@ -90,7 +90,10 @@ impl Tendons {
                 Some(NonlinearLaw::Ranges(ranges)) => {
                     for range in ranges {
                         let [low, high] = [range.low, range.high].map(|x| x + element.free_length);
-                        if range.damping == 0.0 && law.stiffness == 0.0 && !keys.contains("springlength") {
+                        // a dead band of MJCF has lengths that are not negative, as those of lines are anyway
+                        let low = if element.shares().is_empty() { low.max(0.0) } else { low };
+                        let is_band = range.damping == 0.0 && low >= 0.0 && high.is_finite();
+                        if is_band && law.stiffness == 0.0 && !keys.contains("springlength") {
                             let lengths = numbers(&[low, high]);
                             keys += &format!(" stiffness=\"{}\" springlength=\"{lengths}\"", plain(range.stiffness));
                         } else {

@@ -177,6 +177,11 @@ coefficients = [0.2, 1.0]
 free_length = [0.01, 0.05]
 stiffness = 12.0
 damping = 0.8
+
+[[tendon]]
+name = "leash"
+through = ["/", "/base/turn/arm/slide/tool/tip"]
+limits = { upper = 0.3, stiffness = 90.0 }
 "#;
 
 #[test]
@@ -194,7 +199,7 @@ fn springs_and_tendons_come_back_from_mjcf() {
         let names = &back.model.names().spring_dampers;
         &back.model.spring_dampers()[names.iter().position(|n| n == name).unwrap()]
     };
-    assert_eq!(back.model.spring_dampers().len(), 4, "{}", imported.scene());
+    assert_eq!(back.model.spring_dampers().len(), 5, "{}", imported.scene());
     assert_eq!(found("/cord-2").actuator.unwrap().max_force, 7.0);
     for draw in 0..20 {
         let number = |k: usize| ((draw * 4 + k) as f64 * 0.618_033_988_749_895).fract() - 0.3;
@@ -207,10 +212,26 @@ fn springs_and_tendons_come_back_from_mjcf() {
             let at = element.length(&q, &v, |link| (scratch.twist(link), scratch.link_poses()[link]));
             (at, element.forces(at.length, at.rate, &vec![0.0; model.n_commands()]).total())
         };
-        for name in ["/line", "/cord", "/sum"] {
+        for name in ["/line", "/cord", "/sum", "/leash"] {
             let ((at, expected), (there, found)) = (force(&own.scene.model, name), force(&back.model, name));
             assert!((at.length - there.length).abs() < 1e-14 && (at.rate - there.rate).abs() < 1e-13, "{name}");
             assert!((expected - found).abs() < 1e-12, "draw {draw}, {name}: {expected} {found}");
         }
     }
+}
+
+/// A dead band of MJCF has two lengths that are not negative; what has none is a stop there.
+#[test]
+fn a_one_sided_stop_of_a_fixed_tendon_is_no_spring_of_mjcf() {
+    let folder = Folder::new();
+    let stop = "\n[[tendon]]\nname = \"stop\"\njoints = [\"/base/turn\"]\ncoefficients = [1.0]\nlimits = { upper = 0.4, stiffness = 80.0 }\n";
+    folder.file("own/scene.toml", [SCENE, stop].concat());
+    folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
+    let own =
+        sincro_scene::open::open(&folder.path().join("own"), &[], sincro_scene::fmu::Loaders::default(), true).unwrap();
+    let exported = export(&own.scene, "own", Format::Mjcf).unwrap();
+    assert!(exported.text.contains("range=\"-1000000000 0.4\""), "{}", exported.text);
+    assert!(!exported.text.contains("springlength") && !exported.text.contains("inf"), "{}", exported.text);
+    assert!(exported.notes.iter().any(|(path, words)| path.ends_with("stop") && words.contains("softness")));
+    folder.import("r.xml", &exported.text).unwrap_or_else(|found| panic!("{found}\n{}", exported.text));
 }
