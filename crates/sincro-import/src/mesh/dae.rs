@@ -23,7 +23,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
     }
     let ids: BTreeMap<&str, Node<'_, '_>> =
         root.descendants().filter_map(|n| n.attribute("id").map(|id| (id, n))).collect();
-    let mut reader = Reader { ids, parts: Vec::new(), n_triangles: 0, n_nodes: 0, last_positions: None };
+    let mut reader = Reader { ids, parts: Vec::new(), n_triangles: 0, n_corners: 0, n_nodes: 0, last_positions: None };
     let upright = upright(root);
     let scenes = root.descendants().filter(|n| n.has_tag_name(tag(root, "visual_scene")));
     for scene in scenes.take(1) {
@@ -76,6 +76,7 @@ struct Reader<'a, 'd> {
     ids: BTreeMap<&'a str, Node<'a, 'd>>,
     parts: Vec<Part>,
     n_triangles: usize,
+    n_corners: usize,
     n_nodes: usize,
     /// Positions of the source that was read last: primitives of one mesh share them.
     last_positions: Option<(NodeId, Points)>,
@@ -204,6 +205,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         at: &Matrix,
         color: Option<[u8; 3]>,
     ) -> Result<(), String> {
+        Part::count_corners(&mut self.n_corners, positions.len())?;
         let part = Part::of_color(&mut self.parts, color);
         let first = part.corners.len() as u32;
         part.triangles.reserve(faces.n_triangles());

@@ -131,7 +131,7 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Vec<Part>, String> {
     }
     let buffers = document.buffers.iter().map(|buffer| contents(buffer, binary, folder));
     let buffers = buffers.collect::<Result<Vec<_>, _>>()?;
-    let mut reader = Reader { document: &document, buffers, parts: Vec::new(), n_triangles: 0, n_nodes: 0 };
+    let mut reader = Reader { document: &document, buffers, parts: Vec::new(), n_triangles: 0, n_corners: 0, n_nodes: 0 };
     match document.scenes.get(document.scene.unwrap_or(0)) {
         Some(scene) => scene.nodes.iter().try_for_each(|node| reader.node(*node, &Y_TO_Z_UP, 0))?,
         // a document without a scene: all meshes as they stand
@@ -212,6 +212,7 @@ struct Reader<'d> {
     buffers: Vec<Vec<u8>>,
     parts: Vec<Part>,
     n_triangles: usize,
+    n_corners: usize,
     n_nodes: usize,
 }
 
@@ -251,6 +252,7 @@ impl Reader<'_> {
         if self.n_triangles > MAX_TRIANGLES {
             return Err(format!("it has more than {MAX_TRIANGLES} triangles"));
         }
+        Part::count_corners(&mut self.n_corners, positions.len())?;
         let part = Part::of_color(&mut self.parts, self.document.color(primitive.material));
         let first = part.corners.len() as u32;
         part.corners.extend(positions.iter().map(|p| moved(at, p)));

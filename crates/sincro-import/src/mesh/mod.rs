@@ -30,6 +30,8 @@ const MAX_DEPTH: usize = 64;
 const MAX_NODES: usize = 1_000_000;
 /// Most triangles of a document.
 const MAX_TRIANGLES: usize = 20_000_000;
+/// Most corners: nodes may place a mesh of many corners and few triangles again and again.
+const MAX_CORNERS: usize = 20_000_000;
 /// Bytes of a binary STL before its triangles, and of each of them.
 const STL_HEAD: usize = 84;
 const STL_TRIANGLE: usize = 50;
@@ -46,6 +48,12 @@ pub(crate) struct Part {
 }
 
 impl Part {
+    /// Counts further corners among `n_corners`.
+    fn count_corners(n_corners: &mut usize, more: usize) -> Result<(), String> {
+        *n_corners += more;
+        if *n_corners > MAX_CORNERS { Err(format!("it has more than {MAX_CORNERS} corners")) } else { Ok(()) }
+    }
+
     /// The part with this colour, a new one if there is none.
     fn of_color(parts: &mut Vec<Self>, color: Option<[u8; 3]>) -> &mut Self {
         let k = parts.iter().position(|part| part.color == color).unwrap_or(parts.len());
