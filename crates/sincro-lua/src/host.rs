@@ -156,7 +156,12 @@ impl Scripts {
         if phase == Phase::Sensing {
             (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_dynamics(step, true)))?;
         }
-        let called = (0..n).try_for_each(|k| self.with_machine(k, |m| m.call(phase)));
+        let is_in_step = matches!(phase, Phase::Actuation | Phase::Sensing);
+        let called = (0..n).try_for_each(|k| {
+            // others call those that V-REP's cascade leaves to the script above
+            let is_left_out = is_in_step && self.shared.is_called_from_above(self.machines[k].place());
+            if is_left_out { Ok(()) } else { self.with_machine(k, |m| m.call(phase)) }
+        });
         match phase {
             Phase::Open => {
                 self.is_open = called.is_ok();

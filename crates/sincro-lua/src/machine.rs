@@ -7,7 +7,9 @@
 //! | thread | `sysCall_thread` (an old thread: the whole text) is a coroutine, resumed at each step before any actuation |
 //! | thread of V-REP 3.6 to 4.2 | the text is a coroutine, too, and may wait; when it has ended, `sysCall_threadmain` is the thread |
 //!
-//! The first run decides the style: it is new if there is a function `sysCall_…` after it.
+//! The first run decides the style: it is new if there is a function `sysCall_…` after it. An old script that names no
+//! `sim_call_type`, but counts its calls or calls the scripts below it, is one of V-REP up to 3.1.2: it is run in the
+//! actuation phase only.
 
 use std::sync::Arc;
 
@@ -39,6 +41,9 @@ pub(crate) const CALL_TYPES: [(&str, i64); 10] = [
 /// Function of a thread of V-REP 3.6 to 4.2: it is called when the text, which is part of the thread, has ended.
 const THREAD_MAIN: &str = "sysCall_threadmain";
 
+/// Name of the whole text as a function in the registry of its Lua state, for scripts that call it.
+pub(crate) const TEXT: &str = "sincro.text";
+
 /// Callbacks of CoppeliaSim that are not called here, and why.
 const NOT_CALLED: [(&str, &str); 3] = [
     ("sysCall_trigger", "sensors trigger nothing"),
@@ -66,6 +71,8 @@ pub(crate) struct Machine {
     pub has_failed: bool,
     /// True once `sysCall_init` has been called.
     is_initialized: bool,
+    /// True if it is one of V-REP up to 3.1.2: the whole text is run in actuation, and not otherwise.
+    is_for_actuation: bool,
 }
 
 /// Functions of a new script that are there.
@@ -109,6 +116,8 @@ impl Machine {
         api::offer(&lua, shared, index, &guard, &waits)?;
         files::offer(&lua, script)?;
         let chunk = compile(&lua, script)?;
+        lua.set_named_registry_value(TEXT, &chunk)?;
+        shared.change_cascade(index, |cascade| cascade.is_automatic = !calls_those_below(&script.text));
         let (style, entries) = (script.style, Entries::default());
         Ok(Self {
             lua,
@@ -123,6 +132,7 @@ impl Machine {
             is_joint_called: false,
             has_failed: false,
             is_initialized: false,
+            is_for_actuation: script.style != Style::New && !script.is_threaded && is_for_actuation(&script.text),
         })
     }
 
@@ -187,6 +197,7 @@ impl Machine {
             Phase::Suspended => self.call_named("sysCall_suspended"),
             Phase::Resume => self.call_named("sysCall_resume"),
             Phase::Actuation if is_old => self.within(|m| m.call_whole("actuation")),
+            Phase::Sensing | Phase::Cleanup if self.is_for_actuation => Ok(()),
             Phase::Sensing if is_old => self.within(|m| m.call_whole("sensing")),
             Phase::Actuation => self.call_entry(|e| &e.actuation),
             Phase::Sensing => self.call_entry(|e| &e.sensing),
@@ -208,12 +219,19 @@ impl Machine {
         if !self.is_initialized {
             self.within(|m| m.initialize(phase))?;
             self.is_initialized = true;
+            self.tell_style();
         }
         if phase == Phase::Open || !self.is_customization() {
             return Ok(());
         }
         self.call_either("lastbeforesimulation", "sysCall_beforeSimulation")?;
         self.within(Self::update_entries)
+    }
+
+    /// Lets scripts above know how this one is called.
+    fn tell_style(&self) {
+        let is_thread = self.script().is_threaded || (self.style == Style::Old && self.thread.is_some());
+        self.shared.change_cascade(self.index, |cascade| (cascade.style, cascade.is_thread) = (self.style, is_thread));
     }
 
     /// Calls an old script as a whole, a new one and a thread by a function.
@@ -231,6 +249,10 @@ impl Machine {
             self.become_thread(self.chunk.clone())?;
             // one that is declared a thread begins with the first step
             return if script.is_threaded { Ok(()) } else { self.begin_text(phase) };
+        }
+        if self.is_for_actuation {
+            self.style = Style::Old;
+            return Ok(());
         }
         if self.style == Style::New {
             self.chunk.call::<()>(())?;
@@ -376,7 +398,12 @@ impl Machine {
             let was_text = m.is_text_pending;
             m.resume_thread(phase)?;
             // what follows the text goes on in the same step
-            if was_text && !m.is_text_pending { m.resume_thread(phase) } else { Ok(()) }
+            if was_text && !m.is_text_pending {
+                m.tell_style();
+                m.resume_thread(phase)
+            } else {
+                Ok(())
+            }
         })
     }
 
@@ -429,6 +456,17 @@ impl Machine {
         let is_first = !std::mem::replace(&mut self.is_joint_called, true);
         self.within(|m| callback::joint(&m.lua, &m.shared, m.index, &function, (step, is_first)))
     }
+}
+
+/// Returns true if a text calls the scripts below it as V-REP up to 3.1.2 did.
+fn calls_those_below(text: &str) -> bool {
+    text.contains("simHandleChildScript(")
+}
+
+/// Returns true if a text is one of V-REP up to 3.1.2, where scripts had no call types.
+fn is_for_actuation(text: &str) -> bool {
+    let has_call_types = text.contains("sim_call_type") || text.contains("sysCall_");
+    !has_call_types && (calls_those_below(text) || text.contains("simGetScriptExecutionCount"))
 }
 
 /// The run's seed and the object's path, mixed (FNV-1a).

@@ -1,6 +1,7 @@
 //! Data shared by all scripts of a run: the world while they are called, their messages, and each other.
 
 use std::fmt;
+use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use mlua::{Lua, WeakLua};
@@ -8,7 +9,7 @@ use sincro_coppelia::api::{ApiError, Handle, ObjectRegistry, SimApi};
 use sincro_coppelia::host::Setting;
 use sincro_dynamics::world::World;
 use sincro_scene::scene::Scene;
-use sincro_scene::script::{Kind, Script};
+use sincro_scene::script::{Kind, Script, Style};
 use sincro_sim::controller::Message;
 
 /// Messages of one phase that are kept: one more than a run keeps, so that the run reports that some were dropped.
@@ -33,6 +34,8 @@ pub(crate) struct Shared {
     messages: Mutex<Vec<Message>>,
     /// Scripts in the order in which they were started, with those that have ended.
     scripts: Mutex<Vec<Known>>,
+    /// Number of scripts that are calling each other down the tree.
+    pub depth: AtomicUsize,
     /// Settings of the run.
     pub setting: Setting,
 }
@@ -45,6 +48,24 @@ struct Known {
     has_ended: bool,
     /// Number of the calls of an old script, unless it has set another one itself.
     n_executions: i64,
+    cascade: Cascade,
+}
+
+/// Part of a script in the cascade of V-REP's calls: which scripts below it are called by whom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Cascade {
+    /// Its style, once that is known.
+    pub style: Style,
+    /// True if it is a thread as a whole: those below it are called as if it were not there.
+    pub is_thread: bool,
+    /// True if the step calls the scripts below it; false if it calls them itself (`simHandleChildScripts`).
+    pub is_automatic: bool,
+    /// True once it has been called by its handle (`simHandleChildScript`): calls of all but explicit ones skip it.
+    pub is_explicit: bool,
+}
+
+impl Cascade {
+    const NEW: Self = Self { style: Style::Detect, is_thread: false, is_automatic: true, is_explicit: false };
 }
 
 impl fmt::Debug for Shared {
@@ -62,7 +83,7 @@ impl Shared {
     /// Before the first call; `nothing` is a world of nothing.
     pub fn new(setting: Setting, nothing: World) -> Self {
         let stage = Mutex::new(Stage { world: nothing, registry: None, t: 0.0 });
-        Self { stage, messages: Mutex::default(), scripts: Mutex::default(), setting }
+        Self { stage, messages: Mutex::default(), scripts: Mutex::default(), depth: AtomicUsize::new(0), setting }
     }
 
     /// Adds a script; returns its place, which it keeps: that of an earlier run of a session, if it was there.
@@ -71,7 +92,7 @@ impl Shared {
         let is_same =
             |known: &Known| known.has_ended && (known.script.object, known.script.kind) == (script.object, script.kind);
         let earlier = scripts.iter().position(is_same);
-        let new = Known { script, state: None, has_ended: false, n_executions: 0 };
+        let new = Known { script, state: None, has_ended: false, n_executions: 0, cascade: Cascade::NEW };
         if let Some(place) = earlier {
             scripts[place] = new;
             return place;
@@ -109,6 +130,68 @@ impl Shared {
     /// Sets the number of the calls of an old script.
     pub fn set_execution_count(&self, place: usize, count: i64) {
         open(&self.scripts)[place].n_executions = count;
+    }
+
+    /// Part of a script in the cascade of calls.
+    pub fn cascade(&self, place: usize) -> Cascade {
+        open(&self.scripts)[place].cascade
+    }
+
+    /// Changes the part of a script in the cascade of calls.
+    pub fn change_cascade(&self, place: usize, change: impl FnOnce(&mut Cascade)) {
+        change(&mut open(&self.scripts)[place].cascade);
+    }
+
+    /// Returns true if a script is called by one above it, not by the step: the nearest ones that are no threads decide.
+    pub fn is_called_from_above(&self, place: usize) -> bool {
+        let scripts = open(&self.scripts);
+        let is_manual = |known: &Known| {
+            !known.has_ended
+                && known.script.kind == Kind::Child
+                && !(known.cascade.is_automatic || known.cascade.is_thread)
+        };
+        if scripts[place].script.kind != Kind::Child || !scripts.iter().any(is_manual) {
+            return false;
+        }
+        let stage = self.stage();
+        let Some(registry) = &stage.registry else { return false };
+        let objects = &registry.scene().objects;
+        let own = objects.iter().position(|object| object.id == scripts[place].script.object);
+        let above = std::iter::successors(own.and_then(|k| objects[k].parent), |k| objects[*k].parent);
+        let manual: Vec<usize> = scripts.iter().filter(|known| is_manual(known)).map(|k| k.script.object).collect();
+        above.into_iter().any(|k| manual.contains(&objects[k].id))
+    }
+
+    /// Places of the child scripts that are met first on the ways down from an object, threads left out, in the order
+    /// of the scene.
+    pub fn first_below(&self, object: usize) -> Vec<usize> {
+        let scripts = open(&self.scripts);
+        let stage = self.stage();
+        let Some(registry) = &stage.registry else { return Vec::new() };
+        let objects = &registry.scene().objects;
+        let place_on = |id: usize| {
+            let is_it = |known: &Known| {
+                !known.has_ended
+                    && known.script.object == id
+                    && known.script.kind == Kind::Child
+                    && !known.cascade.is_thread
+            };
+            scripts.iter().position(is_it)
+        };
+        // parents stand before their children
+        let mut is_open = vec![false; objects.len()];
+        let mut found = Vec::new();
+        for (k, at) in objects.iter().enumerate() {
+            if at.id == object {
+                is_open[k] = true;
+            } else if at.parent.is_some_and(|parent| is_open[parent]) {
+                match place_on(at.id) {
+                    Some(place) => found.push(place),
+                    None => is_open[k] = true,
+                }
+            }
+        }
+        found
     }
 
     /// The object of a script.

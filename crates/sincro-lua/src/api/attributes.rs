@@ -1,13 +1,9 @@
-//! Attributes of scripts of V-REP 3, and the calls of the scripts below one.
-//!
-//! V-REP 3.1.3 wrote lines around each older script that switch off the calls of the scripts below it, make them by
-//! `simHandleChildScripts`, and count the calls of the script itself. Here each step calls every script once in a
-//! phase, whoever asks for that.
+//! Attributes of scripts of V-REP 3.
 
-use mlua::{Error, MultiValue, Value as LuaValue};
+use mlua::{Error, Value as LuaValue};
 
 use super::ApiContext;
-use super::scripts::{place_of, scripts_below, unknown};
+use super::scripts::{place_of, unknown};
 
 /// `sim.scriptattribute_executioncount`.
 const EXECUTION_COUNT: i64 = 2;
@@ -28,7 +24,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         let k = place_of(&shared, index, script).ok_or_else(|| unknown(script, "getScriptAttribute"))?;
         match attribute {
             EXECUTION_COUNT => Ok(LuaValue::Integer(shared.execution_count(k))),
-            AUTOMATIC_CALLS => Ok(LuaValue::Boolean(true)),
+            AUTOMATIC_CALLS => Ok(LuaValue::Boolean(shared.cascade(k).is_automatic)),
             other => Err(not_offered("getScriptAttribute", other)),
         }
     })?;
@@ -45,21 +41,13 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 })?;
                 shared.set_execution_count(k, count);
             }
-            AUTOMATIC_CALLS => {}
+            AUTOMATIC_CALLS => {
+                let is_off = matches!(value, LuaValue::Nil | LuaValue::Boolean(false) | LuaValue::Integer(0));
+                shared.change_cascade(k, |cascade| cascade.is_automatic = !is_off);
+            }
             other => return Err(not_offered("setScriptAttribute", other)),
         }
         Ok(1)
-    })?;
-    let (shared, own) = (context.shared.clone(), context.own);
-    context.add("handleChildScripts", move |_, arguments: MultiValue| {
-        if arguments.len() > 1 {
-            return Err(Error::RuntimeError(
-                "the scripts below are called by the step itself, without arguments: set signals for them \
-                 (in function 'sim.handleChildScripts')"
-                    .to_owned(),
-            ));
-        }
-        Ok(scripts_below(&shared, index, true).iter().filter(|object| **object != own).count())
     })
 }
 

@@ -71,7 +71,7 @@ pub(crate) fn find(lua: &Lua, name: &str) -> Option<Function> {
 }
 
 /// Calls a function of another Lua state, within the time of the present call.
-fn pass(lua: &Lua, other: &Lua, function: &Function, arguments: MultiValue) -> mlua::Result<MultiValue> {
+pub(super) fn pass(lua: &Lua, other: &Lua, function: &Function, arguments: MultiValue) -> mlua::Result<MultiValue> {
     let given = convert::list_from_lua(arguments)?;
     let given = convert::list_to_lua(other, &given)?;
     let result: MultiValue = match (Guard::of(lua), Guard::of(other)) {

@@ -6,6 +6,7 @@
 
 mod attributes;
 mod callbacks;
+mod cascade;
 mod modules;
 mod moves;
 mod scripts;
@@ -62,6 +63,7 @@ pub(crate) fn offer(
     context.replace_some()?;
     scripts::offer(&context)?;
     attributes::offer(&context)?;
+    cascade::offer(&context)?;
     threads::offer(&context, waits)?;
     moves::offer(&context, waits)?;
     callbacks::offer(&context)?;

@@ -144,7 +144,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
 }
 
 /// Objects of all scripts, or of those on the script's own object and below.
-pub(super) fn scripts_below(shared: &Arc<Shared>, index: usize, in_tree: bool) -> Vec<Handle> {
+fn scripts_below(shared: &Arc<Shared>, index: usize, in_tree: bool) -> Vec<Handle> {
     let own = shared.object(index);
     let tree = shared.with_sim(own, |sim| Ok(sim.registry.visible_tree(own))).unwrap_or_default();
     let mut all = shared.objects();

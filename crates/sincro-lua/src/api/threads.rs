@@ -42,7 +42,5 @@ pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()>
     ] {
         context.add(name, |_, _: MultiValue| Ok(0))?;
     }
-    // every script is called at each step: none has to call those below it
-    context.add("handleChildScript", |_, _: MultiValue| Ok(1))?;
     context.add("getThreadId", |_, ()| Ok(0))
 }

@@ -184,13 +184,89 @@ fn lines_that_v_rep_wrote_around_older_scripts_keep_their_meaning() {
 }
 
 #[test]
-fn calls_of_an_old_script_are_counted_and_those_below_get_no_arguments() {
-    let counted = said("print(simGetScriptExecutionCount(), pcall(simHandleChildScripts, sim_call_type, 1))");
-    assert!(
-        counted[0].starts_with("0\tfalse\t")
-            && counted[0].contains("the scripts below are called by the step itself, without arguments")
-    );
-    assert!(counted[1].starts_with("1\tfalse\t"), "{counted:?}");
+fn calls_of_an_old_script_are_counted() {
+    let counted = said("print(simGetScriptExecutionCount(), simHandleChildScripts(sim_call_type, 1))");
+    assert_eq!(counted[1], "0\t-1");
+    assert!(counted[0].contains("calls nothing: the step calls the scripts below"), "{counted:?}");
+    assert_eq!(counted[3], "1\t-1");
     let refused = said("print(pcall(sim.setScriptAttribute, sim.handle_self, sim.scriptattribute_enabled, 0))");
     assert!(refused[0].contains("there is no attribute 4: "), "{refused:?}");
+}
+
+/// Messages of scripts on `/hinge`, `/hinge/arm`, `/hinge/arm/tip` and `/hinge/arm/other` in one step.
+fn said_by(codes: [&str; 4]) -> Vec<String> {
+    let script = |object: &str, code: &str| match code {
+        "" => String::new(),
+        code => format!("[[script]]\nobject = \"{object}\"\ncode = \"\"\"{code}\"\"\"\n"),
+    };
+    let objects = ["/hinge", "/hinge/arm", "/hinge/arm/tip", "/hinge/arm/other"];
+    let scripts: String = objects.iter().zip(codes).map(|(object, code)| script(object, code)).collect();
+    let scene = format!("{PENDULUM}\n[[frame]]\nname = \"other\"\nparent = \"/hinge/arm\"\n{scripts}");
+    let experiment = EXPERIMENT.replace("0.05", "0.01");
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment)]).unwrap_or_else(|p| panic!("{p}"));
+    let run = run(&loaded);
+    assert_eq!(run.status, Status::Completed, "{:?}", run.messages);
+    run.messages.into_iter().map(|m| m.text).collect()
+}
+
+/// A script that calls those below it in actuation, with arguments, and in sensing without.
+const CALLS: &str = "
+    if sim_call_type == sim_childscriptcall_initialization then
+        simSetScriptAttribute(sim_handle_self, sim_childscriptattribute_automaticcascadingcalls, false)
+    end
+    if sim_call_type == sim_childscriptcall_actuation then
+        print('before')
+        print(simHandleChildScripts(sim_call_type, 7, 'go', {1, 2}))
+    end
+    if sim_call_type == sim_childscriptcall_sensing then simHandleChildScripts(sim_call_type) end";
+
+/// A script that prints its arguments.
+const SAYS: &str = "
+    local number, word, list = ...
+    if sim_call_type == sim_childscriptcall_actuation then print(number, word, list and #list) end
+    if sim_call_type == sim_childscriptcall_sensing then print('sensing', number) end";
+
+#[test]
+fn a_script_hands_arguments_to_those_below_it() {
+    assert_eq!(
+        said_by(["", CALLS, SAYS, SAYS]),
+        ["before", "7\tgo\t2", "7\tgo\t2", "2", "sensing\tnil", "sensing\tnil"]
+    );
+}
+
+#[test]
+fn the_cascade_goes_on_below_scripts_that_leave_it_automatic() {
+    let new = "function sysCall_actuation(...) print('arm', ...) end";
+    let said = said_by([&CALLS.replace(", {1, 2}", ""), new, SAYS, ""]);
+    assert_eq!(said, ["before", "arm\t7\tgo", "7\tgo\tnil", "1", "sensing\tnil"]);
+}
+
+#[test]
+fn scripts_below_one_that_calls_nothing_are_not_called() {
+    let silent = "function sysCall_init()
+            sim.setScriptAttribute(sim.handle_self, sim.childscriptattribute_automaticcascadingcalls, false)
+        end
+        function sysCall_actuation() print(sim.getScriptAttribute(sim.handle_self, 3)) end";
+    assert_eq!(said_by([silent, SAYS, SAYS, SAYS]), ["false"]);
+}
+
+#[test]
+fn a_script_of_v_rep_3_1_2_calls_another_one_by_its_handle_and_gets_its_results() {
+    let above = "
+        if simGetScriptExecutionCount() == 0 then tip = simGetScriptAssociatedWithObject(simGetObjectHandle('tip')) end
+        print('above', simHandleChildScript(tip, 20, 1))
+        print(simHandleChildScript(sim_handle_all_except_explicit, 5))";
+    let below = "local a, b = ... print('below', a, b, simGetScriptExecutionCount()) return a and b and a + b, 'sum'";
+    let other = "simGetScriptExecutionCount() print('other', ...)";
+    let said = said_by(["", above, below, other]);
+    assert_eq!(said, ["below\t20\t1\t0", "above\t21\tsum", "other\t5", "1"]);
+}
+
+#[test]
+fn a_fault_in_a_script_below_names_it() {
+    let calls = CALLS
+        .replace("print(simHandle", "print(pcall(simHandle")
+        .replace("Scripts(sim_call_type, 7, 'go', {1, 2})", "Scripts, sim_call_type)");
+    let said = said_by(["", &calls, "if sim_call_type == sim_childscriptcall_actuation then error('no leg') end", ""]);
+    assert!(said[1].contains("script of `/hinge/arm/tip`: no leg"), "{said:?}");
 }

@@ -94,11 +94,10 @@ const IN_SCRIPTS: &[(&[&str], &str)] = &[
         &["setThreadResumeLocation", "setThreadSwitchTiming", "setAutoYieldDelay", "setThreadIsFree"],
         "taken without effect: a waiting script is resumed at the next step",
     ),
-    (&["handleChildScript"], "taken without effect: every script is called at each step"),
     (&["getScriptAttribute", "setScriptAttribute"], "executioncount and automaticcascadingcalls"),
     (
         &["handleChildScripts"],
-        "gives the number of scripts below: the step itself calls each once in a phase, without arguments",
+        "for actuation and sensing; −1 and a message while automaticcascadingcalls is set: the step calls those below then",
     ),
     (&["getThreadId"], "always 0"),
     (&["getNameSuffix", "setNameSuffix"], "a script's suffix is that of its object: setting is without effect"),
