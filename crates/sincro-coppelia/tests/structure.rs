@@ -860,3 +860,43 @@ fn what_hangs_on_bodies_that_cannot_be_grouped_stays_there() {
     assert_eq!(call(&mut session, "sim.getObjectParent", &[dummy.into()]), [other.into()]);
     assert_eq!(paths(&mut session), before);
 }
+
+#[test]
+fn meshes_of_bodies_and_shapes_are_given_in_their_own_axes() {
+    let mut session = open(&box_above_floor(1.0));
+    let body = handle(&mut session, "/box_joint/box");
+    let mesh = call(&mut session, "sim.getShapeMesh", &[body.into()]);
+    let Value::List(indices) = &mesh[1] else { panic!("indices") };
+    assert_eq!((reals(&mesh[0]).len(), indices.len(), reals(&mesh[2]).len()), (24, 36, 108));
+    let box_ = call(&mut session, "sim.getShapeBB", &[body.into()]);
+    let size = reals(&box_[0]);
+    assert!(reals(&mesh[0]).chunks(3).all(|p| (0..3).all(|k| (p[k].abs() - 0.5 * size[k]).abs() < 1e-12)));
+    // the mesh makes a shape of the same size
+    let shape = call(&mut session, "sim.createShape", &[0_i64.into(), 0.0.into(), mesh[0].clone(), mesh[1].clone()]);
+    let again = call(&mut session, "sim.getShapeBB", &[shape[0].clone()]);
+    assert!(reals(&again[0]).iter().zip(&size).all(|(a, b)| (a - b).abs() < 1e-12));
+    let viz = call(&mut session, "sim.getShapeViz", &[body.into(), 0_i64.into()]);
+    let Value::Map(viz) = &viz[0] else { panic!("a map") };
+    assert_eq!(viz.iter().find(|(name, _)| name == "vertices").map(|(_, value)| value), Some(&mesh[0]));
+    assert_eq!(call(&mut session, "sim.getShapeViz", &[body.into(), 1_i64.into()]), [Value::Nil]);
+    let floor = handle(&mut session, "/floor");
+    let refused = session.call("sim.getShapeMesh", &[floor.into()]).unwrap_err();
+    assert!(refused.0.contains("a plane has no mesh"), "{refused:?}");
+}
+
+#[test]
+fn copies_of_selected_objects_are_selected() {
+    let mut session = open(&box_above_floor(1.0));
+    let shape = call(&mut session, "sim.createPrimitiveShape", &[3_i64.into(), Value::reals([0.1, 0.2, 0.3])]);
+    let own = shape[0].as_int().unwrap();
+    call(&mut session, "sim.setObjectSel", &[Value::List(shape)]);
+    call(&mut session, "sim.copyPasteSelectedObjects", &[]);
+    let copy = call(&mut session, "sim.getObjectLastSelection", &[])[0].as_int().unwrap();
+    assert_ne!(copy, own);
+    call(&mut session, "sim.scaleSelectedObjects", &[2.0.into(), false.into()]);
+    let box_ = call(&mut session, "sim.getShapeBB", &[copy.into()]);
+    assert_eq!(reals(&box_[0]), [0.2, 0.4, 0.6]);
+    call(&mut session, "sim.deleteSelectedObjects", &[]);
+    assert!(session.call("sim.getShapeBB", &[copy.into()]).is_err());
+    assert!(session.call("sim.getShapeBB", &[own.into()]).is_ok());
+}

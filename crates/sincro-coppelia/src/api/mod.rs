@@ -26,6 +26,7 @@ mod ik;
 mod ik_search;
 mod joints;
 mod lens;
+mod meshes;
 mod motions;
 mod note;
 mod pairs;

@@ -262,7 +262,6 @@ const ABSENT: &[(&[&str], &str)] = &[
             "exportMesh",
             "getLightParameters",
             "getShapeTextureId",
-            "getShapeViz",
             "getTextureId",
             "handleTracing",
             "modifyGhost",
@@ -293,17 +292,12 @@ const ABSENT: &[(&[&str], &str)] = &[
         "data are stored with sim.writeCustomDataBlock, properties `customData.…` and parameters of scripts",
     ),
     (
-        &["copyPasteSelectedObjects", "deleteSelectedObjects", "scaleSelectedObjects"],
-        "what is selected is a list: give it to sim.copyPasteObjects and sim.removeObjects (sim.getObjectSel)",
-    ),
-    (
         &[
             "alignShapeBB",
             "convexDecompose",
             "getDecimatedMesh",
             "getObjectSizeValues",
             "getQHull",
-            "getShapeMesh",
             "getShapeTriangle",
             "getShapeVertex",
             "relocateShapeFrame",

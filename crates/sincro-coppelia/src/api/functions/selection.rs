@@ -1,5 +1,6 @@
 //! Functions: objects that are selected. Nothing shows them: a selection is a list that scripts and clients share.
 
+use super::shapes::scale_each;
 use super::{Function, Outcome, done, handle, one, plain};
 use crate::api::{ApiError, Arguments, Handle, SimApi, Value};
 
@@ -28,6 +29,25 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |sim, a| {
             let own = handle(sim, a, 0)?;
             one(i64::from(present(sim).contains(&own)))
+        },
+    },
+    Function { name: "copyPasteSelectedObjects", tip: "int result=sim.copyPasteSelectedObjects()", run: copy },
+    Function {
+        name: "deleteSelectedObjects",
+        tip: "int result=sim.deleteSelectedObjects()",
+        run: |sim, _| {
+            let selected = present(sim);
+            sim.remove_objects(&selected, false)?;
+            one(1_i64)
+        },
+    },
+    Function {
+        name: "scaleSelectedObjects",
+        tip: "int result=sim.scaleSelectedObjects(float scalingFactor,bool scalePositionsToo)",
+        run: |sim, a| {
+            let selected = present(sim);
+            scale_each(sim, &selected, (a.real(0)?, a.bool_or(1, false)?))?;
+            one(1_i64)
         },
     },
     Function {
@@ -59,6 +79,15 @@ fn listed(sim: &SimApi<'_>, list: &[Value]) -> Result<Vec<Handle>, ApiError> {
         plain(sim, raw)
     };
     list.iter().map(of).collect()
+}
+
+/// Copies what is selected; the copies are selected then.
+fn copy(sim: &mut SimApi<'_>, _: Arguments<'_>) -> Outcome {
+    let selected = present(sim);
+    if !selected.is_empty() {
+        sim.registry.selection = sim.copy_objects(&selected, false)?;
+    }
+    one(1_i64)
 }
 
 /// Objects that are meant: a list, or an object alone, with those below or above it, or all. Nil is no object.

@@ -1,14 +1,16 @@
 //! Functions: shapes that are made at run time.
 
+use sincro_dynamics::geometry::polyhedron::Triangles;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::objects::handles;
 use super::{Function, Outcome, done, handle, one};
 use crate::api::convention::numbers_of_pose;
+use crate::api::meshes::{merged, normals};
 use crate::api::shapes::primitive_of;
 use crate::api::structure::Role;
-use crate::api::{ApiError, Arguments, SimApi, Value};
-use sincro_scene::scene::Triangles;
+use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
+use sincro_scene::scene::Triangles as MeshFile;
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -63,6 +65,12 @@ pub(super) const FUNCTIONS: &[Function] = &[
             Ok(vec![size, Value::reals(numbers_of_pose(&Pose::translation(middle)))])
         },
     },
+    Function {
+        name: "getShapeMesh",
+        tip: "float[] vertices,int[] indices,float[] normals=sim.getShapeMesh(int shapeHandle)",
+        run: mesh_of,
+    },
+    Function { name: "getShapeViz", tip: "map data=sim.getShapeViz(int shapeHandle,int itemIndex)", run: appearance },
     Function {
         name: "groupShapes",
         tip: "int shapeHandle=sim.groupShapes(int[] shapeHandles,bool merge=false)",
@@ -161,13 +169,13 @@ fn factor(a: Arguments<'_>, k: usize) -> Result<f64, ApiError> {
 }
 
 fn import(sim: &mut SimApi<'_>, name: &str, a: Arguments<'_>, scale: usize) -> Outcome {
-    let Triangles { corners, triangles } = sim.read_mesh(name, factor(a, scale)?)?;
+    let MeshFile { corners, triangles } = sim.read_mesh(name, factor(a, scale)?)?;
     one(sim.create_mesh(&corners, &triangles)?)
 }
 
 /// One mesh, as lists of lists.
 fn read(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let Triangles { corners, triangles } = sim.read_mesh(a.text(1)?, factor(a, 4)?)?;
+    let MeshFile { corners, triangles } = sim.read_mesh(a.text(1)?, factor(a, 4)?)?;
     let indices = triangles.into_iter().flatten().map(|k| Value::Int(k.into())).collect();
     let corners = Value::reals(corners.into_iter().flatten());
     Ok(vec![Value::List(vec![corners]), Value::List(vec![Value::List(indices)])])
@@ -213,6 +221,31 @@ fn info(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     Ok(vec![Value::Int(flags), Value::Int(info.primitive), Value::reals([x, y, z, 0.0])])
 }
 
+/// Corners, triangles, and the normal of each triangle at each of its corners, all parts as one mesh.
+fn mesh_of(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let parts = sim.meshes(handle(sim, a, 0)?)?;
+    Ok(lists(&merged(parts.into_iter().map(|part| part.mesh))).to_vec())
+}
+
+/// Numbers of a mesh one after the other: corners, triangles, normals at each corner of each triangle.
+fn lists(mesh: &Triangles) -> [Value; 3] {
+    let indices = mesh.1.iter().flatten().map(|k| Value::Int((*k).into())).collect();
+    let at_corners = normals(mesh).into_iter().flat_map(|n| [n, n, n]).flatten();
+    [Value::reals(mesh.0.iter().copied().flatten()), Value::List(indices), Value::reals(at_corners)]
+}
+
+/// Mesh and colours (ambient and diffuse, specular, emission) of one part; nothing after the last one.
+fn appearance(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let parts = sim.meshes(handle(sim, a, 0)?)?;
+    let Some(part) = usize::try_from(a.int(1)?).ok().and_then(|k| parts.get(k)) else { return one(Value::Nil) };
+    let [vertices, indices, normals] = lists(&part.mesh);
+    let colors = Value::reals(part.color.into_iter().chain([0.0; 6]));
+    let named = [("vertices", vertices), ("indices", indices), ("normals", normals), ("colors", colors)];
+    let mut map: Vec<(String, Value)> = named.map(|(name, value)| (name.to_owned(), value)).into();
+    map.push(("shadingAngle".to_owned(), Value::Real(0.0)));
+    one(Value::Map(map))
+}
+
 fn scale(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (own, [x, y, z]) = (handle(sim, a, 0)?, [a.real(1)?, a.real(2)?, a.real(3)?]);
     if x.to_bits() != y.to_bits() || x.to_bits() != z.to_bits() {
@@ -222,18 +255,23 @@ fn scale(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     done()
 }
 
-/// Positions too: about the world's origin.
 fn scale_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (factor, too) = (a.real(1)?, a.bool_or(2, false)?);
-    for own in handles(a, 0)? {
-        sim.scale_shape(own, factor)?;
+    scale_each(sim, &handles(a, 0)?, (factor, too))?;
+    done()
+}
+
+/// Scales shapes by a factor, with true their positions too: about the world's origin.
+pub(super) fn scale_each(sim: &mut SimApi<'_>, shapes: &[Handle], (factor, too): (f64, bool)) -> Result<(), ApiError> {
+    for own in shapes {
+        sim.scale_shape(*own, factor)?;
         if too {
-            let pose = sim.pose(own, crate::api::Reference::World)?;
+            let pose = sim.pose(*own, Reference::World)?;
             let moved = Pose { pos: pose.pos.scale(factor), ..pose };
-            sim.set_pose(own, &moved, crate::api::Reference::World)?;
+            sim.set_pose(*own, &moved, Reference::World)?;
         }
     }
-    done()
+    Ok(())
 }
 
 /// The ambient or diffuse component is the colour; the others are accepted.
