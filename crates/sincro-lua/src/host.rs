@@ -280,12 +280,15 @@ impl Scripts {
         if self.scene.as_ref().is_some_and(|known| Arc::ptr_eq(known, &scene)) {
             return Ok(new);
         }
+        let restarts =
+            self.shared.stage().registry.as_mut().map(|registry| registry.take_script_restarts()).unwrap_or_default();
         let is_running = self.is_running;
         let mut scripts = in_order(&scene);
         scripts.retain(|script| is_running || script.kind == Kind::Customization);
         let stays = |m: &Machine| {
             let own = self.shared.script(m.place());
-            scripts.iter().any(|script| (script.object, script.kind) == (own.object, own.kind))
+            let is_restarted = restarts.contains(&(handle_of(&own), own.kind));
+            !is_restarted && scripts.iter().any(|script| (script.object, script.kind) == (own.object, own.kind))
         };
         let (staying, gone): (Vec<Machine>, Vec<Machine>) = self.machines.drain(..).partition(stays);
         self.machines = staying;

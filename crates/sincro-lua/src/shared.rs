@@ -204,13 +204,20 @@ impl Shared {
         let stage = self.stage();
         let Some(registry) = &stage.registry else { return true };
         let scene = registry.scene();
-        known.is_some_and(|known| Arc::ptr_eq(known, scene)) || scene.objects.iter().any(|o| o.id == script.object)
+        known.is_some_and(|known| Arc::ptr_eq(known, scene))
+            || scene.objects.iter().any(|o| o.id == script.object)
+            || registry.entry(handle_of(script)).is_ok_and(|entry| entry.is_runtime)
     }
 
     /// Place of the first script that is meant, of those whose objects are there.
     pub fn find(&self, is_meant: impl Fn(&Script) -> bool) -> Option<usize> {
         let is_it = |known: &Known| !known.has_ended && is_meant(&known.script) && self.is_present(&known.script, None);
         open(&self.scripts).iter().position(is_it)
+    }
+
+    /// Object and kind of a script that was added at run time, by its handle.
+    pub fn added_script(&self, handle: i64) -> Option<(Handle, Kind)> {
+        self.stage().registry.as_ref()?.added_script(handle)
     }
 
     /// Place of the script on an object.

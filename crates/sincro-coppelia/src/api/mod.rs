@@ -8,6 +8,7 @@
 //!
 //! Nothing here has a clock, a thread or a socket.
 
+mod added_scripts;
 mod bodies;
 pub mod cbor;
 mod change;

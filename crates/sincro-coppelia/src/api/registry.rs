@@ -16,6 +16,7 @@ use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::World;
 
+use super::added_scripts::AddedScript;
 use super::drawings::Drawings;
 use super::flags::Flags;
 use super::graphs::Graphs;
@@ -34,7 +35,7 @@ use super::value::Value;
 use super::vision::Vision;
 use super::{ApiError, Phase};
 use sincro_scene::scene::{Object, Scene};
-use sincro_scene::script::{Script, ScriptParser};
+use sincro_scene::script::{Kind as ScriptKind, Script, ScriptParser};
 use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
 use sincro_sim::restructure::Restructured;
@@ -282,6 +283,12 @@ pub struct ObjectRegistry {
     pub(super) radio: Radio,
     /// True once somebody was told in this run that the step of clients and scripts stays as it is.
     pub(super) is_told_of_step: bool,
+    /// Scripts that were added, in their order.
+    pub(super) added_scripts: Vec<AddedScript>,
+    /// Scripts that are to begin anew, by their objects and kinds.
+    pub(super) script_restarts: BTreeSet<(Handle, ScriptKind)>,
+    /// True if clients may give scripts texts.
+    pub(crate) takes_script_texts: bool,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
     pub(super) script_parser: Option<&'static dyn ScriptParser>,
 }
@@ -358,6 +365,9 @@ impl ObjectRegistry {
             initial_velocities: BTreeMap::new(),
             resets: BTreeMap::new(),
             sent_folder: None,
+            added_scripts: Vec::new(),
+            takes_script_texts: false,
+            script_restarts: BTreeSet::new(),
             script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
         };
         new.take_objects(scene, &scene.model);
@@ -774,6 +784,7 @@ impl ObjectRegistry {
         self.vision.end_run(before.vision);
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
+        self.added_scripts = before.added_scripts;
         (self.has_stepped, self.has_begun) = (false, false);
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
         self.recorded_frames = before.recorded_frames;

@@ -293,6 +293,7 @@ impl Session {
     /// Replaces the permissions of clients.
     pub fn grant(&mut self, grants: Grants) {
         self.registry().sent_folder = grants.files.as_ref().map(|files| files.folder().to_path_buf());
+        self.registry().takes_script_texts = grants.evaluation;
         self.grants = grants;
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mlua::{Error, Value as LuaValue};
+use mlua::{Error, MultiValue, Value as LuaValue};
 use sincro_coppelia::api::{ApiError, Handle, check_name};
 use sincro_scene::script::Kind;
 
@@ -28,6 +28,9 @@ pub(super) fn place_of(shared: &Shared, index: usize, handle: i64) -> Option<usi
     }
     if (1..FIRST_SCRIPT).contains(&handle) {
         return shared.script_on(Handle(i32::try_from(handle).ok()?), None);
+    }
+    if let Some((object, kind)) = shared.added_script(handle) {
+        return shared.script_on(object, Some(kind));
     }
     let k = usize::try_from(handle.checked_sub(FIRST_SCRIPT)?).ok()?;
     shared.has(k).then_some(k)
@@ -131,6 +134,29 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         });
         done.map_err(|error| super::refused("setScriptSimulationParameter", &error))
     })?;
+    for name in ["setScriptText", "associateScriptWithObject", "initScript", "removeScript"] {
+        // these know scripts that were added, and others by their objects
+        let of_session: mlua::Function = context.sim.get(name)?;
+        let shared = context.shared.clone();
+        context.add(name, move |_, (script, rest): (i64, MultiValue)| {
+            let is_own = script == SELF || (script >= FIRST_SCRIPT && shared.added_script(script).is_none());
+            let place = if is_own { place_of(&shared, index, script) } else { None };
+            let script = place.map_or(script, |place| i64::from(shared.object(place).0));
+            of_session.call::<MultiValue>((script, rest))
+        })?;
+    }
+    let shared = context.shared.clone();
+    context.add("getScriptName", move |_, script: i64| {
+        if let Some(k) = place_of(&shared, index, script) {
+            return Ok(shared.script(k).path.rsplit('/').next().unwrap_or_default().to_owned());
+        }
+        // one that was added and has not begun yet has the name of its object, too
+        let (object, _) = shared.added_script(script).ok_or_else(|| unknown(script, "getScriptName"))?;
+        let name = shared.with_sim(object, |sim| Ok(sim.registry.entry(object)?.name.clone()));
+        name.map_err(|error| super::refused("getScriptName", &error))
+    })?;
+    let shared = context.shared.clone();
+    context.add("isScriptExecutionThreaded", move |_, ()| Ok(i64::from(shared.script(index).is_threaded)))?;
     // a script's suffix is that of its object
     context.add("setNameSuffix", |_, _: LuaValue| Ok(-1))?;
     context.add("getStackTraceback", |lua, _: Option<LuaValue>| {

@@ -254,3 +254,70 @@ end";
     assert_eq!(run.messages.len(), 1, "{:?}", run.messages);
     assert!(run.changes.iter().any(|c| c.quantity == "added"));
 }
+
+/// Messages of a run of the box above the floor, with a script on the floor.
+fn said_on_floor(code: &str) -> Vec<String> {
+    let scene = format!("{}\n[[script]]\nobject = \"/floor\"\nfile = \"a.lua\"\n", box_above_floor(0.5));
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap();
+    let run = run(&loaded);
+    assert_eq!(run.status, Status::Completed, "{:?}", run.messages);
+    run.messages.into_iter().map(|message| message.text).collect()
+}
+
+#[test]
+fn a_script_that_is_added_runs_from_the_next_phase_on() {
+    let said = said_on_floor(
+        "function sysCall_init() n = 0 end
+        function sysCall_actuation()
+            n = n + 1
+            if n == 2 then
+                script = sim.addScript(sim.scripttype_childscript)
+                sim.associateScriptWithObject(script, sim.getObject('/box'))
+                sim.setScriptText(script, [[
+                    function sysCall_init() print('begins', sim.getObjectAlias(sim.getObject('.'))) calls = 0 end
+                    function sysCall_actuation() calls = calls + 1 end
+                    function sysCall_cleanup() print('ends', calls) end
+                    function count(more) return calls + more end]])
+                print(sim.getScriptName(script), pcall(sim.callScriptFunction, 'count', script, 1))
+            end
+            if n == 5 then print('counts', sim.callScriptFunction('count', script, 100)) end
+            if n == 6 then sim.initScript(script) end
+            if n == 8 then print('again', sim.callScriptFunction('count', script, 100)) end
+            if n == 9 then sim.removeScript(script) print(pcall(sim.callScriptFunction, 'count', script, 1)) end
+        end",
+    );
+    assert!(said[0].starts_with("box\tfalse\t") && said[0].contains("there is no script"), "{said:?}");
+    assert_eq!(said[1..6], ["begins\tbox", "counts\t102", "ends\t4", "begins\tbox", "again\t101"]);
+    assert!(said[6].starts_with("false\t") && said[7] == "ends\t3", "{said:?}");
+}
+
+#[test]
+fn the_text_of_a_script_of_the_scene_can_be_changed() {
+    let said = said_on_floor(
+        "function sysCall_init() n = 0 end
+        function sysCall_sensing()
+            n = n + 1
+            if n == 3 then
+                print(pcall(sim.setScriptText, sim.handle_self, 'function ('))
+                sim.setScriptText(sim.handle_self, 'function sysCall_init() print(\"new\", n) end')
+            end
+        end
+        function sysCall_cleanup() print('old ends', n) end",
+    );
+    assert!(said[0].starts_with("false\t"), "{said:?}");
+    assert_eq!(said[1..], ["old ends\t3", "new\tnil"]);
+}
+
+#[test]
+fn a_script_may_be_put_on_an_object_that_was_made() {
+    let said = said_on_floor(
+        "function sysCall_init()
+            local point = sim.createDummy(0.01)
+            local script = sim.createScript(sim.scripttype_childscript, \"function sysCall_cleanup() print('ends') end\")
+            sim.setObjectParent(script, point)
+            sim.initScript(script)
+            local kept = sim.copyPasteObjects({ sim.getObject('/box') }, 0)
+        end",
+    );
+    assert_eq!(said, ["ends"]);
+}

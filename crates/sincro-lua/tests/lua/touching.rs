@@ -55,7 +55,7 @@ fn contacts_force_sensors_and_stops_are_seen() {
     let said = texts(&run);
     assert!(said[0].starts_with("true\ttrue\t1\t"), "{said:?}");
     assert_eq!(said[1..3], ["1\ttrue\ttrue", "false\t-0.5\t1.5\t6\t0.0\t4.0"]);
-    assert!(said[3].contains("sim.createTexture is not offered: scripts and textures are made in"));
+    assert!(said[3].contains("sim.createTexture is not offered: textures are made in"));
     assert!(said[4].contains("`/scale/load` has no shape: it meets nothing"), "{said:?}");
 }
 

@@ -2,10 +2,7 @@
 
 /// Functions that are not offered: their names, and the reason that callers are given.
 const ABSENT: &[(&[&str], &str)] = &[
-    (
-        &["createScript", "addScript", "createTexture"],
-        "scripts and textures are made in the scene file, or in a model that is loaded",
-    ),
+    (&["createTexture"], "textures are made in the scene file, or in a model that is loaded"),
     (&["loadUI", "saveUI"], "there are no windows: values of widgets are kept by simUI"),
     (
         &["saveScene"],
@@ -227,7 +224,6 @@ const ABSENT: &[(&[&str], &str)] = &[
     ),
     (
         &[
-            "associateScriptWithObject",
             "delegateChildScriptExecution",
             "enableWorkThreads",
             "getGenesisEvents",
@@ -237,7 +233,6 @@ const ABSENT: &[(&[&str], &str)] = &[
             "handleEmbeddedScripts",
             "handleSandboxScript",
             "handleSensingChildScripts",
-            "initScript",
             "isScriptExecutionThreaded",
             "isScriptRunningInThread",
             "launchThreadedChildScripts",
@@ -245,12 +240,10 @@ const ABSENT: &[(&[&str], &str)] = &[
             "registerScriptFunction",
             "registerScriptVariable",
             "releaseScriptRawBuffer",
-            "removeScript",
             "resumeThreads",
             "setEventFilters",
             "setScriptInt32Param",
             "setScriptStringParam",
-            "setScriptText",
             "setScriptVariable",
             "waitForWorkThreads",
         ],

@@ -29,6 +29,7 @@ mod poses;
 mod properties;
 mod radio;
 mod rotations;
+mod scripts;
 mod selection;
 mod sensing;
 mod shapes;
@@ -119,6 +120,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         tubes::FUNCTIONS,
         radio::FUNCTIONS,
         selection::FUNCTIONS,
+        scripts::FUNCTIONS,
         properties::TYPED,
         properties::FUNCTIONS,
     ];

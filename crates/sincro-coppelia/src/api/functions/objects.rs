@@ -300,6 +300,12 @@ fn child(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn set_parent(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    // scripts are objects since CoppeliaSim 4.7
+    if sim.is_added_script(a.int(0)?) {
+        let object = super::scripts::object_of(sim, a)?;
+        sim.associate_script(a.int(0)?, object)?;
+        return done();
+    }
     let own = handle(sim, a, 0)?;
     let parent = match a.handle(1)? {
         -1 => None,

@@ -75,7 +75,8 @@ impl SimApi<'_> {
             draft.set_id(path, handle.0 as usize - 1);
         }
         let next = self.registry.next_handle().0 as usize - 1;
-        let to = draft.compile(next).map_err(|found| refused(&found))?;
+        let mut to = draft.compile(next).map_err(|found| refused(&found))?;
+        self.registry.put_scripts(&mut to);
         self.registry.needed.check(&to)?;
         if to.scripts.len() > MAX_SCRIPTS {
             return Err(ApiError(format!("more than {MAX_SCRIPTS} scripts at once")));
@@ -116,6 +117,16 @@ impl SimApi<'_> {
         self.restore_pairs();
         self.moved();
         Ok(())
+    }
+
+    /// Makes scripts that were added, changed or taken away a part of the scene.
+    ///
+    /// # Errors
+    ///
+    /// There would be too many, or the scene's file is not known.
+    pub(super) fn rebuild_scripts(&mut self) -> Result<(), ApiError> {
+        let edit = self.draft()?;
+        self.rebuild(edit)
     }
 
     /// Keeps what has changed with the run: objects, momentum, energy.
