@@ -58,7 +58,7 @@ impl SimApi<'_> {
         self.moved();
         let mut bodies: Vec<[Handle; 2]> = Vec::new();
         for pair in near.into_iter().map(|k| &self.registry.pairs[k]) {
-            let is_told = pair.bodies.iter().any(|body| self.registry.passing.contains(body));
+            let is_told = self.registry.is_passing(pair.bodies);
             if !is_told && !bodies.contains(&pair.bodies) {
                 bodies.push(pair.bodies);
             }
@@ -91,8 +91,58 @@ impl SimApi<'_> {
     /// Every pair does what the scene says, but those of bodies that pass through all others.
     pub(crate) fn restore_pairs(&mut self) {
         for (k, pair) in self.registry.pairs.iter().enumerate() {
-            let passes = pair.bodies.iter().any(|body| self.registry.passing.contains(body));
-            self.world.set_pair(k, passes, pair.material);
+            self.world.set_pair(k, self.registry.is_passing(pair.bodies), pair.material);
         }
+    }
+
+    /// Respondable mask of a body or shape: the low byte for those of the same tree, the next byte for all others.
+    pub(crate) fn respondable_mask(&self, handle: Handle) -> i64 {
+        self.registry.respondable_masks.get(&handle).copied().unwrap_or(ALL_BITS)
+    }
+
+    /// Sets the respondable mask of a body or shape, between two steps.
+    ///
+    /// # Errors
+    ///
+    /// The mask has other bits than 16, or the change cannot be kept.
+    pub(crate) fn set_respondable_mask(&mut self, handle: Handle, mask: i64) -> Result<(), ApiError> {
+        if !(0..=ALL_BITS).contains(&mask) {
+            return Err(ApiError(format!("the respondable mask {mask}, expected 0 to {ALL_BITS}")));
+        }
+        if mask == self.respondable_mask(handle) {
+            return Ok(());
+        }
+        self.change(handle, "respondable_mask", vec![mask as f64])?;
+        self.registry.respondable_masks.insert(handle, mask);
+        self.restore_pairs();
+        Ok(())
+    }
+}
+
+/// Mask of a body that touches all others.
+const ALL_BITS: i64 = 0xffff;
+/// Bits for bodies of the same tree.
+const LOCAL: i64 = 0xff;
+
+impl ObjectRegistry {
+    /// Returns true if two bodies of a pair pass through each other: one of them passes through all, or their
+    /// respondable masks have no bit in common.
+    fn is_passing(&self, bodies: [Handle; 2]) -> bool {
+        if bodies.iter().any(|body| self.passing.contains(body)) {
+            return true;
+        }
+        let [a, b] = bodies.map(|body| self.respondable_masks.get(&body).copied().unwrap_or(ALL_BITS));
+        if a & b == ALL_BITS {
+            return false;
+        }
+        let [root_a, root_b] = bodies.map(|body| self.root(body));
+        let which = if root_a == root_b { LOCAL } else { ALL_BITS & !LOCAL };
+        a & b & which == 0
+    }
+
+    /// Topmost object above one.
+    fn root(&self, handle: Handle) -> Handle {
+        let chain = std::iter::successors(Some(handle), |at| self.visible_parent(*at));
+        chain.take(self.entries.len() + 1).last().unwrap_or(handle)
     }
 }

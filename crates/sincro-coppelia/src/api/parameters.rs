@@ -33,10 +33,10 @@ impl SimApi<'_> {
             (2030, Kind::Joint(_)) => i64::from(mode(self)? == MotorMode::Velocity),
             (2039, Kind::Joint(_)) => control_number(mode(self)?),
             (3003, Kind::Shape) => 1,
-            (3004 | 3019, Kind::Shape) => 0,
+            (3004, Kind::Shape) => 0,
             (3003, Kind::Body(_)) => i64::from(entry.frame.link.is_none()),
             (3004, Kind::Body(_)) => i64::from(self.is_respondable(handle)?),
-            (3019, Kind::Body(_)) => 0xffff,
+            (3019, Kind::Body(_) | Kind::Shape) => self.respondable_mask(handle),
             _ => return Err(unknown("whole-number object", id)),
         })
     }
@@ -58,25 +58,22 @@ impl SimApi<'_> {
             (4002, Kind::Proximity) => return self.set_detected(handle, value),
             _ => {}
         }
-        if entry.kind == Kind::Shape && matches!(id, 3003 | 3004 | 3019) {
+        if id == 3019 && matches!(entry.kind, Kind::Body(_) | Kind::Shape) {
+            return self.set_respondable_mask(handle, value);
+        }
+        if entry.kind == Kind::Shape && matches!(id, 3003 | 3004) {
             // static and not respondable it is
             let (is_static, is_respondable) = (id != 3003, id == 3004);
-            return match (value != 0) == (id == 3003) || id == 3019 {
+            return match (value != 0) == (id == 3003) {
                 true => Ok(()),
                 false => self.give_role(handle, Role { is_static, is_respondable, mass: None }),
             };
         }
         let is_body = matches!(entry.kind, Kind::Body(_));
-        let belongs = |what: &str| ApiError(format!("`{}`: {what}", entry.path));
         match id {
             3004 if is_body && value != 0 && !self.has_contact(handle) => return self.add_contact(handle),
             3004 if is_body => return self.set_respondable(handle, value != 0),
             3003 if is_body => return self.set_static(handle, value != 0),
-            3019 if is_body => {
-                return Err(belongs(
-                    "who touches whom belongs to the scene: `contact = { group = … }`; sysCall_contact may decide at each step",
-                ));
-            }
             _ => {}
         }
         let mode = match id {

@@ -289,6 +289,8 @@ pub struct ObjectRegistry {
     pub(super) script_restarts: BTreeSet<(Handle, ScriptKind)>,
     /// True if clients may give scripts texts.
     pub(crate) takes_script_texts: bool,
+    /// Respondable masks of bodies and shapes that were set.
+    pub(super) respondable_masks: BTreeMap<Handle, i64>,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
     pub(super) script_parser: Option<&'static dyn ScriptParser>,
 }
@@ -368,6 +370,7 @@ impl ObjectRegistry {
             added_scripts: Vec::new(),
             takes_script_texts: false,
             script_restarts: BTreeSet::new(),
+            respondable_masks: BTreeMap::new(),
             script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
         };
         new.take_objects(scene, &scene.model);
@@ -784,6 +787,7 @@ impl ObjectRegistry {
         self.vision.end_run(before.vision);
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
+        self.respondable_masks = before.respondable_masks;
         self.added_scripts = before.added_scripts;
         (self.has_stepped, self.has_begun) = (false, false);
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
