@@ -200,6 +200,12 @@ impl Controller for ApiController {
         }
         if let Some(registry) = &mut self.registry {
             registry.drop_spent_forces(at.world);
+            if registry.is_due(at.tick) {
+                SimApi::new(registry, at.world, at.t).handle_implicit_groups().map_err(|ApiError(message)| {
+                    let message = format!("inverse kinematics: {message}");
+                    ScriptError { object: "/".to_owned(), at: None, message, help: None }
+                })?;
+            }
             registry.move_targets();
             registry.preview(&[]);
         }

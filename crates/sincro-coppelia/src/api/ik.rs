@@ -64,6 +64,8 @@ pub(crate) struct Group {
     pub(super) is_enabled: bool,
     /// True if joints move as far as they need in one iteration.
     pub(super) has_free_steps: bool,
+    /// True if scripts and clients solve it; false if each step of theirs does.
+    pub(super) is_explicit: bool,
 }
 
 /// A tip and its target.
@@ -176,6 +178,7 @@ impl SimApi<'_> {
             elements: Vec::new(),
             is_enabled: true,
             has_free_steps: false,
+            is_explicit: true,
         });
         Ok(groups.len() - 1)
     }
@@ -303,6 +306,46 @@ impl SimApi<'_> {
             false => self.environment(environment)?.positions.extend(found),
         }
         Ok(Some(outcome))
+    }
+
+    /// Sets whether scripts and clients solve a group, as from the start, or each step of theirs does, after the scripts
+    /// have acted.
+    ///
+    /// # Errors
+    ///
+    /// There is no such group.
+    pub(crate) fn set_group_explicit(&mut self, environment: i64, group: i64, explicit: bool) -> Result<(), ApiError> {
+        self.group(environment, group)?.is_explicit = explicit;
+        Ok(())
+    }
+
+    /// Returns true if scripts and clients solve a group.
+    ///
+    /// # Errors
+    ///
+    /// There is no such group.
+    pub(crate) fn is_group_explicit(&mut self, environment: i64, group: i64) -> Result<bool, ApiError> {
+        Ok(self.group(environment, group)?.is_explicit)
+    }
+
+    /// Solves the groups that the step solves, and moves their joints, also if not all is reached.
+    ///
+    /// # Errors
+    ///
+    /// The first group that cannot be solved: an object of it was removed, say.
+    pub(crate) fn handle_implicit_groups(&mut self) -> Result<(), ApiError> {
+        if self.registry.switched_off.contains(&super::program::IK_HANDLING) {
+            return Ok(());
+        }
+        let environments = self.registry.environments.iter().enumerate();
+        let implicit = environments.flat_map(|(e, environment)| {
+            let groups = environment.iter().flat_map(|environment| environment.groups.iter().enumerate());
+            groups.filter(|(_, group)| !group.is_explicit).map(move |(k, _)| (e as i64, k as i64))
+        });
+        for (environment, group) in implicit.collect::<Vec<_>>() {
+            self.handle_group(environment, group, (true, true))?;
+        }
+        Ok(())
     }
 
     /// Takes the positions of an environment over to the scene, as [`SimApi::handle_group`] does.

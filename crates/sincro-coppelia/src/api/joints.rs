@@ -27,12 +27,15 @@ impl SimApi<'_> {
     }
 
     /// Puts a joint with one coordinate at a position, `[rad]` or, if it is prismatic, `[m]`, at once; its velocity
-    /// stays. For a motor's setpoint use [`SimApi::set_target_position`].
+    /// stays. The motor of a hybrid joint takes it there while a run is on. For a motor's setpoint use [`SimApi::set_target_position`].
     ///
     /// # Errors
     ///
     /// `handle` is no object or no joint with one coordinate, or the position is not finite.
     pub fn set_joint_position(&mut self, handle: Handle, position: f64) -> Result<(), ApiError> {
+        if self.is_running() && self.is_hybrid(handle) {
+            return self.set_target_position(handle, position);
+        }
         let q_idx = self.registry.joint(handle)?.q_idx;
         self.world.state.q[q_idx] = finite(position, "position")?;
         self.moved();
@@ -286,10 +289,14 @@ impl SimApi<'_> {
 
     /// Holds the command of a motor in its present mode, if there is one; where its target was on its way to is
     /// forgotten.
-    fn command(&mut self, handle: Handle) -> Result<(), ApiError> {
+    pub(super) fn command(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.registry.joint_motions.remove(&handle);
         let joint = self.registry.joint(handle)?;
         let (Some(motor), Some(drive)) = (joint.motor, joint.drive) else { return Ok(()) };
+        if self.is_held(handle) {
+            self.registry.hold(motor, Some(0.0));
+            return Ok(());
+        }
         let position = self.world.state.q[joint.q_idx];
         let (told, default) = match drive.mode {
             // no function of the API gives voltages

@@ -25,6 +25,7 @@ pub mod functions;
 mod graphs;
 mod ik;
 mod ik_search;
+mod joint_modes;
 mod joints;
 mod lens;
 mod meshes;

@@ -97,6 +97,13 @@ const TRUTHS: &[Fixed<bool>] = &[
     (58, "boolparam_execunsafe", false),
 ];
 
+/// Truth value of the inverse kinematics of groups that each step solves.
+pub(super) const IK_HANDLING: i64 = 4;
+
+/// Truth values of parts of the step that can be switched off: inverse kinematics, and objects of V-REP 3 for
+/// collisions, distances, geometric constraints and paths, of which a scene has none.
+const SWITCHES: [i64; 5] = [2, 3, IK_HANDLING, 5, 8];
+
 /// Truth values that say which parts a step has.
 const HANDLING: std::ops::RangeInclusive<i64> = 2..=11;
 
@@ -254,7 +261,8 @@ impl SimApi<'_> {
     ///
     /// There is no truth value of that number.
     pub fn bool_parameter(&self, id: i64) -> Result<bool, ApiError> {
-        fixed(TRUTHS, id, "truth")
+        let now = fixed(TRUTHS, id, "truth")?;
+        Ok(if SWITCHES.contains(&id) { !self.registry.switched_off.contains(&id) } else { now })
     }
 
     /// Accepts a setting of the truth value of the simulator with V-REP's number `id` (`sim.boolparam_…`) without
@@ -264,8 +272,16 @@ impl SimApi<'_> {
     ///
     /// There is no truth value of that number, or it would leave out a part of the step (2 to 11: dynamics, sensors,
     /// kinematics).
-    pub fn set_bool_parameter(&self, id: i64, value: bool) -> Result<(), ApiError> {
+    pub fn set_bool_parameter(&mut self, id: i64, value: bool) -> Result<(), ApiError> {
         let now = self.bool_parameter(id)?;
+        if SWITCHES.contains(&id) {
+            if value {
+                self.registry.switched_off.remove(&id);
+            } else {
+                self.registry.switched_off.insert(id);
+            }
+            return Ok(());
+        }
         if HANDLING.contains(&id) && value != now {
             return Err(ApiError::new(
                 "every step has all its parts: dynamics, sensors and scripts are not switched off one by one",

@@ -20,6 +20,7 @@ use super::added_scripts::AddedScript;
 use super::drawings::Drawings;
 use super::flags::Flags;
 use super::graphs::Graphs;
+use super::joint_modes::StaticMode;
 use super::motions::{JointMotion, Motions};
 use super::note::Notes;
 use super::pairs::{self, Pair};
@@ -291,6 +292,10 @@ pub struct ObjectRegistry {
     pub(crate) takes_script_texts: bool,
     /// Respondable masks of bodies and shapes that were set.
     pub(super) respondable_masks: BTreeMap<Handle, i64>,
+    /// Joints whose mode is not dynamic.
+    pub(super) joint_modes: BTreeMap<Handle, StaticMode>,
+    /// Parts of the step that are switched off, by the numbers of their truth values.
+    pub(super) switched_off: BTreeSet<i64>,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
     pub(super) script_parser: Option<&'static dyn ScriptParser>,
 }
@@ -371,6 +376,8 @@ impl ObjectRegistry {
             takes_script_texts: false,
             script_restarts: BTreeSet::new(),
             respondable_masks: BTreeMap::new(),
+            joint_modes: BTreeMap::new(),
+            switched_off: BTreeSet::new(),
             script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
         };
         new.take_objects(scene, &scene.model);
@@ -787,8 +794,8 @@ impl ObjectRegistry {
         self.vision.end_run(before.vision);
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
-        self.respondable_masks = before.respondable_masks;
-        self.added_scripts = before.added_scripts;
+        (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
+        (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
         (self.has_stepped, self.has_begun) = (false, false);
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
         self.recorded_frames = before.recorded_frames;

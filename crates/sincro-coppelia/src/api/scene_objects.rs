@@ -181,6 +181,7 @@ impl ObjectRegistry {
         self.joint_motions.remove(&handle);
         self.passing.remove(&handle);
         self.respondable_masks.remove(&handle);
+        self.joint_modes.remove(&handle);
         self.solids.remove(&handle);
         self.recorded_frames.remove(&handle);
         self.moved_frames.remove(&handle);

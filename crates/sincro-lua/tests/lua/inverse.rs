@@ -269,3 +269,26 @@ fn a_path_is_straight_and_the_jacobian_is_that_of_the_arm() {
     );
     assert_eq!(said(&code), ["15\ttrue", "3\t3\ttrue\ttrue", "true"]);
 }
+
+#[test]
+fn the_step_solves_groups_that_are_not_explicit_and_motors_of_hybrid_joints_follow() {
+    let code = format!(
+        "function sysCall_init() {SET_UP}{ELEMENT}
+            old = sim.getIkGroupHandle('arm')
+            for _, joint in ipairs(joints) do sim.setJointMode(joint, sim.jointmode_ik, 1) end
+            local p = sim.getObjectPosition(tip, -1)
+            sim.setObjectPosition(target, -1, {{ p[1], p[2] + 0.02, p[3] }})
+            print(sim.getJointMode(joints[1]))
+            print(sim.getExplicitHandling(old))
+            sim.setExplicitHandling(old, 0)
+        end
+        function sysCall_sensing()
+            local q = sim.getJointTargetPosition(joints[1])
+            print(q > 0.02 and q < 0.04, sim.getJointPosition(joints[1]) < q, sim.getJointPosition(joints[1]) > 0)
+            for _, joint in ipairs(joints) do sim.setJointMode(joint, sim.jointmode_force, 0) end
+            print(sim.getJointMode(joints[1]))
+        end"
+    );
+    let code = code.replace("simIK.createGroup(env)", "simIK.createGroup(env, 'arm')");
+    assert_eq!(said(&code), ["2\t1", "1", "true\ttrue\ttrue", "5\t0"]);
+}

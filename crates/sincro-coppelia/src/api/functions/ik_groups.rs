@@ -30,8 +30,13 @@ fn find(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(FIRST + IN_ONE * environment + group)
 }
 
+/// Returns true if a number is the handle of a group.
+pub(super) fn is_group(number: i64) -> bool {
+    parts(number).is_ok()
+}
+
 /// Environment and number of a group.
-fn parts(number: i64) -> Result<(i64, i64), ApiError> {
+pub(super) fn parts(number: i64) -> Result<(i64, i64), ApiError> {
     let k = number.checked_sub(FIRST).filter(|k| (0..IN_ONE * IN_ONE).contains(k));
     k.map(|k| (k / IN_ONE, k % IN_ONE)).ok_or_else(|| ApiError(format!("{number} is no handle of a group")))
 }

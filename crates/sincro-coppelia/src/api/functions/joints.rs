@@ -1,7 +1,5 @@
 //! Functions: joints and their motors.
 
-use sincro_dynamics::actuation::MotorMode;
-
 use super::{Function, Outcome, done, handle, one};
 use crate::api::{ApiError, Arguments, SimApi, Value};
 
@@ -183,17 +181,15 @@ fn force(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn mode(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     sim.joint_mode(own)?;
-    Ok(vec![Value::Int(5), Value::Int(0)])
+    let (mode, is_hybrid) = sim.kinematic_mode(own)?;
+    Ok(vec![Value::Int(mode), Value::Int(i64::from(is_hybrid))])
 }
 
-/// Every joint is dynamic here: the dynamic mode is accepted, the others are not.
+/// Bit 0 of the options: hybrid.
 fn set_mode(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
-    match a.int(1)? {
-        5 if sim.joint_mode(own)? == MotorMode::Free => done(),
-        5 => done(),
-        other => Err(ApiError(format!("joint mode {other}: joints are always dynamic here (5)"))),
-    }
+    sim.set_kinematic_mode(own, a.int(1)?, a.int_or(2, 0)? & 1 != 0)?;
+    done()
 }
 
 fn interval(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {

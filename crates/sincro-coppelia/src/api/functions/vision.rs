@@ -1,5 +1,6 @@
 //! Functions: vision sensors.
 
+use super::ik_groups::{is_group, parts};
 use super::{Function, Outcome, done, handle, one};
 use crate::api::constants::HANDLE_FLAGS;
 use crate::api::vision::{Sensors, with_angle};
@@ -257,11 +258,21 @@ fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if is_group(a.int(0)?) {
+        let (environment, group) = parts(a.int(0)?)?;
+        return one(i64::from(sim.is_group_explicit(environment, group)?));
+    }
     let own = handle(sim, a, 0)?;
     one(i64::from(sim.registry.vision_sensor(own)?.is_explicit))
 }
 
+/// Of a vision sensor, or of a group of inverse kinematics of V-REP 3.
 fn set_explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if is_group(a.int(0)?) {
+        let (environment, group) = parts(a.int(0)?)?;
+        sim.set_group_explicit(environment, group, a.int(1)? & 1 != 0)?;
+        return done();
+    }
     let (own, flags) = (handle(sim, a, 0)?, a.int(1)?);
     sim.registry.change_vision(own, |sensor| sensor.is_explicit = flags & 1 != 0)?;
     done()

@@ -129,6 +129,21 @@ impl SimApi<'_> {
         self.rebuild(edit)
     }
 
+    /// Gives a joint without motor one that is off.
+    ///
+    /// # Errors
+    ///
+    /// The scene's file is not known, or the joint can have none.
+    pub(super) fn give_motor(&mut self, joint: Handle) -> Result<(), ApiError> {
+        let path = self.model_path(joint)?;
+        let mut edit = self.draft()?;
+        let (list, keys) = edit.draft.table(&path).ok_or_else(|| ApiError(format!("there is no joint `{path}`")))?;
+        let (list, mut keys) = (list.to_owned(), keys.clone());
+        keys.insert("motor".into(), Value::Object(table([("mode", "free".into())])));
+        edit.draft.replace(&path, &list, keys);
+        self.rebuild(edit)
+    }
+
     /// Keeps what has changed with the run: objects, momentum, energy.
     fn note_change(&mut self, from: &Scene, change: &Restructured) {
         let mut notes: Vec<(&str, &'static str, Vec<f64>)> = Vec::new();
