@@ -218,6 +218,10 @@ impl Controller for ApiController {
         }
     }
 
+    fn holds_motion(&self) -> bool {
+        self.registry.as_ref().is_some_and(|registry| registry.is_motion_held())
+    }
+
     fn update_proximity_sensors(&mut self, at: Instant<'_>) {
         if !self.is_due(at.tick) {
             return;

@@ -229,10 +229,10 @@ fn string_signals_are_text_unless_they_were_set_as_buffers() {
 fn settings_that_would_change_the_physics_are_refused_and_others_taken() {
     let mut session = scene();
     let ball = object(&mut session, "/ball");
-    // dynamics off, vision sensors off
-    for id in [6, 10] {
+    // proximity sensors off, vision sensors off
+    for id in [9, 10] {
         let why = refused(&mut session, "setBoolParam", &[Value::Int(id), false.into()]);
-        assert!(why.contains("all its parts"), "{why}");
+        assert!(why.contains("part of every step"), "{why}");
         call(&mut session, "setBoolParam", &[Value::Int(id), true.into()]);
     }
     call(&mut session, "setBoolParam", &[Value::Int(16), false.into()]);

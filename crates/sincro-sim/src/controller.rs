@@ -284,6 +284,11 @@ pub trait Controller: Any + Send + fmt::Debug {
         None
     }
 
+    /// Returns true if the motion holds in the step that begins: time goes on, and everything else stays where it is.
+    fn holds_motion(&self) -> bool {
+        false
+    }
+
     /// Updates the controller's own proximity sensors after the step and at the start, once those of the scene are up
     /// to date.
     fn update_proximity_sensors(&mut self, _: Instant<'_>) {}

@@ -4,7 +4,7 @@
 //! What belongs to windows, editing and the computer has a fixed answer, and takes settings without effect: programs
 //! that turn the display off for speed run as they are.
 
-use super::{ApiError, Phase, SimApi};
+use super::{ApiError, ObjectRegistry, Phase, SimApi};
 
 /// Version that clients are told: the last one with the legacy remote API, which is what they check for.
 const PROGRAM_VERSION: i64 = 40_501;
@@ -100,9 +100,12 @@ const TRUTHS: &[Fixed<bool>] = &[
 /// Truth value of the inverse kinematics of groups that each step solves.
 pub(super) const IK_HANDLING: i64 = 4;
 
-/// Truth values of parts of the step that can be switched off: inverse kinematics, and objects of V-REP 3 for
+/// Truth value of the dynamics.
+const DYNAMICS_HANDLING: i64 = 6;
+
+/// Truth values of parts of the step that can be switched off: dynamics, inverse kinematics, and objects of V-REP 3 for
 /// collisions, distances, geometric constraints and paths, of which a scene has none.
-const SWITCHES: [i64; 5] = [2, 3, IK_HANDLING, 5, 8];
+const SWITCHES: [i64; 6] = [2, 3, IK_HANDLING, 5, DYNAMICS_HANDLING, 8];
 
 /// Truth values that say which parts a step has.
 const HANDLING: std::ops::RangeInclusive<i64> = 2..=11;
@@ -171,7 +174,24 @@ pub fn names() -> impl Iterator<Item = (&'static str, i64)> {
     whole.chain(truths).chain(texts).chain(NAMES.iter().copied())
 }
 
+impl ObjectRegistry {
+    /// Returns true if the dynamics are switched off: everything stays where it is, unless it is put elsewhere.
+    pub(crate) fn is_motion_held(&self) -> bool {
+        self.switched_off.contains(&DYNAMICS_HANDLING)
+    }
+}
+
 impl SimApi<'_> {
+    /// Sets all velocities to zero; in a run the change of the energy counts as work.
+    fn bring_to_rest(&mut self) {
+        let before = self.registry.has_begun.then(|| self.world.energy().total());
+        self.world.state.v.fill(0.0);
+        self.moved();
+        if let Some(before) = before {
+            self.world.state.totals[0] += self.world.energy().total() - before;
+        }
+    }
+
     /// Whole-number parameter of the simulator by V-REP's number `id` (`sim.intparam_…`), without unit: 7 base steps in
     /// a step of clients, 29 number of stop requests; others, such as the version, have fixed answers.
     ///
@@ -266,25 +286,26 @@ impl SimApi<'_> {
     }
 
     /// Accepts a setting of the truth value of the simulator with V-REP's number `id` (`sim.boolparam_…`) without
-    /// effect, so that programs which turn the display off run.
+    /// effect, so that programs which turn the display off run; parts of the step that can be are switched off and on: 4 inverse
+    /// kinematics of groups that the step solves, 6 dynamics, and 2, 3, 5, 8, which a scene has none of.
     ///
     /// # Errors
     ///
-    /// There is no truth value of that number, or it would leave out a part of the step (2 to 11: dynamics, sensors,
-    /// kinematics).
+    /// There is no truth value of that number, or it would leave out another part of the step (7, 9 to 11: sensors,
+    /// motions of joints).
     pub fn set_bool_parameter(&mut self, id: i64, value: bool) -> Result<(), ApiError> {
         let now = self.bool_parameter(id)?;
         if SWITCHES.contains(&id) {
             if value {
                 self.registry.switched_off.remove(&id);
-            } else {
-                self.registry.switched_off.insert(id);
+            } else if self.registry.switched_off.insert(id) && id == DYNAMICS_HANDLING && self.is_running() {
+                self.bring_to_rest();
             }
             return Ok(());
         }
         if HANDLING.contains(&id) && value != now {
             return Err(ApiError::new(
-                "every step has all its parts: dynamics, sensors and scripts are not switched off one by one",
+                "sensors and motions of joints are part of every step: they are not switched off",
             ));
         }
         Ok(())

@@ -284,7 +284,12 @@ impl<'a> Arguments<'a> {
     ///
     /// It was not given, or is no whole number of 32 bits. Whether there is such an object is not checked.
     pub fn handle(&self, k: usize) -> Result<i32, ApiError> {
-        let n = self.get(k).as_int().and_then(|n| i32::try_from(n).ok());
+        let number = match self.get(k) {
+            // as V-REP 3.1.3 wrote it into older scripts
+            Value::Text(text) => text.strip_prefix("@backCompatibility1:").and_then(|number| number.parse().ok()),
+            other => other.as_int(),
+        };
+        let n = number.and_then(|n| i32::try_from(n).ok());
         n.ok_or_else(|| self.wrong(k, "a handle"))
     }
 }

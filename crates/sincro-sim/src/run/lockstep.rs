@@ -533,7 +533,8 @@ impl LockStep {
     ///               (controllers know what scene and diagram command)
     ///   2 latch     u ← signals of the scene, then each controller; the strongest source wins
     ///   3 remember  each controller: memory for its next tick
-    ///   4 advance   the world goes from t_k to t_{k+1} under u, in sub-steps; a continuous diagram with it
+    ///   4 advance   the world goes from t_k to t_{k+1} under u, in sub-steps; a continuous diagram with it.
+    ///               If a controller holds the motion, only the count of steps goes on
     ///   5 detect    proximity sensors that are due; then those of each controller              t_{k+1}
     ///   6 sense     each controller: measurements of the step, forces of the next one
     ///   7 evaluate  continuous outputs at t_{k+1}
@@ -563,9 +564,14 @@ impl LockStep {
         if let Some(method) = &mut self.method {
             method.choose(tick, t, &mut self.world);
         }
-        let advanced = match self.control.as_mut().and_then(Controller::continuous) {
-            Some(part) => self.world.advance_with(t, self.step, part),
-            None => self.world.advance(t, self.step),
+        let advanced = if self.controllers.iter().any(|controller| controller.holds_motion()) {
+            self.world.state.tick += 1;
+            Ok(())
+        } else {
+            match self.control.as_mut().and_then(Controller::continuous) {
+                Some(part) => self.world.advance_with(t, self.step, part),
+                None => self.world.advance(t, self.step),
+            }
         };
         if let Err((t, cause)) = advanced {
             // between ticks a block shows in the motion first
