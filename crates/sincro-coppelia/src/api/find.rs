@@ -117,7 +117,12 @@ impl ObjectRegistry {
             return Err(ApiError(format!("`{text}` is no path of objects")));
         };
         let mut left = index.unwrap_or(0);
-        Ok(self.search(start, &elements, index.is_some(), &mut left))
+        let found = self.search(start, &elements, index.is_some(), &mut left);
+        // what hangs on no model looks in the whole scene
+        Ok(found.or_else(|| {
+            let mut left = index.unwrap_or(0);
+            text.starts_with(':').then(|| self.search(None, &elements, index.is_some(), &mut left)).flatten()
+        }))
     }
 
     /// Looks for the path among the objects of a level, then below them; `counts`: a match of several is wanted.

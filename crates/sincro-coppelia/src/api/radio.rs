@@ -1,5 +1,5 @@
 //! Wireless data that scripts and clients send each other (`sim.sendData`, `sim.receiveData`). What is sent can be
-//! received from the next step on, by every receiver once, in the order in which it was sent.
+//! received at once, by every receiver once, in the order in which it was sent.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -81,7 +81,7 @@ impl Radio {
         Ok(())
     }
 
-    /// A packet that was sent before `t` `[s]` and that the receiver wants.
+    /// A packet that is on its way at `t` `[s]` and that the receiver wants.
     pub fn receive(&mut self, t: f64, wanted: &Wanted<'_>) -> Option<&Packet> {
         let fits = |packet: &&mut Packet| {
             let is_meant = match &packet.receivers {
@@ -95,7 +95,7 @@ impl Radio {
             };
             let is_called = wanted.header.is_none_or(|header| header == packet.header)
                 && wanted.name.is_none_or(|name| name == packet.name);
-            let is_there = packet.sent < t && t <= packet.until;
+            let is_there = packet.sent <= t && t <= packet.until;
             is_meant && is_near && is_called && is_there && !packet.taken.contains(&wanted.own)
         };
         let found = self.packets.iter_mut().filter(fits).nth(wanted.index.unwrap_or(0))?;

@@ -242,6 +242,8 @@ pub struct ObjectRegistry {
     pub(super) widgets: BTreeMap<(String, i64, &'static str), Value>,
     /// Interfaces that were made and not destroyed.
     pub(super) interfaces: BTreeSet<String>,
+    /// Names of windows of V-REP 3, in the order in which they were asked for.
+    pub(super) windows: Vec<String>,
     /// Number of interfaces that were made.
     pub(super) n_interfaces: usize,
     /// Frames of the scene that recorded signals are about.
@@ -351,6 +353,7 @@ impl ObjectRegistry {
             tubes: Tubes::default(),
             widgets: BTreeMap::new(),
             interfaces: BTreeSet::new(),
+            windows: Vec::new(),
             n_interfaces: 0,
             recorded_frames: BTreeSet::new(),
             n_random: 0,
@@ -798,6 +801,7 @@ impl ObjectRegistry {
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
         (self.has_stepped, self.has_begun) = (false, false);
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
+        self.windows = before.windows;
         self.recorded_frames = before.recorded_frames;
         self.moved_frames = before.moved_frames;
         self.drawings.end_run();

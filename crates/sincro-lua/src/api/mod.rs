@@ -164,6 +164,22 @@ impl ApiContext<'_> {
                 Ok((1, value))
             })?;
         }
+        if is_of_old_names(&self.shared.script(self.index).text) {
+            for name in
+                ["readProximitySensor", "handleProximitySensor", "checkProximitySensor", "checkProximitySensorEx"]
+            {
+                // before CoppeliaSim 4.3 there was one result alone where nothing is detected
+                let of_session: Function = self.sim.get(name)?;
+                self.add(name, move |_, arguments: MultiValue| {
+                    let mut results: MultiValue = of_session.call(arguments)?;
+                    let is_detected = results.front().and_then(LuaValue::as_number).is_some_and(|result| result > 0.0);
+                    if !is_detected {
+                        results.truncate(1);
+                    }
+                    Ok(results)
+                })?;
+            }
+        }
         if let Some(inverse) = self.sim.get::<Option<Function>>("getMatrixInverse")? {
             self.add("invertMatrix", move |_, matrix: Table| {
                 let inverted: Table = inverse.call(&matrix)?;
@@ -193,6 +209,11 @@ fn object_of_name(sim: &mut sincro_coppelia::api::SimApi<'_>, own: Handle, name:
         }
     }
     registry.find(name, search)
+}
+
+/// Returns true if a script finds objects as those before CoppeliaSim 4.3 did, and not as later ones do.
+fn is_of_old_names(text: &str) -> bool {
+    text.contains("etObjectHandle(") && !text.contains("sim.getObject(")
 }
 
 /// A refusal as an error of Lua.

@@ -117,7 +117,10 @@ fn inverse_kinematics(context: &ApiContext<'_>) -> mlua::Result<Table> {
 fn interfaces(context: &ApiContext<'_>) -> mlua::Result<Table> {
     let module = context.lua.create_table()?;
     for function in functions::ui_functions() {
-        module.set(function.name, context.of_session("simUI", function)?)?;
+        let called = context.of_session("simUI", function)?;
+        // the name of V-REP 3.3 and 3.4
+        context.lua.globals().set(format!("simExtCustomUI_{}", function.name), &called)?;
+        module.set(function.name, called)?;
     }
     context.lua.globals().set("simUI", &module)?;
     Ok(module)

@@ -89,6 +89,22 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     })?;
     let shared = context.shared.clone();
     context.add("getScriptSimulationParameter", move |lua, (script, name, as_text): (i64, String, Option<bool>)| {
+        if matches!(script, TREE | ALL) {
+            // those of the scripts that have it, in a list
+            let list = lua.create_table()?;
+            for object in scripts_below(&shared, index, script == TREE) {
+                let key = (object, name.clone());
+                let text = shared.with_sim(object, |sim| Ok(sim.registry.script_parameters.get(&key).cloned()));
+                if let Some(text) = text.map_err(|error| super::refused("getScriptSimulationParameter", &error))? {
+                    list.push(if as_text == Some(true) {
+                        LuaValue::String(lua.create_string(text)?)
+                    } else {
+                        value_of(lua, &text)?
+                    })?;
+                }
+            }
+            return Ok(if list.is_empty() { LuaValue::Nil } else { LuaValue::Table(list) });
+        }
         let script = object_with(&shared, index, script, "getScriptSimulationParameter")?;
         let found =
             shared.with_sim(script, |sim| Ok(sim.registry.script_parameters.get(&(script, name.clone())).cloned()));
@@ -164,8 +180,12 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         trace.call::<LuaValue>(())
     })?;
     context.add("getNameSuffix", |_, name: Option<String>| {
-        let suffix = name.and_then(|name| name.rsplit_once('#').and_then(|(_, digits)| digits.parse::<i64>().ok()));
-        Ok(suffix.unwrap_or(-1))
+        let Some(name) = name else { return Ok((-1, None)) };
+        let parts = name.rsplit_once('#').and_then(|(stem, digits)| Some((stem, digits.parse::<i64>().ok()?)));
+        Ok(match parts {
+            Some((stem, suffix)) => (suffix, Some(stem.to_owned())),
+            None => (-1, Some(name)),
+        })
     })
 }
 

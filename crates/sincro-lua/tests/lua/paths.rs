@@ -71,7 +71,7 @@ fn paths_of_v_rep_3_have_control_points_put_in_and_are_gone_along() {
 }
 
 #[test]
-fn wireless_data_are_received_once_in_the_next_step_within_range() {
+fn wireless_data_are_received_once_within_range() {
     let scene = format!(
         "{PENDULUM}\n[[frame]]\nname = \"far\"\nposition = [100.0, 0.0, 0.0]\n[[script]]\nobject = \"/hinge\"\nfile = \"a.lua\"\n[[script]]\nobject = \"/far\"\nfile = \"b.lua\"\n"
     );
@@ -96,7 +96,7 @@ fn wireless_data_are_received_once_in_the_next_step_within_range() {
     let files = [("scene.toml", &*scene), ("experiment.toml", EXPERIMENT), ("a.lua", sends), ("b.lua", receives)];
     let run = run(&open(&files).unwrap_or_else(|p| panic!("{p}")));
     let said: Vec<&str> = run.messages.iter().map(|m| m.text.as_str()).collect();
-    assert_eq!(said, ["0.01\tone\t3\twide\thinge", "0.01\ttwo\t4\twide\thinge"]);
+    assert_eq!(said, ["0.00\tone\t3\twide\thinge", "0.00\ttwo\t4\twide\thinge"]);
 }
 
 #[test]

@@ -4,12 +4,28 @@ use sincro_coppelia::api::Value;
 
 use sincro_testing::clients::zmq::map;
 
-/// Functions that start and stop runs; other tests call them, because here one run continues.
-pub const ELSEWHERE: [&str; 5] = ["startSimulation", "stopSimulation", "closeScene", "loadScene", "pauseSimulation"];
+/// Functions that start and stop runs, and those on the selection; other tests call them, because here one run
+/// continues with its objects.
+pub const ELSEWHERE: [&str; 8] = [
+    "startSimulation",
+    "stopSimulation",
+    "closeScene",
+    "loadScene",
+    "pauseSimulation",
+    "copyPasteSelectedObjects",
+    "deleteSelectedObjects",
+    "scaleSelectedObjects",
+];
 
-/// Functions that need what is not here: a script, sensors, bodies that touch, stops, couplings, groups, a motion, mesh
+/// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops, couplings, groups, a motion, mesh
 /// files.
-pub const NEEDS_MORE: [&str; 20] = [
+pub const NEEDS_MORE: [&str; 26] = [
+    "addScript",
+    "createScript",
+    "setScriptText",
+    "associateScriptWithObject",
+    "initScript",
+    "removeScript",
     "setJointDependency",
     "getContactInfo",
     "readForceSensor",
@@ -216,7 +232,16 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         _ if name.starts_with("checkVisionSensor") => vec![eye.clone(), body.clone(), Value::Bool(false)],
         _ if name.contains("VisionSensor") => vec![eye.clone()],
         "getExplicitHandling" | "setExplicitHandling" => vec![eye.clone(), int(0)],
-        "getShapeBB" => vec![shape.clone()],
+        "getShapeBB" | "getShapeMesh" => vec![shape.clone()],
+        "getShapeViz" => vec![shape.clone(), int(0)],
+        "setLinkDummy" => vec![point.clone(), int(-1)],
+        "getLinkDummy" => vec![point.clone()],
+        "setPathTargetNominalVelocity" => vec![path.clone(), Value::Real(0.0)],
+        "getUIHandle" => vec![text()],
+        "addObjectCustomData" => vec![joint.clone(), int(5), Value::Bytes(vec![1])],
+        "getObjectCustomData" => vec![joint.clone(), int(5)],
+        "setUIButtonLabel" => vec![int(500_000), int(1), text()],
+        _ if name.contains("UI") => vec![int(500_000), int(1), int(2)],
         "boolOr32" | "boolAnd32" | "boolXor32" | "boolOr16" | "boolAnd16" | "boolXor16" => vec![int(6), int(-1)],
         "tubeOpen" => vec![int(0), text(), int(2)],
         "tubeWrite" => vec![int(0), text()],

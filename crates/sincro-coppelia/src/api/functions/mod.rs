@@ -22,6 +22,7 @@ mod motions;
 mod moves;
 mod names;
 mod objects;
+mod old_windows;
 mod partly;
 mod path_objects;
 mod paths;
@@ -121,6 +122,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         radio::FUNCTIONS,
         selection::FUNCTIONS,
         scripts::FUNCTIONS,
+        old_windows::FUNCTIONS,
         properties::TYPED,
         properties::FUNCTIONS,
     ];

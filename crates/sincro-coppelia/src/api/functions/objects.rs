@@ -119,6 +119,20 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: set_model_property,
     },
     Function {
+        name: "addObjectCustomData",
+        tip: "int result=sim.addObjectCustomData(int objectHandle,int header,buffer data)",
+        run: add_data,
+    },
+    Function {
+        name: "getObjectCustomData",
+        tip: "buffer data=sim.getObjectCustomData(int objectHandle,int header)",
+        run: |sim, a| {
+            let own = handle(sim, a, 0)?;
+            let stored = sim.registry.data.get(&(own, header_tag(a)?));
+            one(Value::Bytes(stored.map_or_else(Vec::new, |stored| stored.bytes.clone())))
+        },
+    },
+    Function {
         name: "readCustomDataBlock",
         tip: "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)",
         run: read_data,
@@ -470,6 +484,27 @@ fn write(sim: &mut SimApi<'_>, a: Arguments<'_>, data: Stored) -> Outcome {
     check_tag(tag)?;
     sim.registry.data.remove(&(own, tag.to_owned()));
     done()
+}
+
+/// Tag of data that V-REP 3 stores under a number.
+fn header_tag(a: Arguments<'_>) -> Result<String, ApiError> {
+    Ok(format!("header {}", a.int(1)?))
+}
+
+/// Data under a number; a number as data is its text.
+fn add_data(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, tag) = (handle(sim, a, 0)?, header_tag(a)?);
+    let bytes = match a.get(2) {
+        Value::Int(n) => n.to_string().into_bytes(),
+        Value::Real(x) => x.to_string().into_bytes(),
+        _ => a.bytes(2)?.to_vec(),
+    };
+    if bytes.is_empty() {
+        sim.registry.data.remove(&(own, tag));
+    } else {
+        store(sim, (own, &tag), Stored { form: Form::Bytes, bytes })?;
+    }
+    one(1_i64)
 }
 
 fn read_text(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {

@@ -92,7 +92,7 @@ fn above(sim: &SimApi<'_>) -> Result<Vec<Handle>, ApiError> {
     Ok(std::iter::successors(Some(own), parent).skip(1).take(1_000).collect())
 }
 
-/// The oldest data that were sent before this step and fit; nil if there are none.
+/// The oldest data on their way that fit; nil if there are none.
 fn receive(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let header = Some(a.int_or(0, -1)?).filter(|header| *header != -1);
     let name = if a.has(1) { Some(a.text(1)?) } else { None };

@@ -111,6 +111,29 @@ fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(handle)
 }
 
+/// Place of a window of V-REP 3 by its name; it is there from now on.
+pub(super) fn open_window(sim: &mut SimApi<'_>, name: &str) -> Result<i64, ApiError> {
+    let registry = &mut *sim.registry;
+    if let Some(k) = registry.windows.iter().position(|known| known == name) {
+        return Ok(k as i64);
+    }
+    if registry.windows.len() >= MAX_INTERFACES || name.len() > 1_000 {
+        return Err(ApiError(format!("a name of 1000 bytes at most, and {MAX_INTERFACES} windows at once")));
+    }
+    registry.windows.push(name.to_owned());
+    registry.interfaces.insert(format!("window {name}"));
+    Ok(registry.windows.len() as i64 - 1)
+}
+
+/// Keeps a value of a widget.
+pub(super) fn keep_value(
+    sim: &mut SimApi<'_>,
+    key: (String, i64, &'static str),
+    value: &Value,
+) -> Result<(), ApiError> {
+    put(sim, key, value).map(drop)
+}
+
 /// Key of a value of a widget.
 fn key(a: Arguments<'_>, of: &'static str) -> Result<(String, i64, &'static str), ApiError> {
     Ok((a.text(0)?.to_owned(), a.int(1)?, of))
