@@ -201,10 +201,13 @@ impl Controller for ApiController {
         if let Some(registry) = &mut self.registry {
             registry.drop_spent_forces(at.world);
             if registry.is_due(at.tick) {
-                SimApi::new(registry, at.world, at.t).handle_implicit_groups().map_err(|ApiError(message)| {
-                    let message = format!("inverse kinematics: {message}");
+                let failed = |what: &str, ApiError(message): ApiError| {
+                    let message = format!("{what}: {message}");
                     ScriptError { object: "/".to_owned(), at: None, message, help: None }
-                })?;
+                };
+                let mut sim = SimApi::new(registry, at.world, at.t);
+                sim.handle_implicit_groups().map_err(|error| failed("inverse kinematics", error))?;
+                sim.move_belts().map_err(|error| failed("conveyor belts", error))?;
             }
             registry.move_targets();
             registry.preview(&[]);

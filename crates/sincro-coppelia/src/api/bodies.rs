@@ -54,7 +54,7 @@ impl SimApi<'_> {
     /// Sets one component of the velocity that a body begins with: 0–2 of its centre of mass [m/s], 3–5 of its rotation
     /// [rad/s], world axes. While stopped, and until a run has begun (`sysCall_init`), it is that of the start, and the
     /// others stay; in a run it acts when the dynamics of the body are reset in the same step or later
-    /// ([`SimApi::reset_dynamics`]).
+    /// ([`SimApi::reset_dynamics`]). A static body carries others along with it in the coming step (a conveyor belt).
     ///
     /// # Errors
     ///
@@ -71,11 +71,10 @@ impl SimApi<'_> {
         }
         let path = self.registry.entry(handle)?.path.clone();
         if self.own_free_joint(handle)?.is_none() {
-            let is_fixed = self.registry.entry(handle)?.frame.link.is_none();
-            let help = if is_fixed {
-                "it is fixed in the world, and surfaces that carry others, such as conveyor belts, are not modelled"
-            } else {
-                "set the velocities of the joints that carry it, `initial` in the scene"
+            let help = match self.is_fixed(handle)? {
+                true if component < 3 => return self.set_belt_velocity(handle, component, value),
+                true => "it is fixed in the world: conveyor belts go along a line, they do not turn",
+                false => "set the velocities of the joints that carry it, `initial` in the scene",
             };
             return Err(ApiError(format!("`{path}` hangs on no free joint of the world: {help}")));
         }
@@ -106,6 +105,7 @@ impl SimApi<'_> {
     ///
     /// The velocity is too large.
     pub(crate) fn reset_dynamics(&mut self, handle: Handle) -> Result<(), ApiError> {
+        self.reset_belt(handle);
         if !self.registry.has_begun {
             return Ok(());
         }

@@ -131,6 +131,13 @@ impl ObjectRegistry {
         if bodies.iter().any(|body| self.passing.contains(body)) {
             return true;
         }
+        // what is fixed in the world touches nothing else that is, nor a belt
+        let is_fixed = |body: &Handle| {
+            self.belts.contains_key(body) || self.entry(*body).is_ok_and(|entry| entry.frame.link.is_none())
+        };
+        if bodies.iter().any(|body| self.belts.contains_key(body)) && bodies.iter().all(is_fixed) {
+            return true;
+        }
         let [a, b] = bodies.map(|body| self.respondable_masks.get(&body).copied().unwrap_or(ALL_BITS));
         if a & b == ALL_BITS {
             return false;

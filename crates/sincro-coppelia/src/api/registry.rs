@@ -30,7 +30,7 @@ use super::scene_objects::handle_of_id;
 use super::senses::Senses;
 use super::signals::Signals;
 use super::stored::Stored;
-use super::structure::Needed;
+use super::structure::{Belt, Needed};
 use super::tubes::Tubes;
 use super::value::Value;
 use super::vision::Vision;
@@ -294,6 +294,8 @@ pub struct ObjectRegistry {
     pub(crate) takes_script_texts: bool,
     /// Respondable masks of bodies and shapes that were set.
     pub(super) respondable_masks: BTreeMap<Handle, i64>,
+    /// Static bodies that carry others along.
+    pub(super) belts: BTreeMap<Handle, Belt>,
     /// Joints whose mode is not dynamic.
     pub(super) joint_modes: BTreeMap<Handle, StaticMode>,
     /// Parts of the step that are switched off, by the numbers of their truth values.
@@ -379,6 +381,7 @@ impl ObjectRegistry {
             takes_script_texts: false,
             script_restarts: BTreeSet::new(),
             respondable_masks: BTreeMap::new(),
+            belts: BTreeMap::new(),
             joint_modes: BTreeMap::new(),
             switched_off: BTreeSet::new(),
             script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
@@ -797,6 +800,7 @@ impl ObjectRegistry {
         self.vision.end_run(before.vision);
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
+        self.belts = before.belts;
         (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
         (self.has_stepped, self.has_begun) = (false, false);

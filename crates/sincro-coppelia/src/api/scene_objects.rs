@@ -11,6 +11,7 @@ use sincro_dynamics::spatial::{Mat3, Pose};
 use super::collections::Entity;
 use super::registry::{Entry, Handle, JointEntry, Kind, ObjectRegistry, WORLD, axis_of, turned, unit_mass};
 use super::senses::ProximityEntry;
+use super::structure::Belt;
 use super::{convention, pairs};
 use sincro_scene::scene::{Object, ObjectKind, Scene};
 use sincro_sim::proximity::ProximitySensor;
@@ -36,6 +37,7 @@ impl ObjectRegistry {
         let former = std::mem::take(&mut self.joints);
         self.joint_of.clear();
         self.left_out = super::tree::left_out(scene);
+        self.left_out.extend(self.belts.values().filter_map(Belt::joint));
         for object in &scene.objects {
             let handle = handle_of_object(object);
             let parent = object.parent.map(|k| handle_of_object(&scene.objects[k]));
@@ -182,6 +184,7 @@ impl ObjectRegistry {
         self.passing.remove(&handle);
         self.respondable_masks.remove(&handle);
         self.joint_modes.remove(&handle);
+        self.belts.remove(&handle);
         self.solids.remove(&handle);
         self.recorded_frames.remove(&handle);
         self.moved_frames.remove(&handle);

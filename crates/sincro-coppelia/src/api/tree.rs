@@ -3,7 +3,7 @@
 //! V-REP has no free joints: a loose shape hangs on the world. Here the first body on a free joint takes the joint's
 //! place, and what else is on the joint hangs on that body, with which it moves. Joints that are left out are found by
 //! their own names and paths, and stand in no other list. A frame that was a free joint, of a body that was joined to
-//! another one, is left out as well.
+//! another one, is left out as well, and so is the joint that carries a conveyor belt.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,6 +13,7 @@ use sincro_dynamics::joint::JointKind;
 use super::ApiError;
 use super::registry::{Entry, Handle, Kind, ObjectRegistry};
 use super::scene_objects::{handle_of_id, handle_of_object};
+use super::structure::Belt;
 use sincro_scene::scene::{ObjectKind, Scene};
 
 /// Handles of the objects of a scene that clients do not see as parents: free joints, and frames that were free joints.
@@ -34,6 +35,12 @@ impl ObjectRegistry {
     #[must_use]
     pub fn is_left_out(&self, handle: Handle) -> bool {
         self.left_out.contains(&handle)
+    }
+
+    /// Leaves the joints of conveyor belts out of the tree: their bodies take their places.
+    pub(super) fn leave_out_belts(&mut self) {
+        self.left_out.extend(self.belts.values().filter_map(Belt::joint));
+        self.body_on = self.bodies_on_joints();
     }
 
     /// First body on a free joint, which takes the joint's place in the tree.

@@ -6,6 +6,7 @@
 //! perfectly inelastic impact; hung on the world it is free. What V-REP does not have, the free joint that carries a
 //! free body, becomes a frame while the body is joined, and a joint again when it is parted.
 
+mod belt;
 mod copy;
 mod group;
 mod hang;
@@ -16,6 +17,7 @@ mod needed;
 mod remove;
 mod stops;
 
+pub(super) use belt::Belt;
 pub(crate) use make::Role;
 pub(super) use needed::Needed;
 
