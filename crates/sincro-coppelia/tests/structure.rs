@@ -900,3 +900,92 @@ fn copies_of_selected_objects_are_selected() {
     assert!(session.call("sim.getShapeBB", &[copy.into()]).is_err());
     assert!(session.call("sim.getShapeBB", &[own.into()]).is_ok());
 }
+
+/// A box on a static slab of 2 m that is 0.1 m high.
+const BELT: &str = r#"
+[[body]]
+name = "slab"
+position = [0.0, 0.0, 0.05]
+shape = [{ cuboid = { size = [2.0, 0.4, 0.1] } }]
+contact = { friction = 0.5 }
+[[body]]
+name = "floor"
+shape = [{ plane = {} }]
+contact = { friction = 0.5 }
+[[joint]]
+name = "box_joint"
+kind = "free"
+initial = { position = [-0.5, 0.0, 0.15, 1.0, 0.0, 0.0, 0.0] }
+[[body]]
+name = "box"
+parent = "/box_joint"
+density = 1000.0
+shape = [{ cuboid = { size = [0.1, 0.1, 0.1] } }]
+contact = { friction = 0.5 }
+"#;
+
+#[test]
+fn a_static_body_with_an_initial_velocity_carries_others_along() {
+    let mut session = open(BELT);
+    let (slab, body) = (handle(&mut session, "/slab"), handle(&mut session, "/box"));
+    session.start().unwrap();
+    let drive = |session: &mut OpenSession, speed: f64| {
+        call(session, "sim.resetDynamicObject", &[slab.into()]);
+        for (id, value) in [(3000_i64, speed), (3001, 0.0), (3002, 0.0)] {
+            call(session, "sim.setObjectFloatParam", &[slab.into(), id.into(), value.into()]);
+        }
+    };
+    for _ in 0..200 {
+        drive(&mut session, 0.2);
+        steps(&mut session, 1);
+    }
+    let carried = position(&mut session, body);
+    // friction brings it to the speed of the belt within v/(μ g) = 0.04 s
+    let slip = 0.2 * 0.2 / (2.0 * 0.5 * G);
+    assert!((carried[0] - (-0.5 + 0.2 - slip)).abs() < 2e-3, "{carried:?}");
+    assert!((carried[2] - 0.15).abs() < 1e-6);
+    assert!(position(&mut session, slab)[0].abs() < 1.1e-3, "it is put back at each step");
+    assert_eq!(call(&mut session, "sim.getObjectInt32Param", &[slab.into(), 3003_i64.into()]), [Value::Int(1)]);
+    assert_eq!(call(&mut session, "sim.getObjectParent", &[slab.into()])[0].as_int(), Some(-1));
+    // without a reset it stands, and what lies on it with it
+    steps(&mut session, 40);
+    let there = position(&mut session, body);
+    steps(&mut session, 40);
+    assert!((position(&mut session, body)[0] - there[0]).abs() < 1e-9);
+    // across, too
+    for _ in 0..100 {
+        call(&mut session, "sim.setObjectFloatParam", &[slab.into(), 3000_i64.into(), 0.0.into()]);
+        call(&mut session, "sim.setObjectFloatParam", &[slab.into(), 3001_i64.into(), 0.1.into()]);
+        steps(&mut session, 1);
+    }
+    assert!(position(&mut session, body)[1] > 0.04);
+    let turned = session.call("sim.setObjectFloatParam", &[slab.into(), 3020_i64.into(), 1.0.into()]).unwrap_err();
+    assert!(turned.0.contains("conveyor belts go along a line"), "{turned:?}");
+    session.stop().unwrap();
+    let run = session.take_finished().remove(0).simulated;
+    assert!(sincro_testing::last(&run, "energy.balance").abs() < 1e-6);
+    assert_eq!(position(&mut session, slab), [0.0, 0.0, 0.05]);
+}
+
+#[test]
+fn dummies_that_are_linked_join_the_bodies_that_carry_them() {
+    let mut session = open(BELT);
+    let (slab, body) = (handle(&mut session, "/slab"), handle(&mut session, "/box"));
+    session.start().unwrap();
+    steps(&mut session, 2);
+    put(&mut session, body, [0.0, 0.0, 0.5]);
+    let dummies = [slab, body].map(|carrier| {
+        let dummy = call(&mut session, "sim.createDummy", &[0.01.into()])[0].as_int().unwrap();
+        put(&mut session, dummy, [0.0, 0.0, 0.4]);
+        call(&mut session, "sim.setObjectParent", &[dummy.into(), carrier.into(), true.into()]);
+        dummy
+    });
+    call(&mut session, "sim.setLinkDummy", &[dummies[1].into(), dummies[0].into()]);
+    assert_eq!(call(&mut session, "sim.getLinkDummy", &[dummies[0].into()])[0].as_int(), Some(dummies[1]));
+    steps(&mut session, 20);
+    assert_eq!(position(&mut session, body), [0.0, 0.0, 0.5]);
+    call(&mut session, "sim.setLinkDummy", &[dummies[0].into(), (-1_i64).into()]);
+    assert_eq!(call(&mut session, "sim.getLinkDummy", &[dummies[1].into()])[0].as_int(), Some(-1));
+    steps(&mut session, 20);
+    assert!(position(&mut session, body)[2] < 0.46, "it falls");
+}

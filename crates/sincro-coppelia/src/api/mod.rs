@@ -33,6 +33,7 @@ mod motions;
 mod note;
 mod pairs;
 mod parameters;
+mod placing;
 mod ports;
 mod program;
 mod proximity;

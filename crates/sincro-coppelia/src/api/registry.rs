@@ -30,7 +30,7 @@ use super::scene_objects::handle_of_id;
 use super::senses::Senses;
 use super::signals::Signals;
 use super::stored::Stored;
-use super::structure::{Belt, Needed};
+use super::structure::{Belt, Link, Needed};
 use super::tubes::Tubes;
 use super::value::Value;
 use super::vision::Vision;
@@ -294,6 +294,8 @@ pub struct ObjectRegistry {
     pub(crate) takes_script_texts: bool,
     /// Respondable masks of bodies and shapes that were set.
     pub(super) respondable_masks: BTreeMap<Handle, i64>,
+    /// Links of dummies.
+    pub(super) dummy_links: BTreeMap<Handle, Link>,
     /// Static bodies that carry others along.
     pub(super) belts: BTreeMap<Handle, Belt>,
     /// Joints whose mode is not dynamic.
@@ -381,6 +383,7 @@ impl ObjectRegistry {
             takes_script_texts: false,
             script_restarts: BTreeSet::new(),
             respondable_masks: BTreeMap::new(),
+            dummy_links: BTreeMap::new(),
             belts: BTreeMap::new(),
             joint_modes: BTreeMap::new(),
             switched_off: BTreeSet::new(),
@@ -801,6 +804,7 @@ impl ObjectRegistry {
         self.script_parameters = before.script_parameters;
         (self.changes, self.passing) = (before.changes, before.passing);
         self.belts = before.belts;
+        self.dummy_links = before.dummy_links;
         (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
         (self.has_stepped, self.has_begun) = (false, false);

@@ -177,10 +177,16 @@ impl<'a> SimApi<'a> {
         let is_body = matches!(entry.kind, Kind::Body(_));
         let is_fixed = is_body && entry.frame.link.is_none();
         if (is_fixed || is_base && !self.is_free_joint(handle)) && self.is_of_model(handle) {
+            if self.stands_at(handle, &x_wo)? {
+                return Ok(());
+            }
             return self.place_in_model(handle, &x_wo);
         }
         if is_body && self.is_joined(handle) {
             return self.place_joined(handle, &x_wo);
+        }
+        if is_body && self.bring_by_joint(&entry, &x_wo)? {
+            return Ok(());
         }
         self.set_free(&entry, &x_wo)
     }

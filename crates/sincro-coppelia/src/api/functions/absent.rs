@@ -164,7 +164,6 @@ const ABSENT: &[(&[&str], &str)] = &[
             "performPathSearchStep",
             "resetPath",
             "searchPath",
-            "setPathTargetNominalVelocity",
         ],
         "paths of sim.createPath have points and control points: sim.getPathLengths and sim.getPathInterpolatedConfig work on lists of them",
     ),
@@ -293,7 +292,6 @@ const ABSENT: &[(&[&str], &str)] = &[
     (
         &[
             "getConfigurationTree",
-            "getLinkDummy",
             "getMaterialId",
             "getObjectConfiguration",
             "getObjectFloatArrayParam",
@@ -302,7 +300,6 @@ const ABSENT: &[(&[&str], &str)] = &[
             "handleVarious",
             "resetJoint",
             "setConfigurationTree",
-            "setLinkDummy",
             "setObjectConfiguration",
             "setObjectFloatArrayParam",
         ],

@@ -119,6 +119,24 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: set_model_property,
     },
     Function {
+        name: "getLinkDummy",
+        tip: "int linkedDummyHandle=sim.getLinkDummy(int dummyHandle)",
+        run: |sim, a| {
+            let own = handle(sim, a, 0)?;
+            one(sim.linked_dummy(own).unwrap_or(Handle(-1)))
+        },
+    },
+    Function {
+        name: "setLinkDummy",
+        tip: "int result=sim.setLinkDummy(int dummyHandle,int linkedDummyHandle)",
+        run: |sim, a| {
+            let own = handle(sim, a, 0)?;
+            let other = super::scripts::object_of(sim, a)?;
+            sim.link_dummies(own, other)?;
+            one(1_i64)
+        },
+    },
+    Function {
         name: "addObjectCustomData",
         tip: "int result=sim.addObjectCustomData(int objectHandle,int header,buffer data)",
         run: add_data,

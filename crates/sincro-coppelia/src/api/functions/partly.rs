@@ -14,7 +14,7 @@ const PARTLY: &[(&[&str], &str)] = &[
             "setObjectMatrix",
             "setObjectChildPose",
         ],
-        "not of bodies that other joints than free ones carry; recorded signals of a frame stay those of the scene",
+        "of bodies that other joints than free ones carry where their joint can bring them; recorded signals of a frame stay those of the scene",
     ),
     (&["setObjectAlias", "setObjectName"], "runtime objects only"),
     (
@@ -69,6 +69,11 @@ const PARTLY: &[(&[&str], &str)] = &[
             "setUIPosition",
         ],
         "there is no window: values are kept and given back, nothing is pressed",
+    ),
+    (&["setPathTargetNominalVelocity"], "0: the position on a path does not move by itself"),
+    (
+        &["setLinkDummy"],
+        "joins the bodies that carry the dummies rigidly: one of them has to be free; the free one hangs on the other then",
     ),
     (&["addScript", "createScript"], "Lua; child and customization scripts"),
     (&["getShapeViz"], "one colour for each part, no textures"),

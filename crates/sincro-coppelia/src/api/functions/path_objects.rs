@@ -65,6 +65,19 @@ pub(super) const FUNCTIONS: &[Function] = &[
         },
     },
     Function {
+        name: "setPathTargetNominalVelocity",
+        tip: "int result=sim.setPathTargetNominalVelocity(int objectHandle,float targetNominalVelocity)",
+        run: |sim, a| {
+            path(sim, a)?;
+            if a.real(1)? != 0.0 {
+                return Err(ApiError::new(
+                    "the position on a path does not move by itself: set it with setPathPosition",
+                ));
+            }
+            one(1_i64)
+        },
+    },
+    Function {
         name: "setPathPosition",
         tip: "int result=sim.setPathPosition(int objectHandle,float position)",
         run: |sim, a| {

@@ -10,6 +10,7 @@ mod belt;
 mod copy;
 mod group;
 mod hang;
+mod link;
 mod make;
 mod model;
 mod motors;
@@ -18,6 +19,7 @@ mod remove;
 mod stops;
 
 pub(super) use belt::Belt;
+pub(super) use link::Link;
 pub(crate) use make::Role;
 pub(super) use needed::Needed;
 
