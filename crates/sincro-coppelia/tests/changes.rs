@@ -332,3 +332,126 @@ fn flags_and_stops_stay_as_they_are_when_the_run_keeps_no_more_changes() {
         assert_eq!(call(&mut session, "sim.getJointInterval", "/hinge", &[]), Ok(before.clone()));
     }
 }
+
+fn position(session: &mut Session, joint: &str) -> f64 {
+    call(session, "sim.getJointPosition", joint, &[]).unwrap()[0].as_real().unwrap()
+}
+
+#[test]
+fn a_kinematic_joint_stays_where_it_was_put_until_it_is_dynamic_again() {
+    let mut session = session(&[]);
+    // the hinge has no motor in the scene
+    call(&mut session, "sim.setJointMode", "/hinge", &[Value::Int(0), Value::Int(0)]).unwrap();
+    session.start().unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    assert_eq!(position(&mut session, "/hinge"), 0.5);
+    call(&mut session, "sim.setJointTargetVelocity", "/hinge", &[Value::Real(1.0)]).unwrap();
+    call(&mut session, "sim.setJointPosition", "/follower", &[Value::Real(1.2)]).unwrap();
+    call(&mut session, "sim.setJointPosition", "/hinge", &[Value::Real(0.6)]).unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    assert_eq!(position(&mut session, "/hinge"), 0.6);
+    assert_eq!(call(&mut session, "sim.getJointMode", "/hinge", &[]), Ok(vec![Value::Int(0), Value::Int(0)]));
+    call(&mut session, "sim.setJointMode", "/hinge", &[Value::Int(5), Value::Int(0)]).unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    assert!(position(&mut session, "/hinge") < 0.599, "it swings");
+    assert_eq!(call(&mut session, "sim.getJointMode", "/hinge", &[]), Ok(vec![Value::Int(5), Value::Int(0)]));
+    let refused = call(&mut session, "sim.setJointMode", "/hinge", &[Value::Int(7), Value::Int(0)]).unwrap_err();
+    assert!(refused.contains("7 is no joint mode: kinematic 0, ik 2, dependent 4, dynamic 5"), "{refused}");
+}
+
+#[test]
+fn bodies_whose_respondable_masks_have_no_bit_in_common_pass_through_each_other() {
+    let mask = |session: &mut Session, bits: i64| {
+        call(session, "sim.setObjectInt32Param", "/ball", &[Value::Int(3019), Value::Int(bits)])
+    };
+    let height = |session: &mut Session| {
+        let place = call(session, "sim.getObjectPosition", "/ball", &[Value::Int(-1)]).unwrap();
+        place[0].as_reals().unwrap()[2]
+    };
+    let mut session = session(&[]);
+    assert_eq!(
+        call(&mut session, "sim.getObjectInt32Param", "/ball", &[Value::Int(3019)]),
+        Ok(vec![Value::Int(0xffff)])
+    );
+    session.start().unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    assert!((height(&mut session) - 0.1).abs() < 1e-9, "it lies on the floor");
+    // bits of other trees are in the second byte
+    mask(&mut session, 0x01ff).unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    assert!((height(&mut session) - 0.1).abs() < 1e-9);
+    mask(&mut session, 0x00ff).unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    let fallen = 0.5 * 9.81 * 0.05 * 0.05;
+    assert!((height(&mut session) - (0.1 - fallen)).abs() < 1e-6, "it falls through the floor");
+    assert!(mask(&mut session, 0x1_0000).is_err());
+    session.stop().unwrap();
+    let told = session.take_finished().remove(0).simulated.changes;
+    assert_eq!(told.iter().filter(|change| change.quantity == "respondable_mask").count(), 2);
+    // the next run begins with the scene's own
+    session.start().unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    assert!((height(&mut session) - 0.1).abs() < 1e-9);
+}
+
+#[test]
+fn parts_of_the_step_that_a_scene_has_not_are_switched_off_and_on() {
+    let mut session = session(&[]);
+    let put = |session: &mut Session, id: i64, value: bool| {
+        session.call("sim.setBoolParam", &[Value::Int(id), Value::Bool(value)]).map(drop)
+    };
+    let get = |session: &mut Session, id: i64| session.call("sim.getBoolParam", &[Value::Int(id)]).unwrap();
+    for id in [2, 3, 4, 5, 8] {
+        put(&mut session, id, false).unwrap();
+        assert_eq!(get(&mut session, id), [Value::Bool(false)]);
+        put(&mut session, id, true).unwrap();
+        assert_eq!(get(&mut session, id), [Value::Bool(true)]);
+    }
+    assert!(put(&mut session, 9, false).is_err());
+}
+
+#[test]
+fn without_dynamics_objects_stay_and_joints_can_be_put_elsewhere() {
+    let mut session = session(&[]);
+    session.start().unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    session.call("sim.setBoolParam", &[Value::Int(6), Value::Bool(false)]).unwrap();
+    let there = position(&mut session, "/hinge");
+    (0..10).for_each(|_| session.step().unwrap());
+    assert_eq!(position(&mut session, "/hinge"), there);
+    assert_eq!(call(&mut session, "sim.getJointVelocity", "/hinge", &[]), Ok(vec![Value::Real(0.0)]));
+    let t = session.call("sim.getSimulationTime", &[]).unwrap()[0].as_real().unwrap();
+    assert!((t - 0.15).abs() < 1e-9, "time goes on: {t}");
+    call(&mut session, "sim.setObjectPosition", "/ball", &[Value::Int(-1), Value::reals([10.0, 0.0, 0.5])]).unwrap();
+    session.step().unwrap();
+    session.call("sim.setBoolParam", &[Value::Int(6), Value::Bool(true)]).unwrap();
+    (0..5).for_each(|_| session.step().unwrap());
+    assert!(position(&mut session, "/hinge") != there, "it swings again");
+    session.stop().unwrap();
+    let run = session.take_finished().remove(0).simulated;
+    assert!(last(&run, "energy.balance").abs() < 1e-6);
+}
+
+#[test]
+fn a_body_on_a_joint_is_put_where_the_joint_can_bring_it() {
+    let mut session = session(&[]);
+    let pose = |session: &mut Session, body: &str| {
+        call(session, "sim.getObjectPose", body, &[Value::Int(-1)]).unwrap()[0].as_reals().unwrap()
+    };
+    let (arm, bob) = (pose(&mut session, "/arm"), pose(&mut session, "/bob"));
+    session.start().unwrap();
+    (0..10).for_each(|_| session.step().unwrap());
+    assert!((position(&mut session, "/hinge") - 0.5).abs() > 1e-3, "it has swung");
+    // as scripts restore a robot: position, then orientation, of each object
+    for (body, at) in [("/arm", &arm), ("/bob", &bob)] {
+        let (place, turn) = (Value::reals(at[..3].to_vec()), Value::reals(at[3..].to_vec()));
+        call(&mut session, "sim.setObjectPosition", body, &[Value::Int(-1), place]).unwrap();
+        call(&mut session, "sim.setObjectQuaternion", body, &[Value::Int(-1), turn]).unwrap();
+    }
+    assert!((position(&mut session, "/hinge") - 0.5).abs() < 1e-9);
+    assert_eq!(call(&mut session, "sim.getJointVelocity", "/hinge", &[]), Ok(vec![Value::Real(0.0)]));
+    let away = [Value::Int(-1), Value::reals([0.0, 1.0, 3.0])];
+    let refused = call(&mut session, "sim.setObjectPosition", "/arm", &away).unwrap_err();
+    assert!(refused.contains("the joint that carries it cannot bring it there"), "{refused}");
+    session.step().unwrap();
+}

@@ -27,7 +27,8 @@ impl SimApi<'_> {
     }
 
     /// Puts a joint with one coordinate at a position, `[rad]` or, if it is prismatic, `[m]`, at once; its velocity
-    /// stays. The motor of a hybrid joint takes it there while a run is on. For a motor's setpoint use [`SimApi::set_target_position`].
+    /// stays. The motor of a hybrid joint takes it there while a run is on. In a run the change of the energy counts as
+    /// work. For a motor's setpoint use [`SimApi::set_target_position`].
     ///
     /// # Errors
     ///
@@ -36,9 +37,8 @@ impl SimApi<'_> {
         if self.is_running() && self.is_hybrid(handle) {
             return self.set_target_position(handle, position);
         }
-        let q_idx = self.registry.joint(handle)?.q_idx;
-        self.world.state.q[q_idx] = finite(position, "position")?;
-        self.moved();
+        let (q_idx, position) = (self.registry.joint(handle)?.q_idx, finite(position, "position")?);
+        self.count_as_work(|sim| sim.world.state.q[q_idx] = position);
         Ok(())
     }
 
@@ -61,9 +61,8 @@ impl SimApi<'_> {
     ///
     /// `handle` is no object or no joint with one coordinate, or the velocity is not finite.
     pub fn set_joint_velocity(&mut self, handle: Handle, velocity: f64) -> Result<(), ApiError> {
-        let v_idx = self.registry.joint(handle)?.v_idx;
-        self.world.state.v[v_idx] = finite(velocity, "velocity")?;
-        self.moved();
+        let (v_idx, velocity) = (self.registry.joint(handle)?.v_idx, finite(velocity, "velocity")?);
+        self.count_as_work(|sim| sim.world.state.v[v_idx] = velocity);
         Ok(())
     }
 

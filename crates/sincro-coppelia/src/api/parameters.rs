@@ -11,6 +11,11 @@ use super::{ApiError, SimApi};
 /// Message for a runtime shape that is no body of the model.
 pub(super) const STATIC: &str = "a shape that is made is static and touches nothing; the parameters 3003 (static) = 0 and 3004 (respondable) = 1 make it a body that moves and touches";
 
+/// Whole-number parameters of what a shape looks like in windows: culling, wireframe, edges.
+const LOOK_INTS: [i64; 4] = [3014, 3015, 3024, 3027];
+/// Real ones: place, orientation and scale of its texture, shading angle, angle of its edges.
+const LOOK_FLOATS: [i64; 10] = [3006, 3007, 3008, 3009, 3010, 3011, 3012, 3013, 3025, 3026];
+
 impl SimApi<'_> {
     /// Whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control loop on,
     /// 2039 control mode of a joint, 3003 static and 3004 respondable of a shape, 1002 and 1003 columns and rows of a
@@ -37,8 +42,24 @@ impl SimApi<'_> {
             (3003, Kind::Body(_)) => i64::from(self.is_fixed(handle)?),
             (3004, Kind::Body(_)) => i64::from(self.is_respondable(handle)?),
             (3019, Kind::Body(_) | Kind::Shape) => self.respondable_mask(handle),
+            (id, Kind::Body(_) | Kind::Shape) if LOOK_INTS.contains(&id) => self.look(handle, id) as i64,
             _ => return Err(unknown("whole-number object", id)),
         })
+    }
+
+    /// Number of what a shape looks like in windows, as it was set; 0 before.
+    fn look(&self, handle: Handle, id: i64) -> f64 {
+        self.registry.looks.get(&(handle, id)).copied().unwrap_or(0.0)
+    }
+
+    /// Keeps a number of what a shape looks like in windows: nothing shows it.
+    fn set_look(&mut self, handle: Handle, id: i64, value: f64) -> Result<(), ApiError> {
+        let entry = self.registry.entry(handle)?;
+        if !matches!(entry.kind, Kind::Body(_) | Kind::Shape) {
+            return Err(ApiError(format!("`{}` is no shape", entry.path)));
+        }
+        self.registry.looks.insert((handle, id), value);
+        Ok(())
     }
 
     /// Sets a whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control
@@ -55,6 +76,9 @@ impl SimApi<'_> {
         match (id, &entry.kind) {
             (10, _) => return self.set_visibility_layer(handle, value),
             (_, Kind::Vision(_)) => return self.set_vision_int(handle, id, value),
+            (_, Kind::Body(_) | Kind::Shape) if LOOK_INTS.contains(&id) => {
+                return self.set_look(handle, id, value as f64);
+            }
             (4002, Kind::Proximity) => return self.set_detected(handle, value),
             _ => {}
         }
@@ -126,6 +150,7 @@ impl SimApi<'_> {
             3005 => Ok(self.mass(handle)?.mass),
             3000..=3002 => self.initial_velocity(handle, (id - 3000) as usize),
             3020..=3022 => self.initial_velocity(handle, (id - 3020) as usize + 3),
+            _ if LOOK_FLOATS.contains(&id) => Ok(self.look(handle, id)),
             _ => Err(unknown("float object", id)),
         }
     }
@@ -150,6 +175,7 @@ impl SimApi<'_> {
             3005 => self.mass_scaled(handle, value).and_then(|mass| self.set_mass(handle, mass)),
             3000..=3002 => self.set_initial_velocity(handle, (id - 3000) as usize, value),
             3020..=3022 => self.set_initial_velocity(handle, (id - 3020) as usize + 3, value),
+            _ if LOOK_FLOATS.contains(&id) => self.set_look(handle, id, value),
             _ => Err(unknown("float object", id)),
         }
     }

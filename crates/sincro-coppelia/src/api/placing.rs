@@ -50,13 +50,10 @@ impl SimApi<'_> {
             let help = "the joint that carries it cannot bring it there: set the positions of the joints";
             ApiError(format!("`{}` cannot be put anywhere: {help}", entry.path))
         })?;
-        let before = self.registry.has_begun.then(|| self.world.energy().total());
-        self.world.state.q[carrier.q_idx] += change;
-        self.world.state.v[carrier.v_idx] = 0.0;
-        self.moved();
-        if let Some(before) = before {
-            self.world.state.totals[0] += self.world.energy().total() - before;
-        }
+        self.count_as_work(|sim| {
+            sim.world.state.q[carrier.q_idx] += change;
+            sim.world.state.v[carrier.v_idx] = 0.0;
+        });
         Ok(true)
     }
 }

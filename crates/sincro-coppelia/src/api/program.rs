@@ -184,12 +184,7 @@ impl ObjectRegistry {
 impl SimApi<'_> {
     /// Sets all velocities to zero; in a run the change of the energy counts as work.
     fn bring_to_rest(&mut self) {
-        let before = self.registry.has_begun.then(|| self.world.energy().total());
-        self.world.state.v.fill(0.0);
-        self.moved();
-        if let Some(before) = before {
-            self.world.state.totals[0] += self.world.energy().total() - before;
-        }
+        self.count_as_work(|sim| sim.world.state.v.fill(0.0));
     }
 
     /// Whole-number parameter of the simulator by V-REP's number `id` (`sim.intparam_…`), without unit: 7 base steps in

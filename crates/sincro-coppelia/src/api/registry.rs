@@ -290,10 +290,10 @@ pub struct ObjectRegistry {
     pub(super) added_scripts: Vec<AddedScript>,
     /// Scripts that are to begin anew, by their objects and kinds.
     pub(super) script_restarts: BTreeSet<(Handle, ScriptKind)>,
-    /// True if clients may give scripts texts.
-    pub(crate) takes_script_texts: bool,
     /// Respondable masks of bodies and shapes that were set.
     pub(super) respondable_masks: BTreeMap<Handle, i64>,
+    /// Numbers of what shapes look like in windows, by object and parameter.
+    pub(super) looks: BTreeMap<(Handle, i64), f64>,
     /// Links of dummies.
     pub(super) dummy_links: BTreeMap<Handle, Link>,
     /// Static bodies that carry others along.
@@ -302,6 +302,8 @@ pub struct ObjectRegistry {
     pub(super) joint_modes: BTreeMap<Handle, StaticMode>,
     /// Parts of the step that are switched off, by the numbers of their truth values.
     pub(super) switched_off: BTreeSet<i64>,
+    /// True if clients may give scripts texts.
+    pub(crate) takes_script_texts: bool,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
     pub(super) script_parser: Option<&'static dyn ScriptParser>,
 }
@@ -383,6 +385,7 @@ impl ObjectRegistry {
             takes_script_texts: false,
             script_restarts: BTreeSet::new(),
             respondable_masks: BTreeMap::new(),
+            looks: BTreeMap::new(),
             dummy_links: BTreeMap::new(),
             belts: BTreeMap::new(),
             joint_modes: BTreeMap::new(),
@@ -805,6 +808,7 @@ impl ObjectRegistry {
         (self.changes, self.passing) = (before.changes, before.passing);
         self.belts = before.belts;
         self.dummy_links = before.dummy_links;
+        self.looks = before.looks;
         (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
         (self.has_stepped, self.has_begun) = (false, false);

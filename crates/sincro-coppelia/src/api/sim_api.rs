@@ -215,6 +215,16 @@ impl<'a> SimApi<'a> {
         Ok(())
     }
 
+    /// Changes the state of the world; once a run has begun, the change of its energy counts as work.
+    pub(super) fn count_as_work(&mut self, change: impl FnOnce(&mut Self)) {
+        let before = self.registry.has_begun.then(|| self.world.energy().total());
+        change(self);
+        self.moved();
+        if let Some(before) = before {
+            self.world.state.totals[0] += self.world.energy().total() - before;
+        }
+    }
+
     /// Moves the free joint that carries an object.
     fn set_free(&mut self, entry: &Entry, x_wo: &Pose<f64>) -> Result<(), ApiError> {
         let joints = &self.world.model().names().joints;

@@ -101,12 +101,7 @@ impl SimApi<'_> {
     /// Puts the joint of a belt back, and commands its speed `[m/s]`; the change of the energy counts as work.
     fn drive_belt(&mut self, joint: Handle, speed: f64) -> Result<(), ApiError> {
         let entry = self.registry.joint(joint)?.clone();
-        let before = self.registry.has_begun.then(|| self.world.energy().total());
-        self.world.state.q[entry.q_idx] = 0.0;
-        self.moved();
-        if let Some(before) = before {
-            self.world.state.totals[0] += self.world.energy().total() - before;
-        }
+        self.count_as_work(|sim| sim.world.state.q[entry.q_idx] = 0.0);
         self.set_target_velocity(joint, speed)
     }
 
