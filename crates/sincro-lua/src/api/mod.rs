@@ -172,7 +172,7 @@ impl ApiContext<'_> {
                 let of_session: Function = self.sim.get(name)?;
                 self.add(name, move |_, arguments: MultiValue| {
                     let mut results: MultiValue = of_session.call(arguments)?;
-                    let is_detected = results.front().and_then(LuaValue::as_number).is_some_and(|result| result > 0.0);
+                    let is_detected = results.front().and_then(LuaValue::as_integer).is_some_and(|result| result > 0);
                     if !is_detected {
                         results.truncate(1);
                     }

@@ -61,10 +61,12 @@ fn scripts_of_older_versions_get_one_result_where_nothing_is_detected() {
         function sysCall_init()
             sensor = sim.createProximitySensor(sim.proximitysensor_ray_subtype, 16, 1, {3, 3, 2, 2, 1, 1, 0, 0}, {0, 1, 0, 0, 0, 0, 0, 0, 0, 0})
             print(sim.getObjectHandle('arm') > 0, select('#', sim.handleProximitySensor(sensor)))
+            sim.setObjectPosition(sim.createPrimitiveShape(sim.primitiveshape_spheroid, {0.1, 0.1, 0.1}), -1, {0, 0, 0.5})
+            print(select('#', sim.checkProximitySensor(sensor, sim.handle_all)))
             print(simGetNameSuffix('wheel#3'))
             print(simGetNameSuffix('wheel'))
         end");
-    assert_eq!(old, ["true\t1", "3\twheel", "-1\twheel"]);
+    assert_eq!(old, ["true\t1", "5", "3\twheel", "-1\twheel"]);
     let new = said("
         function sysCall_init()
             sensor = sim.createProximitySensor(sim.proximitysensor_ray_subtype, 16, 1, {3, 3, 2, 2, 1, 1, 0, 0}, {0, 1, 0, 0, 0, 0, 0, 0, 0, 0})
