@@ -195,7 +195,7 @@ mod tests {
             Shape::Torus { major_radius: 0.3, tube_radius: 0.1 },
         ];
         for solid in solids {
-            let (corners, triangles) = triangles_of(&Surface::Solid(solid.clone())).unwrap();
+            let (corners, triangles) = triangles_of(&Surface::Solid(solid)).unwrap();
             assert!(defects(&corners, &triangles).is_empty(), "{solid:?}");
             let volume = mass_properties(&corners, &triangles, 1.0).mass;
             let exact = solid.mass_properties(1.0).mass;
