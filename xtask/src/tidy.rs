@@ -17,6 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-integrate", &["sincro-math"]),
     ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
+    ("sincro-motion", &[]),
     (
         "sincro-dynamics",
         &[
@@ -33,7 +34,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-compile", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-compile"]),
     ("sincro-analysis", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
-    ("sincro-coppelia", &["sincro-math", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
+    ("sincro-coppelia", &["sincro-math", "sincro-motion", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
     (
         "sincro-lua",
         &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim", "sincro-coppelia"],
@@ -105,7 +106,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 9] = [
+const THINKING: [&str; 10] = [
     "sincro-math",
     "sincro-complementarity",
     "sincro-geometry",
@@ -113,6 +114,7 @@ const THINKING: [&str; 9] = [
     "sincro-integrate",
     "sincro-camera",
     "sincro-aero",
+    "sincro-motion",
     "sincro-dynamics",
     "sincro-blocks",
 ];

@@ -6,10 +6,8 @@
 //! | [`session`] | the life of the runs that clients make |
 //! | [`host`] | host of the scripts of a run: when they are called, and with what |
 //! | [`api_controller`] | objects and scripts as one [`sincro_sim::controller::Controller`] |
-//! | [`motion`] | profiles of motion within limits of velocity, acceleration and jerk |
 
 pub mod api;
 pub mod api_controller;
 pub mod host;
-pub mod motion;
 pub mod session;

@@ -142,7 +142,7 @@ impl Shared {
         change(&mut open(&self.scripts)[place].cascade);
     }
 
-    /// Returns true if a script is called by one above it, not by the step: the nearest ones that are no threads decide.
+    /// Returns true if a script is called by one above it, not by the step: the nearest ones without threads decide.
     pub fn is_called_from_above(&self, place: usize) -> bool {
         let scripts = open(&self.scripts);
         let is_manual = |known: &Known| {

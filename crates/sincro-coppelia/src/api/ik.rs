@@ -308,8 +308,8 @@ impl SimApi<'_> {
         Ok(Some(outcome))
     }
 
-    /// Sets whether scripts and clients solve a group, as from the start, or each step of theirs does, after the scripts
-    /// have acted.
+    /// Sets whether scripts and clients solve a group, as from the start, or each step of theirs does, after the
+    /// scripts have acted.
     ///
     /// # Errors
     ///

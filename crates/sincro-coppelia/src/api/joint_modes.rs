@@ -41,8 +41,8 @@ impl SimApi<'_> {
         Ok(self.registry.joint_modes.get(&own).map_or((DYNAMIC, false), |mode| (mode.number, mode.is_hybrid)))
     }
 
-    /// Sets the mode of a joint; `is_hybrid` counts in modes other than the dynamic one. A joint without motor gets one:
-    /// a change of the structure.
+    /// Sets the mode of a joint; `is_hybrid` counts in modes other than the dynamic one. A joint without motor gets
+    /// one: a change of the structure.
     ///
     /// # Errors
     ///

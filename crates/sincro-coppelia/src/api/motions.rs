@@ -8,7 +8,7 @@ use sincro_dynamics::actuation::MotorMode;
 
 use super::registry::{Handle, ObjectRegistry};
 use super::{ApiError, SimApi};
-use crate::motion::{Axis, Goal, Limits, PlanError, Point, Profile, Synchronization, plan};
+use sincro_motion::{Axis, Goal, Limits, PlanError, Point, Profile, Synchronization, plan};
 
 /// Motions of numbers that may be under way at once.
 const MAX_MOTIONS: usize = 1_000;

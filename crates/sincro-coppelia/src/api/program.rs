@@ -281,8 +281,8 @@ impl SimApi<'_> {
     }
 
     /// Accepts a setting of the truth value of the simulator with V-REP's number `id` (`sim.boolparam_…`) without
-    /// effect, so that programs which turn the display off run; parts of the step that can be are switched off and on: 4 inverse
-    /// kinematics of groups that the step solves, 6 dynamics, and 2, 3, 5, 8, which a scene has none of.
+    /// effect, so that programs which turn the display off run; parts of the step that can be are switched off and
+    /// on: 4 inverse kinematics of groups that the step solves, 6 dynamics, and 2, 3, 5, 8, which a scene has none of.
     ///
     /// # Errors
     ///

@@ -1,7 +1,7 @@
 //! Motions on command from scripts: `sim.moveToConfig`, `sim.moveToPose`, Ruckig's and Reflexxes's names, targets that
 //! go within limits.
 
-use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Profile, Synchronization, plan};
+use sincro_motion::{Axis, Goal, Limits, Point, Profile, Synchronization, plan};
 use sincro_sim::results::Status;
 use sincro_sim::run::Simulated;
 

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use sincro_coppelia::api::{Handle, Value, functions};
-use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
+use sincro_motion::{Axis, Goal, Limits, Point, Synchronization, plan};
 use sincro_remote::Server;
 use sincro_sim::trace::Trace;
 

@@ -3,7 +3,7 @@
 
 use super::{Function, Outcome, done, one};
 use crate::api::{ApiError, Arguments, Motion, SimApi, Value};
-use crate::motion::{Axis, Goal, Limits, Point, Synchronization};
+use sincro_motion::{Axis, Goal, Limits, Point, Synchronization};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

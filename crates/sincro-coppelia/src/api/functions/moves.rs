@@ -13,7 +13,7 @@ use super::{Function, Outcome, done, plain};
 use crate::api::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers};
 use crate::api::ik::Element;
 use crate::api::{ApiError, Arguments, Handle, Motion, Reference, SimApi, Value};
-use crate::motion::{Axis, Goal, Limits, Point};
+use sincro_motion::{Axis, Goal, Limits, Point};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

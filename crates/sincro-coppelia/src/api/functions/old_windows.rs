@@ -1,5 +1,5 @@
-//! Functions: windows of V-REP 3 (custom dialogs, `simGetUIHandle`). There are no windows: each name is that of one, what
-//! is set is kept and told again, and nothing is ever pressed.
+//! Functions: windows of V-REP 3 (custom dialogs, `simGetUIHandle`). There are no windows: each name is that of one,
+//! what is set is kept and told again, and nothing is ever pressed.
 
 use super::ui::{keep_value, open_window};
 use super::{Function, Outcome, one};

@@ -1,5 +1,5 @@
-//! Functions: scripts that are added, changed and taken away. A script is named by the handle that `addScript` gives, or
-//! by its object.
+//! Functions: scripts that are added, changed and taken away. A script is named by the handle that `addScript` gives,
+//! or by its object.
 
 use super::{Function, done, one, plain};
 use crate::api::{ApiError, Arguments, Handle, SimApi};

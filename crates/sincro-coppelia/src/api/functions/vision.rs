@@ -266,7 +266,7 @@ fn explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(i64::from(sim.registry.vision_sensor(own)?.is_explicit))
 }
 
-/// Of a vision sensor, or of a group of inverse kinematics of V-REP 3.
+/// Sets the explicit handling of a vision sensor, or of a group of inverse kinematics of V-REP 3.
 fn set_explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     if is_group(a.int(0)?) {
         let (environment, group) = parts(a.int(0)?)?;

@@ -30,7 +30,7 @@ impl Point {
     }
 }
 
-/// Limits of a motion along one axis, an input of [`plan`](crate::motion::plan); `u` stands for the unit of the axis.
+/// Limits of a motion along one axis, an input of [`plan`](crate::plan); `u` stands for the unit of the axis.
 /// Largest values are positive, lowest ones negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -122,7 +122,7 @@ impl Pieces {
 }
 
 /// Planned motion along one axis: pieces of constant jerk from a start to a goal, and constant velocity from there on.
-/// [`plan`](crate::motion::plan) makes it.
+/// [`plan`](crate::plan) makes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
     pub(super) start: Point,

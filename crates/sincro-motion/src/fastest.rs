@@ -15,8 +15,8 @@
 //! (the velocity of a motion farther ahead is nowhere lower), so there is one such motion; else there may be several,
 //! of which the shortest is taken.
 
-use super::profile::{Limits, Pieces, Point, Profile};
-use super::ramp::{into_limits, to_velocity};
+use crate::profile::{Limits, Pieces, Point, Profile};
+use crate::ramp::{into_limits, to_velocity};
 
 /// Sections in which a smooth piece of a family is looked through when there may be several solutions. Two solutions
 /// within one section are not found: a search for them changed no duration of 60,000 random motions.

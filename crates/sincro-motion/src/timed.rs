@@ -5,9 +5,9 @@
 //! with less jerk, or lower accelerations: the less, the longer it takes. Where neither takes the time exactly (it may
 //! be blocked: with a last velocity that is not zero, arriving a little later can be impossible) there is none.
 
-use super::fastest::{HALVINGS, fastest};
-use super::profile::{Limits, Pieces, Point, Profile};
-use super::ramp::{into_limits, to_velocity};
+use crate::fastest::{HALVINGS, fastest};
+use crate::profile::{Limits, Pieces, Point, Profile};
+use crate::ramp::{into_limits, to_velocity};
 
 /// Sections in which the velocities between two corners are looked through.
 const SECTIONS: usize = 8;

@@ -1,8 +1,8 @@
 //! Several axes: each for itself, all at the same time, or all on one straight line.
 
-use super::fastest::{candidates, fastest};
-use super::profile::{Limits, Point, Profile};
-use super::timed::{fastest_velocity, timed, timed_velocity};
+use crate::fastest::{candidates, fastest};
+use crate::profile::{Limits, Point, Profile};
+use crate::timed::{fastest_velocity, timed, timed_velocity};
 
 /// Synchronization of the motions of several axes, an input of [`plan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +64,7 @@ const MORE_TIMES: usize = 40;
 /// order. All of them hold their limits, arrive at their goals exactly, and have no acceleration there.
 ///
 /// ```
-/// use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Synchronization, plan};
+/// use sincro_motion::{Axis, Goal, Limits, Point, Synchronization, plan};
 /// let limits = Limits::symmetric(1.0, 3.0, 8.0);
 /// let axis = Axis { start: Point::default(), limits, goal: Goal::Position(0.25, 0.0) };
 /// let motion = plan(&[axis], Synchronization::Time).unwrap()[0];

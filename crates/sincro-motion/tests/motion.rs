@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use rsruckig::prelude as judge;
-use sincro_coppelia::motion::{Axis, Goal, Limits, Point, Profile, Synchronization, plan};
+use sincro_motion::{Axis, Goal, Limits, Point, Profile, Synchronization, plan};
 
 fn config(cases: u32) -> Config {
     Config { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(7), ..Config::default() }

@@ -3,7 +3,7 @@
 //! The fastest change of velocity is a triangle or trapezium of acceleration: jerk, none, jerk the other way. With J
 //! the largest jerk, the peak is A = √(J·|v₁ − v₀| + a₀²/2), cut off at the largest acceleration.
 
-use super::profile::{Limits, Pieces, Point};
+use crate::profile::{Limits, Pieces, Point};
 
 /// The fastest way to the velocity `v` and no acceleration, from an acceleration within the limits.
 pub(super) fn to_velocity(from: Point, v: f64, limits: &Limits) -> Pieces {
