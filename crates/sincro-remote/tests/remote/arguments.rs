@@ -17,8 +17,8 @@ pub const ELSEWHERE: [&str; 8] = [
     "scaleSelectedObjects",
 ];
 
-/// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops, couplings, groups, a
-/// motion, mesh files.
+/// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops,
+/// couplings, groups, a motion, mesh files.
 pub const NEEDS_MORE: [&str; 26] = [
     "addScript",
     "createScript",

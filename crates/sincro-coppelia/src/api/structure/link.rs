@@ -1,7 +1,8 @@
 //! Dummies that are linked (`sim.setLinkDummy`): the bodies that carry them are joined rigidly while they are.
 //!
 //! In V-REP such a link is a constraint of the dynamics that keeps the dummies at the same place. Here one of the
-//! bodies, which has to be free, is hung on the other, as in a perfectly inelastic impact, and parted when the link ends.
+//! bodies, which has to be free, is hung on the other, as in a perfectly inelastic impact, and parted when the link
+//! ends.
 
 use crate::api::registry::{Handle, Kind};
 use crate::api::{ApiError, SimApi};
