@@ -1,4 +1,4 @@
-//! Functions of other scripts.
+//! Functions and variables of other scripts.
 
 use mlua::{Error, Function, Lua, MultiValue, Value as LuaValue};
 
@@ -44,6 +44,32 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
             n.checked_sub(1)
         });
         result.map_err(|error| fail(format!("`{name}` of the script of `{path}`: {}", crate::fault::words(&error).0)))
+    })?;
+    let (shared, index, own) = (context.shared.clone(), context.index, context.own);
+    context.add("setScriptVariable", move |_, (name, handle, value): (String, i64, LuaValue)| {
+        let fail = |message: String| Error::RuntimeError(format!("{message} (in function 'sim.setScriptVariable')"));
+        // an old name is `variable@object`
+        let (name, place) = match name.split_once('@') {
+            None => (&*name, scripts::place_of(&shared, index, handle)),
+            Some((name, object)) => {
+                let object = shared.with_sim(own, |sim| super::object_of_name(sim, own, object));
+                let object = object.map_err(|error| super::refused("setScriptVariable", &error))?;
+                (name, shared.script_on(object, None))
+            }
+        };
+        let place = place.ok_or_else(|| fail(format!("there is no script {handle}")))?;
+        let Some(other) = shared.state(place) else {
+            return Err(fail("scripts have variables once all of them are there, not while they are read".into()));
+        };
+        let value = convert::list_from_lua(MultiValue::from_iter([value]))?;
+        let value = convert::list_to_lua(&other, &value)?.pop_front().unwrap_or(LuaValue::Nil);
+        let (tables, last) = name.rsplit_once('.').map_or((None, name), |(tables, last)| (Some(tables), last));
+        let mut at = other.globals();
+        for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
+            at = at.get(part).map_err(|_| fail(format!("the script has no table `{part}`")))?;
+        }
+        at.raw_set(last, value)?;
+        Ok(0)
     })?;
     let guard = context.guard.clone();
     context.add("testCB", move |lua, (a, callback, b, n): (LuaValue, Function, LuaValue, Option<usize>)| {

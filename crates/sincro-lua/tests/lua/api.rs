@@ -38,6 +38,8 @@ fn parameters_are_texts_that_read_as_values() {
 #[test]
 fn scripts_share_signals_and_call_each_other() {
     let arm = "function twice(x, list) return 2 * x, list[2] end
+        limits = {}
+        function both() return given, limits.low end
         function sysCall_init() sim.setFloatSignal('from arm', 1.5) end";
     let hinge = "function sysCall_init()
             print(sim.getFloatSignal('from arm'), sim.getInt32Signal('nothing'))
@@ -47,6 +49,11 @@ fn scripts_share_signals_and_call_each_other() {
             print(sim.callScriptFunction('twice', script, 4, { 5, 6 }))
             print(simCallScriptFunction('twice@arm', sim_scripttype_childscript, 0.5, { 5, 6 }))
             print(select(2, pcall(sim.callScriptFunction, 'thrice', script)))
+            print(sim.setScriptVariable('given', script, { 7, 8 }))
+            simSetScriptVariable('limits.low@arm', sim_scripttype_childscript, -1.5)
+            local given, low = sim.callScriptFunction('both', script)
+            print(given[2], low)
+            print(select(2, pcall(sim.setScriptVariable, 'given', 12345, 1)))
         end";
     let scene = format!(
         "{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"arm.lua\"\n[[script]]\nobject = \"/hinge\"\nfile = \"hinge.lua\"\n"
@@ -57,6 +64,8 @@ fn scripts_share_signals_and_call_each_other() {
     let said: Vec<String> = run(&loaded.unwrap()).messages.into_iter().map(|m| m.text).collect();
     assert_eq!(said[..3], ["1.5\tnil", "8\t6", "1.0\t6"]);
     assert!(said[3].contains("the script of `/hinge/arm` has no function `thrice`"), "{said:?}");
+    assert_eq!(said[4..6], ["0", "8\t-1.5"]);
+    assert!(said[6].contains("there is no script 12345"), "{said:?}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use sincro_testing::clients::legacy::{Client as Legacy, Command, ONCE, ints, tex
 use sincro_testing::clients::zmq::{Client as Zmq, field};
 
 /// Functions that only scripts have: of a thread, of a Lua state.
-const OF_SCRIPTS: [&str; 15] = [
+const OF_SCRIPTS: [&str; 16] = [
     "waitForSignal",
     "setThreadResumeLocation",
     "getScriptHandle",
@@ -20,6 +20,7 @@ const OF_SCRIPTS: [&str; 15] = [
     "getScriptAttribute",
     "setScriptAttribute",
     "handleChildScripts",
+    "setScriptVariable",
     "getStackTraceback",
     "invertMatrix",
     "getRandom",
