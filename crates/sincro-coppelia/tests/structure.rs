@@ -982,6 +982,9 @@ fn dummies_that_are_linked_join_the_bodies_that_carry_them() {
     });
     call(&mut session, "sim.setLinkDummy", &[dummies[1].into(), dummies[0].into()]);
     assert_eq!(call(&mut session, "sim.getLinkDummy", &[dummies[0].into()])[0].as_int(), Some(dummies[1]));
+    let link_type = |value: i64| [dummies[0].into(), 10_000_i64.into(), value.into()];
+    call(&mut session, "sim.setObjectInt32Param", &link_type(0));
+    assert!(session.call("sim.setObjectInt32Param", &link_type(5)).unwrap_err().0.contains("join bodies"));
     steps(&mut session, 20);
     assert_eq!(position(&mut session, body), [0.0, 0.0, 0.5]);
     call(&mut session, "sim.setLinkDummy", &[dummies[0].into(), (-1_i64).into()]);

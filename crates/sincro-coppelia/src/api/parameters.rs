@@ -16,6 +16,11 @@ const LOOK_INTS: [i64; 4] = [3014, 3015, 3024, 3027];
 /// Real ones: place, orientation and scale of its texture, shading angle, angle of its edges.
 const LOOK_FLOATS: [i64; 10] = [3006, 3007, 3008, 3009, 3010, 3011, 3012, 3013, 3025, 3026];
 
+/// Number of the parameter that is the type of the link of a dummy.
+const LINK_TYPE: i64 = 10_000;
+/// Type of the links that there are: `sim.dummy_linktype_dynamics_loop_closure`.
+const CLOSURE: i64 = 0;
+
 impl SimApi<'_> {
     /// Whole-number parameter of an object by V-REP's number `id`, without unit: 2000 motor on, 2001 control loop on,
     /// 2039 control mode of a joint, 3003 static and 3004 respondable of a shape, 1002 and 1003 columns and rows of a
@@ -42,6 +47,7 @@ impl SimApi<'_> {
             (3003, Kind::Body(_)) => i64::from(self.is_fixed(handle)?),
             (3004, Kind::Body(_)) => i64::from(self.is_respondable(handle)?),
             (3019, Kind::Body(_) | Kind::Shape) => self.respondable_mask(handle),
+            (LINK_TYPE, Kind::Dummy | Kind::Frame) => CLOSURE,
             (id, Kind::Body(_) | Kind::Shape) if LOOK_INTS.contains(&id) => self.look(handle, id) as i64,
             _ => return Err(unknown("whole-number object", id)),
         })
@@ -80,6 +86,12 @@ impl SimApi<'_> {
                 return self.set_look(handle, id, value as f64);
             }
             (4002, Kind::Proximity) => return self.set_detected(handle, value),
+            (LINK_TYPE, Kind::Dummy | Kind::Frame) if value == CLOSURE => return Ok(()),
+            (LINK_TYPE, Kind::Dummy | Kind::Frame) => {
+                return Err(ApiError(format!(
+                    "a link of type {value} is none here: linked dummies join bodies (sim.dummy_linktype_dynamics_loop_closure)"
+                )));
+            }
             _ => {}
         }
         if id == 3019 && matches!(entry.kind, Kind::Body(_) | Kind::Shape) {
