@@ -246,6 +246,9 @@ impl Machine {
         if script.is_threaded || has_main {
             self.style = Style::Old;
             self.is_text_pending = true;
+            if has_main {
+                api::hold_variables(&self.lua)?;
+            }
             self.become_thread(self.chunk.clone())?;
             // one that is declared a thread begins with the first step
             return if script.is_threaded { Ok(()) } else { self.begin_text(phase) };
@@ -282,6 +285,7 @@ impl Machine {
         if thread.is_resumable() || !std::mem::take(&mut self.is_text_pending) {
             return Ok(());
         }
+        api::set_held_variables(&self.lua)?;
         if self.has_entries()? {
             (self.style, self.thread) = (Style::New, None);
             self.lua.globals().set("sim_call_type", Value::Nil)?;

@@ -97,24 +97,29 @@ local function waiting(name, stem)
   end
 end
 
--- V-REP's motion along a path object: from a share of its length on to its end; the velocity grows by the acceleration
+-- V-REP's motion along a path object: from a share of its length on to its end, or with a negative velocity back to its
+-- start; the velocity grows by the acceleration
 local function follow_path(object, path, what, from, velocity, acceleration)
   if not host.yieldable() then
     error('sim.followPath waits for the simulation: call it in a thread (sysCall_thread)', 2)
   end
-  if not (velocity > 0) then error('sim.followPath: the velocity is not above 0', 2) end
+  if not (velocity ~= 0 and velocity == velocity) then error('sim.followPath: the velocity is 0', 2) end
+  local back = velocity < 0
+  velocity, acceleration = math.abs(velocity), math.abs(acceleration or 0)
   local sim, along = host.sim, host.path
   local total, dt = along.length(path), sim.getSimulationTimeStep()
-  local s, v = from * total, acceleration and acceleration > 0 and 0 or velocity
+  local way = (back and from or 1 - from) * total
+  local s, v = 0, acceleration > 0 and 0 or velocity
   local level = host.stepping(true)
   repeat
-    v = math.min(velocity, v + (acceleration or 0) * dt)
-    s = math.min(total, s + v * dt)
-    local share = total > 0 and s / total or 1
+    v = math.min(velocity, v + acceleration * dt)
+    s = math.min(way, s + v * dt)
+    local share = back and 0 or 1
+    if s < way then share = (back and way - s or total - way + s) / total end
     if what ~= 2 then sim.setObjectPosition(object, -1, along.position(path, share)) end
     if what == nil or what == 2 or what == 3 then sim.setObjectOrientation(object, -1, along.orientation(path, share)) end
     host.switch()
-  until s >= total
+  until s >= way
   host.stepping(level)
   return 0
 end

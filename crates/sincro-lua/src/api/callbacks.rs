@@ -1,6 +1,6 @@
 //! Functions and variables of other scripts.
 
-use mlua::{Error, Function, Lua, MultiValue, Value as LuaValue};
+use mlua::{Error, Function, Lua, MultiValue, Table, Value as LuaValue};
 
 use super::{ApiContext, scripts};
 use crate::convert;
@@ -8,6 +8,8 @@ use crate::guard::Guard;
 
 /// Scripts that may be calling each other at once.
 const MAX_DEPTH: usize = 16;
+/// Registry key of the variables that wait for the text of a thread.
+const GIVEN: &str = "sincro.given";
 
 pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let (shared, index, own) = (context.shared.clone(), context.index, context.own);
@@ -63,12 +65,13 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         };
         let value = convert::list_from_lua(MultiValue::from_iter([value]))?;
         let value = convert::list_to_lua(&other, &value)?.pop_front().unwrap_or(LuaValue::Nil);
-        let (tables, last) = name.rsplit_once('.').map_or((None, name), |(tables, last)| (Some(tables), last));
-        let mut at = other.globals();
-        for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
-            at = at.get(part).map_err(|_| fail(format!("the script has no table `{part}`")))?;
+        let waiting: Option<Table> = other.named_registry_value(GIVEN)?;
+        match waiting {
+            Some(waiting) => {
+                waiting.raw_push(other.create_sequence_from([LuaValue::String(other.create_string(name)?), value])?)?
+            }
+            None => set_variable(&other, name, value)?,
         }
-        at.raw_set(last, value)?;
         Ok(0)
     })?;
     let guard = context.guard.clone();
@@ -81,6 +84,34 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         }
         Ok(result)
     })
+}
+
+/// Has variables that others set from now on wait until the text of a thread has ended, which may set them, too.
+pub(crate) fn hold_variables(lua: &Lua) -> mlua::Result<()> {
+    lua.set_named_registry_value(GIVEN, lua.create_table()?)
+}
+
+/// Sets the variables that have waited, in their order.
+pub(crate) fn set_held_variables(lua: &Lua) -> mlua::Result<()> {
+    let Some(held) = lua.named_registry_value::<Option<Table>>(GIVEN)? else { return Ok(()) };
+    lua.unset_named_registry_value(GIVEN)?;
+    for pair in held.sequence_values::<Table>() {
+        let pair = pair?;
+        set_variable(lua, &pair.raw_get::<String>(1)?, pair.raw_get(2)?)?;
+    }
+    Ok(())
+}
+
+/// Sets a variable by its name, as `x` or `table.x`.
+fn set_variable(lua: &Lua, name: &str, value: LuaValue) -> mlua::Result<()> {
+    let (tables, last) = name.rsplit_once('.').map_or((None, name), |(tables, last)| (Some(tables), last));
+    let mut at = lua.globals();
+    for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
+        at = at.get(part).map_err(|_| {
+            Error::RuntimeError(format!("the script has no table `{part}` (in function 'sim.setScriptVariable')"))
+        })?;
+    }
+    at.raw_set(last, value)
 }
 
 /// A function by its name, as `f` or `table.f`.

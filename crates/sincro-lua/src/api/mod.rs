@@ -14,7 +14,7 @@ mod threads;
 
 use std::sync::Arc;
 
-pub(crate) use callbacks::find as function_of;
+pub(crate) use callbacks::{find as function_of, hold_variables, set_held_variables};
 
 use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions};

@@ -36,6 +36,22 @@ fn parameters_are_texts_that_read_as_values() {
 }
 
 #[test]
+fn a_variable_of_a_thread_that_is_set_before_it_starts_is_not_lost() {
+    let arm = "given = -1
+        function sysCall_threadmain() print(given) end";
+    let hinge = "function sysCall_init()
+            sim.setScriptVariable('given', sim.getScriptHandle('arm'), 7)
+        end";
+    let scene = format!(
+        "{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"arm.lua\"\nthreaded = true\n[[script]]\nobject = \"/hinge\"\nfile = \"hinge.lua\"\n"
+    );
+    let loaded =
+        open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("arm.lua", arm), ("hinge.lua", hinge)]);
+    let said: Vec<String> = run(&loaded.unwrap()).messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said, ["7"]);
+}
+
+#[test]
 fn scripts_share_signals_and_call_each_other() {
     let arm = "function twice(x, list) return 2 * x, list[2] end
         limits = {}

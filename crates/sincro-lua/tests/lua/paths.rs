@@ -184,4 +184,8 @@ fn an_object_follows_a_path_in_a_thread() {
             print(sim.getSimulationTime(), sim.getObjectPosition(point, -1)[1])
         end";
     assert_eq!(said(code), ["0.03\t3.0"]);
+    let back = code
+        .replace("0, 100)", "2 / 3, -100)")
+        .replace("sim.followPath", "print(pcall(sim.followPath, point, path, 3, 0, 0)) sim.followPath");
+    assert_eq!(said(&back), ["false\tsim.followPath: the velocity is 0", "0.02\t0.0"]);
 }
