@@ -131,7 +131,8 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Vec<Part>, String> {
     }
     let buffers = document.buffers.iter().map(|buffer| contents(buffer, binary, folder));
     let buffers = buffers.collect::<Result<Vec<_>, _>>()?;
-    let mut reader = Reader { document: &document, buffers, parts: Vec::new(), n_triangles: 0, n_corners: 0, n_nodes: 0 };
+    let mut reader =
+        Reader { document: &document, buffers, parts: Vec::new(), n_triangles: 0, n_corners: 0, n_nodes: 0 };
     match document.scenes.get(document.scene.unwrap_or(0)) {
         Some(scene) => scene.nodes.iter().try_for_each(|node| reader.node(*node, &Y_TO_Z_UP, 0))?,
         // a document without a scene: all meshes as they stand

@@ -133,8 +133,8 @@ impl Rows {
         each(lanes).all(|lane| finite[lane] == 0.0)
     }
 
-    /// Writes what the agent sees of the present state in the worlds of the bits `lanes`; false, with nothing written, if
-    /// something there is not finite.
+    /// Writes what the agent sees of the present state in the worlds of the bits `lanes`; false, with nothing written,
+    /// if something there is not finite.
     pub fn look(
         &self,
         task: &CompiledTask,
