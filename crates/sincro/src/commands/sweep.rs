@@ -316,7 +316,11 @@ fn submit(plan: &Path, out: &Path, engine: Engine, n_shards: u64, is_dry: bool) 
         }
         Engine::Hq => {
             let array = format!("1-{n_shards}");
-            let command = ["hq", "submit", "--array", &array, "--"].map(str::to_owned).to_vec();
+            // it would write them to the folder that one happens to be in
+            let log = |kind: &str| format!("{}/hq-%{{JOB_ID}}-%{{TASK_ID}}.{kind}", jobs.display());
+            let (out, err) = (log("out"), log("err"));
+            let command = ["hq", "submit", "--array", &array, "--stdout", &out, "--stderr", &err, "--"];
+            let command = command.map(str::to_owned).to_vec();
             ("hq.sh", format!("#!/bin/bash\n{} --threads 1\n", shard("$HQ_TASK_ID")), command)
         }
         Engine::Slurm => {

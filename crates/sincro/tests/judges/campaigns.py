@@ -242,7 +242,7 @@ def hyperqueue(sincro, work, plan, table):
     out, n = work / "hyperqueue", 8
     with LocalCluster() as cluster:
         cluster.start_worker(WorkerConfig(cores=os.cpu_count()))
-        job = Job()
+        job = Job(default_workdir=work)
         for index in range(1, n + 1):
             arguments = [sincro, "sweep", plan, "--out", out, "--shard", f"{index}/{n}", "--threads", 1, "--quiet"]
             job.program([str(a) for a in arguments])
@@ -263,10 +263,13 @@ def engines(sincro, work):
     call(sincro, "sweep", "submit", plan, "--out", out, "--on", "local", "--shards", "2")
     call(sincro, "sweep", "collect", out, "--replays", "0")
     bound((out / "runs.parquet").read_bytes() == table, "submit --on local: the same bytes")
+    out = work / "hq"
+    said = call(sincro, "sweep", "submit", plan, "--out", out, "--on", "hq", "--shards", "3", "--dry-run")
+    bound(f"--array 1-3 --stdout {out}/jobs/hq-" in said, "submit --on hq: what shards say goes into the campaign's folder")
 
 
 def main():
-    sincro, work = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+    sincro, work = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     n_runs = int(sys.argv[3]) if len(sys.argv) > 3 else 10_000
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
