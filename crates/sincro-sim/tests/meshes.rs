@@ -89,7 +89,8 @@ fn a_cuboid_from_any_file_weighs_what_a_cuboid_does() {
     let start = "position = [0, 0, 1, 1, 0, 0, 0]";
     let mass = |shape: &str| {
         let folder = folder(&body(shape, start, PLANE), "\"energy.total\"", 0.1, 0.1);
-        folder.write("box.obj", &obj(size));
+        // points and lines say nothing either
+        folder.write("box.obj", &(obj(size) + "p 1\nl 1 2 4\n"));
         folder.write("box.stl", &text_stl(size));
         std::fs::write(folder.join("BINARY.STL"), binary_stl(size)).unwrap();
         folder.write("mm.obj", &obj(size.map(|x| x * 1000.0)));

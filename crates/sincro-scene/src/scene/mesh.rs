@@ -1,6 +1,7 @@
 //! Triangle meshes from files: STL, binary and text, and Wavefront OBJ; what of them makes a solid.
 
 use std::path::Path;
+use std::str::SplitAsciiWhitespace;
 use std::sync::Arc;
 
 use sincro_dynamics::contact::Surface;
@@ -351,26 +352,27 @@ fn binary_stl(bytes: &[u8], n: usize) -> Triangles {
     weld.mesh
 }
 
-/// A line of a text, in words, for what is wrong in it.
+/// A line of a text: its first word and the rest, for what is wrong in it.
 struct Line<'a> {
     source: &'a Arc<SourceText>,
     start: usize,
-    words: Vec<&'a str>,
-    length: usize,
+    text: &'a str,
+    first: &'a str,
+    rest: SplitAsciiWhitespace<'a>,
 }
 
 impl Line<'_> {
     fn refuse<T>(&self, message: String, help: &str) -> Result<T, Diagnostic> {
-        let at = Location { source: self.source.clone(), span: self.start..self.start + self.length };
+        let at = Location { source: self.source.clone(), span: self.start..self.start + self.text.len() };
         Err(Diagnostic::error(&at, message).with_help(help))
     }
 
-    /// Three numbers from word `first` on.
-    fn point(&self, first: usize) -> Result<[f64; 3], Diagnostic> {
-        let mut p = [f64::NAN; 3];
-        for (k, x) in p.iter_mut().enumerate() {
-            let Some(word) = self.words.get(first + k) else {
-                return self.refuse(format!("`{}` has fewer than three numbers", self.words[0]), "give x, y and z");
+    /// Three numbers after the first word.
+    fn point(&self) -> Result<[f64; 3], Diagnostic> {
+        let (mut p, mut words) = ([f64::NAN; 3], self.rest.clone());
+        for x in &mut p {
+            let Some(word) = words.next() else {
+                return self.refuse(format!("`{}` has fewer than three numbers", self.first), "give x, y and z");
             };
             let Ok(number) = word.parse() else {
                 return self.refuse(format!("`{word}` is not a number"), "give x, y and z as decimal numbers");
@@ -386,18 +388,19 @@ fn lines<'a>(text: &'a str, source: &'a Arc<SourceText>) -> impl Iterator<Item =
     text.split_inclusive('\n').filter_map(move |line| {
         let at = start;
         start += line.len();
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let before = line.len() - line.trim_start().len();
-        (!words.is_empty()).then(|| Line { source, start: at + before, length: line.trim().len(), words })
+        let text = line.trim_ascii_start();
+        let (before, text) = (line.len() - text.len(), text.trim_ascii_end());
+        let mut rest = text.split_ascii_whitespace();
+        Some(Line { source, start: at + before, text, first: rest.next()?, rest })
     })
 }
 
 fn text_stl(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Diagnostic> {
     let (mut weld, mut loop_of) = (Weld::default(), Vec::new());
     for line in lines(text, source) {
-        match line.words[0] {
+        match line.first {
             "vertex" => {
-                let p = line.point(1)?;
+                let p = line.point()?;
                 loop_of.push(weld.corner(p));
             }
             "endloop" => match loop_of[..] {
@@ -415,21 +418,23 @@ fn text_stl(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Diagnosti
 }
 
 fn obj(text: &str, source: &Arc<SourceText>) -> Result<Triangles, Diagnostic> {
-    let mut mesh = Triangles::default();
+    let (mut mesh, mut face) = (Triangles::default(), Vec::<u32>::new());
     for line in lines(text, source) {
-        match line.words[0] {
-            "v" => mesh.corners.push(line.point(1)?),
+        match line.first {
+            "v" => mesh.corners.push(line.point()?),
             "f" => {
-                let corner = |word: &&str| face_corner(word, mesh.corners.len(), &line);
-                let face = line.words[1..].iter().map(corner).collect::<Result<Vec<u32>, Diagnostic>>()?;
+                face.clear();
+                for word in line.rest.clone() {
+                    face.push(face_corner(word, mesh.corners.len(), &line)?);
+                }
                 if face.len() < 3 {
                     return line
                         .refuse(format!("a face of {} corners", face.len()), "a face has three corners or more");
                 }
                 mesh.triangles.extend((1..face.len() - 1).map(|k| [face[0], face[k], face[k + 1]]));
             }
-            // names, materials, smoothing, texture and normals change no shape
-            "vn" | "vt" | "o" | "g" | "s" | "usemtl" | "mtllib" => {}
+            // names, materials, smoothing, texture and normals change no shape, and points and lines have no surface
+            "vn" | "vt" | "o" | "g" | "s" | "usemtl" | "mtllib" | "l" | "p" => {}
             word if word.starts_with('#') => {}
             other => {
                 return line.refuse(format!("`{other}` is not read"), "export triangles or polygons only: `v` and `f`");
