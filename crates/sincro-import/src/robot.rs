@@ -73,7 +73,8 @@ impl Placement {
         self.position == [0.0; 3] && !turned
     }
 
-    /// This placement followed by another in its frame; what is not turned keeps its figures.
+    /// This placement followed by another in its frame; what is not turned keeps its figures, and positions that cancel
+    /// each other but for rounding are 0.
     pub fn then(&self, next: &Self) -> Self {
         if self.is_identity() {
             return *next;
@@ -81,11 +82,17 @@ impl Placement {
         if next.is_identity() {
             return *self;
         }
-        if self.rotation == Rotation::RollPitchYaw([0.0; 3]) {
+        let mut sum = if self.rotation == Rotation::RollPitchYaw([0.0; 3]) {
             let position = std::array::from_fn(|k| self.position[k] + next.position[k]);
-            return Self { position, rotation: next.rotation };
+            Self { position, rotation: next.rotation }
+        } else {
+            Self::of_pose(&self.pose().compose(&next.pose()))
+        };
+        let largest = self.position.iter().chain(&next.position).fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        for x in sum.position.iter_mut().filter(|x| x.abs() < 4.0 * f64::EPSILON * largest) {
+            *x = 0.0;
         }
-        Self::of_pose(&self.pose().compose(&next.pose()))
+        sum
     }
 }
 

@@ -50,6 +50,22 @@ fn several_joints_of_a_body_are_a_chain() {
 }
 
 #[test]
+fn positions_that_cancel_each_other_leave_no_rounding() {
+    let folder = Folder::new();
+    // a body that hangs on a hinge through the origin of the world, turned by 90°
+    let text = r#"<mujoco><worldbody><body name="arm" pos="0 0 0.1625" quat="0.7071067811865475 0.7071067811865475 0 0">
+  <joint name="pan" pos="0 -0.1625 0" axis="0 1 0"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+</body></worldbody></mujoco>"#;
+    let imported = folder.import("arm.xml", text).unwrap_or_else(|found| panic!("{found}"));
+    let scene = imported.scene();
+    assert!(
+        scene.contains("rotation_deg = [90.0, 0.0, 0.0]") && scene.contains("position = [0.0, 0.1625, 0.0]"),
+        "{scene}"
+    );
+    assert!(!scene.contains("e-1"), "{scene}");
+}
+
+#[test]
 fn mass_comes_from_the_geoms_where_the_format_says_so() {
     let folder = Folder::new();
     let imported = folder.import("hopper.xml", HOPPER).unwrap();
