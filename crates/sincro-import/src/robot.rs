@@ -55,6 +55,13 @@ impl Placement {
         Self { position: pose.pos.0, rotation: Rotation::Quaternion(wxyz) }
     }
 
+    /// Roll, pitch and yaw `[°]` where each has six decimals at most.
+    pub fn round_angles(&self) -> Option<[f64; 3]> {
+        let Rotation::RollPitchYaw(rpy) = Self::of_pose(&self.pose()).rotation else { return None };
+        let degrees = rpy.map(crate::number::degrees);
+        degrees.iter().all(|a| (a * 1e6).round() / 1e6 == *a).then_some(degrees)
+    }
+
     /// As a pose.
     pub fn pose(&self) -> Pose<f64> {
         let rot = match self.rotation {

@@ -413,7 +413,10 @@ fn keys(placement: &Placement) -> Vec<String> {
         Rotation::RollPitchYaw(rpy) if rpy == [0.0; 3] => {}
         Rotation::RollPitchYaw(rpy) => keys.push(format!("rotation_deg = {}", list(&rpy.map(crate::number::degrees)))),
         Rotation::Quaternion(q) if q[1..] == [0.0; 3] => {}
-        Rotation::Quaternion(q) => keys.push(format!("quaternion_wxyz = {}", list(&q))),
+        Rotation::Quaternion(q) => keys.push(match placement.round_angles() {
+            Some(degrees) => format!("rotation_deg = {}", list(&degrees)),
+            None => format!("quaternion_wxyz = {}", list(&q)),
+        }),
     }
     keys
 }

@@ -50,11 +50,13 @@ fn several_joints_of_a_body_are_a_chain() {
 }
 
 #[test]
-fn positions_that_cancel_each_other_leave_no_rounding() {
+fn poses_are_written_as_people_write_them() {
     let folder = Folder::new();
     // a body that hangs on a hinge through the origin of the world, turned by 90°
     let text = r#"<mujoco><worldbody><body name="arm" pos="0 0 0.1625" quat="0.7071067811865475 0.7071067811865475 0 0">
   <joint name="pan" pos="0 -0.1625 0" axis="0 1 0"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+  <geom type="box" size="1 1 1" quat="0.7071067811865475 0 0 0.7071067811865475"/>
+  <geom type="box" size="1 1 1" quat="0.5 0.1 0.7 0.5"/>
 </body></worldbody></mujoco>"#;
     let imported = folder.import("arm.xml", text).unwrap_or_else(|found| panic!("{found}"));
     let scene = imported.scene();
@@ -63,6 +65,7 @@ fn positions_that_cancel_each_other_leave_no_rounding() {
         "{scene}"
     );
     assert!(!scene.contains("e-1"), "{scene}");
+    assert!(scene.contains("rotation_deg = [0.0, 0.0, 90.0]") && scene.contains("quaternion_wxyz = [0.5, "), "{scene}");
 }
 
 #[test]
