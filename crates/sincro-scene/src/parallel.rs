@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Most threads: what they work on is in memory at the same time.
+/// Limit of threads: what they work on is in memory at the same time.
 const MAX_THREADS: usize = 8;
 
 /// Returns `f(0)`, …, `f(n − 1)` in this order, computed on as many threads as the machine has cores, 8 at most.

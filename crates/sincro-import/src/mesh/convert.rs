@@ -6,7 +6,7 @@ use sincro_dynamics::geometry::polyhedron;
 use sincro_scene::parallel;
 
 use super::hull::reduced_hull;
-use super::{Part, extension, is_native, read, stl};
+use super::{MAX_BYTES, Part, extension, is_native, read, stl, stl_size};
 use crate::number;
 
 /// Corners of a file beyond which its hull is written in its place.
@@ -39,16 +39,20 @@ fn file(path: &Path, uses: &[(bool, [f64; 3])]) -> Vec<Result<Converted, String>
             return Err(format!("its scale {scale:?} is not finite or zero"));
         }
         let parts = parts.as_ref().map_err(String::clone)?;
-        if shows { Ok(shown(path, scale, parts)) } else { hull(path, scale, parts) }
+        if shows { shown(path, scale, parts) } else { hull(path, scale, parts) }
     });
     converted.collect()
 }
 
 /// The file as it shows: one STL for each colour, unless the scene reads it as it is.
-fn shown(path: &Path, scale: [f64; 3], parts: &[Part]) -> Converted {
+fn shown(path: &Path, scale: [f64; 3], parts: &[Part]) -> Result<Converted, String> {
     let mirrored = scale.iter().any(|x| *x < 0.0);
     if is_native(path) && !mirrored {
-        return Converted { pieces: Vec::new(), suffix: "", change: None };
+        return Ok(Converted { pieces: Vec::new(), suffix: "", change: None });
+    }
+    if let Some(part) = parts.iter().find(|part| stl_size(part) > MAX_BYTES) {
+        let n = part.triangles.len();
+        return Err(format!("its {n} triangles of one colour take more than {} MiB as STL", MAX_BYTES >> 20));
     }
     let (suffix, signs) = if mirrored { ("-mirrored", scale.map(f64::signum)) } else { ("", [1.0; 3]) };
     let pieces: Vec<_> = parts.iter().map(|part| (stl(part, signs), part.color)).collect();
@@ -60,7 +64,7 @@ fn shown(path: &Path, scale: [f64; 3], parts: &[Part]) -> Converted {
     if pieces.len() > 1 {
         change += &format!(", {} files of one colour each", pieces.len());
     }
-    Converted { pieces, suffix, change: Some(change) }
+    Ok(Converted { pieces, suffix, change: Some(change) })
 }
 
 /// The convex hull of the file; the reason if it has none.

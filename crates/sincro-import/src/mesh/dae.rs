@@ -11,7 +11,7 @@ use std::rc::Rc;
 use roxmltree::{Document, Node, NodeId, ParsingOptions};
 
 use super::matrix::{IDENTITY, Matrix, Y_TO_Z_UP, determinant, moved, product};
-use super::{MAX_DEPTH, MAX_NODES, MAX_TRIANGLES, Part};
+use super::{MAX_DEPTH, MAX_TRIANGLES, Part, Work};
 
 /// Reads a document.
 pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
@@ -23,7 +23,8 @@ pub(super) fn read(text: &str) -> Result<Vec<Part>, String> {
     }
     let ids: BTreeMap<&str, Node<'_, '_>> =
         root.descendants().filter_map(|n| n.attribute("id").map(|id| (id, n))).collect();
-    let mut reader = Reader { ids, parts: Vec::new(), n_triangles: 0, n_corners: 0, n_nodes: 0, last_positions: None };
+    let mut reader =
+        Reader { ids, parts: Vec::new(), n_triangles: 0, n_corners: 0, work: Work::new(), last_positions: None };
     let upright = upright(root);
     let scenes = root.descendants().filter(|n| n.has_tag_name(tag(root, "visual_scene")));
     for scene in scenes.take(1) {
@@ -69,6 +70,9 @@ fn named<'a, 'd>(node: Node<'a, 'd>, name: &'static str) -> impl Iterator<Item =
     node.children().filter(move |n| n.is_element() && n.tag_name().name() == name)
 }
 
+/// Limit of the elements of an effect that are looked at for its colour.
+const MAX_OF_EFFECT: usize = 1000;
+
 /// Positions of a mesh.
 type Points = Rc<Vec<[f64; 3]>>;
 
@@ -77,7 +81,7 @@ struct Reader<'a, 'd> {
     parts: Vec<Part>,
     n_triangles: usize,
     n_corners: usize,
-    n_nodes: usize,
+    work: Work,
     /// Positions of the source that was read last: primitives of one mesh share them.
     last_positions: Option<(NodeId, Points)>,
 }
@@ -88,10 +92,11 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     fn node(&mut self, node: Node<'a, 'd>, above: &Matrix, depth: usize) -> Result<(), String> {
-        self.n_nodes += 1;
-        if depth > MAX_DEPTH || self.n_nodes > MAX_NODES {
-            return Err(format!("its nodes are nested more than {MAX_DEPTH} deep, or more than {MAX_NODES}"));
+        if depth > MAX_DEPTH {
+            return Err(format!("its nodes are nested more than {MAX_DEPTH} deep"));
         }
+        // an element takes as long as some words
+        self.work.take(8 * node.descendants().count())?;
         let mut at = *above;
         for child in node.children().filter(Node::is_element) {
             if let Some(m) = transform(child)? {
@@ -136,7 +141,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     fn color(&self, material: Option<&str>) -> Option<[u8; 3]> {
         let effect = self.target(material).and_then(|m| named(m, "instance_effect").next())?;
         let effect = self.target(effect.attribute("url"))?;
-        let diffuse = effect.descendants().find(|n| n.tag_name().name() == "diffuse")?;
+        let diffuse = effect.descendants().take(MAX_OF_EFFECT).find(|n| n.tag_name().name() == "diffuse")?;
         let color = named(diffuse, "color").next()?;
         let rgba: Vec<f64> = color.text()?.split_whitespace().filter_map(|w| w.parse().ok()).collect();
         crate::color::rgb(&rgba)
@@ -149,6 +154,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         materials: &BTreeMap<&str, [u8; 3]>,
     ) -> Result<(), String> {
         let Some(mesh) = named(geometry, "mesh").next() else { return Ok(()) };
+        // a word has some characters
+        self.work.take(mesh.descendants().map(|n| 1 + n.text().map_or(0, str::len) / 4).sum())?;
         for primitive in mesh.children().filter(Node::is_element) {
             let kind = primitive.tag_name().name();
             if !matches!(kind, "triangles" | "polylist" | "polygons") {
@@ -179,7 +186,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         let array = named(source, "float_array").next().and_then(|n| n.text()).unwrap_or("");
         let step = source.descendants().find(|n| n.tag_name().name() == "accessor");
         let step = step.and_then(|n| n.attribute("stride")).and_then(|s| s.parse().ok()).unwrap_or(3_usize).max(3);
-        let mut positions = Vec::with_capacity(array.len() / (9 * step));
+        let mut positions = Vec::with_capacity(array.len() / 9 / step);
         let mut p = [0.0; 3];
         for (k, word) in array.split_ascii_whitespace().enumerate() {
             let x: f64 = word.parse().map_err(|_| "a position is no number")?;
@@ -370,6 +377,17 @@ mod tests {
         let text = format!(
             "<COLLADA><library_visual_scenes><visual_scene>{nodes}</visual_scene></library_visual_scenes></COLLADA>"
         );
-        assert!(read(&text).unwrap_err().contains("nested"));
+        assert!(read(&text).unwrap_err().contains("again and again"));
+        // few nodes with much in each
+        let much = text
+            .replace("<node id=\"n39\">", &("<node id=\"n39\">".to_owned() + &"<scale>1 1 1</scale>".repeat(20_000)));
+        assert!(read(&much).unwrap_err().contains("again and again"));
+    }
+
+    #[test]
+    fn a_stride_beyond_all_numbers_gives_no_positions() {
+        let text = SQUARE.replace("SCALE", "1").replace("stride=\"3\"", &format!("stride=\"{}\"", usize::MAX));
+        assert_ne!(text, SQUARE.replace("SCALE", "1"));
+        assert!(read(&text).is_err());
     }
 }

@@ -5,6 +5,7 @@
 //! animations and morph targets are not read; sparse and compressed positions are refused.
 //! Source: key `gltf`, sections 3.5 (nodes), 3.6 (buffers, accessors), 3.7 (meshes), 4.4 (binary files).
 
+use std::borrow::Cow;
 use std::path::{Component, Path};
 
 use serde::Deserialize;
@@ -12,7 +13,7 @@ use sincro_math::Real;
 use sincro_math::elementary::Binary;
 
 use super::matrix::{IDENTITY, Matrix, Y_TO_Z_UP, determinant, moved, product};
-use super::{MAX_BYTES, MAX_DEPTH, MAX_NODES, MAX_TRIANGLES, Part};
+use super::{MAX_BYTES, MAX_DEPTH, MAX_TRIANGLES, Part, Work};
 
 /// First word of a binary file, and types of its chunks.
 const MAGIC: u32 = 0x4654_6c67;
@@ -129,10 +130,9 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Vec<Part>, String> {
     if let Some(name) = document.extensions_required.iter().find(is_needed) {
         return Err(format!("its extension `{name}` is not read"));
     }
-    let buffers = document.buffers.iter().map(|buffer| contents(buffer, binary, folder));
-    let buffers = buffers.collect::<Result<Vec<_>, _>>()?;
+    let buffers = read_buffers(&document, binary, folder)?;
     let mut reader =
-        Reader { document: &document, buffers, parts: Vec::new(), n_triangles: 0, n_corners: 0, n_nodes: 0 };
+        Reader { document: &document, buffers, parts: Vec::new(), n_triangles: 0, n_corners: 0, work: Work::new() };
     match document.scenes.get(document.scene.unwrap_or(0)) {
         Some(scene) => scene.nodes.iter().try_for_each(|node| reader.node(*node, &Y_TO_Z_UP, 0))?,
         // a document without a scene: all meshes as they stand
@@ -167,11 +167,31 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?))
 }
 
-/// Bytes of a buffer: those of the binary file, of a data URI, or of a file in `folder`.
-fn contents(buffer: &Buffer, binary: Option<&[u8]>, folder: &Path) -> Result<Vec<u8>, String> {
-    let Some(uri) = &buffer.uri else {
-        return binary.map(<[u8]>::to_vec).ok_or("a buffer is missing".into());
-    };
+/// Bytes of all buffers: those of the binary file, which the first one may be, and of others.
+fn read_buffers<'d>(
+    document: &Document,
+    binary: Option<&'d [u8]>,
+    folder: &Path,
+) -> Result<Vec<Cow<'d, [u8]>>, String> {
+    let (mut buffers, mut left) = (Vec::new(), MAX_BYTES);
+    for (k, buffer) in document.buffers.iter().enumerate() {
+        let bytes = match (&buffer.uri, binary) {
+            (None, Some(binary)) if k == 0 => Cow::Borrowed(binary),
+            (None, _) => return Err("a buffer is missing".into()),
+            (Some(uri), _) => {
+                let bytes = contents(uri, folder)?;
+                let too_large = || format!("its buffers are larger than {} MiB", MAX_BYTES >> 20);
+                left = left.checked_sub(bytes.len() as u64).ok_or_else(too_large)?;
+                Cow::Owned(bytes)
+            }
+        };
+        buffers.push(bytes);
+    }
+    Ok(buffers)
+}
+
+/// Bytes of a buffer: those of a data URI, or of a file in `folder`.
+fn contents(uri: &str, folder: &Path) -> Result<Vec<u8>, String> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, text) = data.split_once(";base64,").ok_or("the data of a buffer are not in base 64")?;
         return base64(text).ok_or("the data of a buffer are not in base 64".into());
@@ -210,20 +230,20 @@ fn base64(text: &str) -> Option<Vec<u8>> {
 
 struct Reader<'d> {
     document: &'d Document,
-    buffers: Vec<Vec<u8>>,
+    buffers: Vec<Cow<'d, [u8]>>,
     parts: Vec<Part>,
     n_triangles: usize,
     n_corners: usize,
-    n_nodes: usize,
+    work: Work,
 }
 
 impl Reader<'_> {
     fn node(&mut self, index: usize, above: &Matrix, depth: usize) -> Result<(), String> {
-        self.n_nodes += 1;
-        if depth > MAX_DEPTH || self.n_nodes > MAX_NODES {
-            return Err(format!("its nodes are nested more than {MAX_DEPTH} deep, or more than {MAX_NODES}"));
+        if depth > MAX_DEPTH {
+            return Err(format!("its nodes are nested more than {MAX_DEPTH} deep"));
         }
         let node = self.document.nodes.get(index).ok_or("a node is missing")?;
+        self.work.take(1 + node.children.len())?;
         let at = product(above, &transform(node)?);
         if let Some(mesh) = node.mesh {
             self.mesh(mesh, &at)?;
@@ -233,6 +253,7 @@ impl Reader<'_> {
 
     fn mesh(&mut self, index: usize, at: &Matrix) -> Result<(), String> {
         let mesh = self.document.meshes.get(index).ok_or("a mesh is missing")?;
+        self.work.take(mesh.primitives.len())?;
         mesh.primitives.iter().try_for_each(|primitive| self.primitive(primitive, at))
     }
 
@@ -246,6 +267,7 @@ impl Reader<'_> {
             Some(indices) => self.indices(indices)?,
             None => (0..positions.len() as u32).collect(),
         };
+        self.work.take(positions.len() + indices.len())?;
         if indices.iter().any(|i| *i as usize >= positions.len()) {
             return Err("an index is out of range".into());
         }
@@ -430,6 +452,8 @@ mod tests {
         assert!(refused(&binary(&range)).contains("out of range"));
         let cycle = document("", "").replace("{\"mesh\": 0, \"scale\": [2, 1, 1]}", "{\"children\": [0, 0]}");
         assert!(refused(&binary(&cycle)).contains("nested"));
+        let second = document("", "").replace("\"buffers\": [", "\"buffers\": [{\"byteLength\": 56}, ");
+        assert!(refused(&binary(&second)).contains("a buffer is missing"), "the first one alone is in the file");
         let whole = binary(&document("", ""));
         for end in 0..whole.len() {
             assert!(read(&whole[..end], Path::new("")).is_err(), "{end}");

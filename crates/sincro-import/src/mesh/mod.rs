@@ -26,15 +26,31 @@ use convert::{Converted, Uses};
 const MAX_BYTES: u64 = 64 << 20;
 /// Deepest nesting of the nodes of a document, which may also place each other.
 const MAX_DEPTH: usize = 64;
-/// Most nodes that are placed: some that place each other could multiply without bound, and so could triangles.
-const MAX_NODES: usize = 1_000_000;
-/// Most triangles of a document.
-const MAX_TRIANGLES: usize = 20_000_000;
-/// Most corners: nodes may place a mesh of many corners and few triangles again and again.
-const MAX_CORNERS: usize = 20_000_000;
+/// Limit of the triangles of a document, and of their corners: nodes may place a mesh of many corners and few triangles
+/// again and again.
+const MAX_TRIANGLES: usize = 5_000_000;
+const MAX_CORNERS: usize = 5_000_000;
+/// Limit of the elements and words of a document that are read, as often as they are: nodes may place each other.
+const MAX_WORK: usize = 50_000_000;
 /// Bytes of a binary STL before its triangles, and of each of them.
 const STL_HEAD: usize = 84;
 const STL_TRIANGLE: usize = 50;
+
+/// Elements and words of a document that may still be read.
+#[derive(Debug)]
+struct Work(usize);
+
+impl Work {
+    fn new() -> Self {
+        Self(MAX_WORK)
+    }
+
+    /// Takes `n` of them.
+    fn take(&mut self, n: usize) -> Result<(), String> {
+        self.0 = self.0.checked_sub(n).ok_or("its nodes place each other, or its meshes, again and again")?;
+        Ok(())
+    }
+}
 
 /// Triangles of one colour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -254,6 +270,11 @@ fn msh(bytes: &[u8]) -> Option<Vec<Part>> {
     let corners = (0..n).map(corner).collect::<Option<Vec<_>>>()?;
     let triangles = (0..faces).map(triangle).collect::<Option<Vec<_>>>()?;
     Some(vec![Part { corners, triangles, color: None }])
+}
+
+/// Bytes of the binary STL of a part.
+fn stl_size(part: &Part) -> u64 {
+    (STL_HEAD + STL_TRIANGLE * part.triangles.len()) as u64
 }
 
 /// Binary STL of a part, its axes turned over where a sign is negative.
