@@ -41,7 +41,8 @@ const NEXT_SWEEPS: usize = 12;
 /// Limit of Newton steps of an island; beyond it the best iterate is taken and its residual reported.
 const MAX_NEWTON_STEPS: usize = 12;
 
-/// Residual above which an island is not left: further sweeps, which need many but no mode, follow the Newton steps.
+/// Residual above which further sweeps follow the Newton steps, while they make it smaller: they need no guess of which
+/// contacts stick.
 const LARGEST_RESIDUAL: f64 = 3e-3;
 
 /// Number of these sweeps at a time, and how often they are made.
@@ -525,10 +526,11 @@ impl Task for Island<'_> {
             self.find_velocities();
             let swept = self.sweep(LAST_SWEEPS);
             sweeps += swept.sweeps;
-            if swept.residual < best {
-                best = swept.residual;
-                self.keep();
+            if swept.residual >= best {
+                break;
             }
+            best = swept.residual;
+            self.keep();
         }
         self.restore();
         (best, sweeps)
