@@ -254,3 +254,35 @@ fn a_model_is_copied_with_what_is_beside_its_body_on_the_joint() {
     let below = call(&mut s, "sim.getObjectsInTree", &[alone.into(), (-2_i64).into(), 1_i64.into()]);
     assert!(list(&below[..1]).is_empty());
 }
+
+/// Two models, and a frame that hangs on none.
+const MODELS: &str = r#"
+[[frame]]
+name = "robotA"
+[[frame]]
+name = "gripper"
+parent = "/robotA"
+[[frame]]
+name = "robotB"
+[[frame]]
+name = "arm"
+parent = "/robotB"
+[[frame]]
+name = "tip"
+parent = "/robotB/arm"
+[[frame]]
+name = "alone"
+"#;
+
+#[test]
+fn a_path_from_the_model_of_a_script_finds_no_object_of_another_model() {
+    let scene = [SCENE, MODELS].concat();
+    let mut session = OpenSession::open(SceneFolder::of(&scene, EXPERIMENT), &[], Extensions::default(), None);
+    let mut find =
+        |path: &str, from: Option<Handle>| session.registry().find(path, Search { from, ..Search::default() });
+    let [gripper, arm, tip, alone] = ["/gripper", "/arm", "/tip", "/alone"].map(|path| find(path, None).unwrap());
+    assert_eq!(find(":/tip", Some(arm)), Ok(tip));
+    assert!(find(":/gripper", Some(arm)).is_err());
+    assert_eq!(find(":/gripper", Some(alone)), Ok(gripper));
+    assert_eq!(find(":/gripper", None), Ok(gripper));
+}

@@ -83,6 +83,8 @@ impl ObjectRegistry {
 
     fn find_path(&self, text: &str, search: Search) -> Result<Option<Handle>, ApiError> {
         let (mut start, mut rest) = (None, text);
+        // what hangs on no model looks in the whole scene
+        let mut is_loose = false;
         // a client has no object: its relative paths begin at the world
         let own = || {
             let is_bare = matches!(text, "." | ".." | ":");
@@ -95,6 +97,7 @@ impl ObjectRegistry {
             while let Some(parent) = at.and_then(|h| self.visible_parent(h)) {
                 at = Some(parent);
             }
+            is_loose = at == search.from;
             (start, rest) = (at, tail);
         } else if rest.starts_with('.') {
             let mut at = own()?;
@@ -118,11 +121,11 @@ impl ObjectRegistry {
         };
         let mut left = index.unwrap_or(0);
         let found = self.search(start, &elements, index.is_some(), &mut left);
-        // what hangs on no model looks in the whole scene
-        Ok(found.or_else(|| {
-            let mut left = index.unwrap_or(0);
-            text.starts_with(':').then(|| self.search(None, &elements, index.is_some(), &mut left)).flatten()
-        }))
+        if found.is_some() || !is_loose {
+            return Ok(found);
+        }
+        let mut left = index.unwrap_or(0);
+        Ok(self.search(None, &elements, index.is_some(), &mut left))
     }
 
     /// Looks for the path among the objects of a level, then below them; `counts`: a match of several is wanted.
