@@ -8,13 +8,6 @@ use crate::api::{ApiError, Arguments, SimApi, Value};
 /// Handle of the first window.
 const FIRST: i64 = 500_000;
 
-/// Functions that set one value of a button: name, tip, where the value stands among the arguments.
-macro_rules! sets {
-    ($name:literal, $get:literal, $value:literal, $tip:literal) => {
-        Function { name: $name, tip: $tip, run: |sim, a| keep(sim, a, $get, $value) }
-    };
-}
-
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "getUIHandle",
@@ -29,29 +22,31 @@ pub(super) const FUNCTIONS: &[Function] = &[
             Ok(vec![Value::Int(-1), Value::List(vec![Value::Int(0), Value::Int(0)])])
         },
     },
-    sets!(
-        "setUIButtonLabel",
-        "label",
-        2,
-        "int result=sim.setUIButtonLabel(int uiHandle,int buttonHandle,string upStateLabel,string downStateLabel=nil)"
-    ),
+    Function {
+        name: "setUIButtonLabel",
+        tip: "int result=sim.setUIButtonLabel(int uiHandle,int buttonHandle,string upStateLabel,string downStateLabel=nil)",
+        run: |sim, a| keep(sim, a, "label"),
+    },
     Function {
         name: "getUIButtonLabel",
         tip: "string label=sim.getUIButtonLabel(int uiHandle,int buttonHandle)",
         run: |sim, a| kept(sim, a, "label", Value::from("")),
     },
-    sets!(
-        "setUIButtonProperty",
-        "property",
-        2,
-        "int result=sim.setUIButtonProperty(int uiHandle,int buttonHandle,int buttonProperty)"
-    ),
+    Function {
+        name: "setUIButtonProperty",
+        tip: "int result=sim.setUIButtonProperty(int uiHandle,int buttonHandle,int buttonProperty)",
+        run: |sim, a| keep(sim, a, "property"),
+    },
     Function {
         name: "getUIButtonProperty",
         tip: "int buttonProperty=sim.getUIButtonProperty(int uiHandle,int buttonHandle)",
         run: |sim, a| kept(sim, a, "property", Value::Int(0)),
     },
-    sets!("setUISlider", "slider", 2, "int result=sim.setUISlider(int uiHandle,int buttonHandle,int position)"),
+    Function {
+        name: "setUISlider",
+        tip: "int result=sim.setUISlider(int uiHandle,int buttonHandle,int position)",
+        run: |sim, a| keep(sim, a, "slider"),
+    },
     Function {
         name: "getUISlider",
         tip: "int position=sim.getUISlider(int uiHandle,int buttonHandle)",
@@ -84,12 +79,14 @@ fn window(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<String, ApiError> {
     name.map(|name| format!("window {name}")).ok_or_else(|| ApiError(format!("there is no window {number}")))
 }
 
-fn keep(sim: &mut SimApi<'_>, a: Arguments<'_>, of: &'static str, value: usize) -> Outcome {
+/// Keeps the third argument of a call as a value of a button.
+fn keep(sim: &mut SimApi<'_>, a: Arguments<'_>, of: &'static str) -> Outcome {
     let key = (window(sim, a)?, a.int(1)?, of);
-    keep_value(sim, key, a.get(value))?;
+    keep_value(sim, key, a.get(2))?;
     one(1_i64)
 }
 
+/// Returns a value of a button as it was set, else the default.
 fn kept(sim: &mut SimApi<'_>, a: Arguments<'_>, of: &'static str, default: Value) -> Outcome {
     let key = (window(sim, a)?, a.int(1)?, of);
     one(sim.registry.widgets.get(&key).cloned().unwrap_or(default))
