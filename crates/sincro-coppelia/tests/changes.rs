@@ -455,3 +455,65 @@ fn a_body_on_a_joint_is_put_where_the_joint_can_bring_it() {
     assert!(refused.contains("the joint that carries it cannot bring it there"), "{refused}");
     session.step().unwrap();
 }
+
+const MOTORS: &str = r#"
+gravity = [0.0, 0.0, -9.81]
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+limits = { lower = -3.6, upper = 3.6 }
+motor = { mode = "position", kp = 20.0, max_torque = 50.0 }
+[[body]]
+name = "arm"
+parent = "/hinge"
+mass = 1.0
+center_of_mass = [0.5, 0.0, 0.0]
+inertia = { xx = 0.01, yy = 0.1, zz = 0.1 }
+[[joint]]
+name = "rail"
+kind = "prismatic"
+axis = [1.0, 0.0, 0.0]
+position = [0.0, 5.0, 0.0]
+limits = { lower = -0.1, upper = 0.1 }
+motor = { mode = "position", kp = 20.0, max_torque = 50.0 }
+[[body]]
+name = "slide"
+parent = "/rail"
+mass = 1.0
+inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
+"#;
+
+fn session_of_motors() -> OpenSession {
+    let experiment =
+        "title = \"Motors\"\nduration = 1.0\nstep = 0.01\nrecord = [\"/hinge.position\", \"energy.balance\"]\n";
+    OpenSession::open(SceneFolder::of(MOTORS, experiment), &[], Extensions::default(), None)
+}
+
+#[test]
+fn a_body_is_put_back_without_full_turns_and_within_the_limits_of_its_joint() {
+    let mut session = session_of_motors();
+    session.start().unwrap();
+    let pose = |session: &mut Session| {
+        call(session, "sim.getObjectPose", "/arm", &[Value::Int(-1)]).unwrap()[0].as_reals().unwrap()
+    };
+    let set = |session: &mut Session, pose: Vec<f64>| {
+        call(session, "sim.setObjectPose", "/arm", &[Value::reals(pose), Value::Int(-1)]).unwrap()
+    };
+    let begin = pose(&mut session);
+    // beyond half a turn: what stands there stays
+    call(&mut session, "sim.setJointPosition", "/hinge", &[Value::Real(3.5)]).unwrap();
+    let there = pose(&mut session);
+    set(&mut session, there);
+    assert!((position(&mut session, "/hinge") - 3.5).abs() < 1e-9);
+    set(&mut session, begin);
+    assert!(position(&mut session, "/hinge").abs() < 1e-9, "{}", position(&mut session, "/hinge"));
+    (0..20).for_each(|_| session.step().unwrap());
+    assert!(position(&mut session, "/hinge").abs() < 1e-3);
+    let beyond = [Value::reals([0.2, 5.0, 0.0]), Value::Int(-1)];
+    let refused = call(&mut session, "sim.setObjectPosition", "/slide", &beyond).unwrap_err();
+    assert!(refused.contains("its joint would be at 0.2") && refused.contains("beyond its limits"), "{refused}");
+    let within = [Value::reals([0.09, 5.0, 0.0]), Value::Int(-1)];
+    call(&mut session, "sim.setObjectPosition", "/slide", &within).unwrap();
+    assert!((position(&mut session, "/rail") - 0.09).abs() < 1e-9);
+}

@@ -3,8 +3,11 @@
 //! Scripts of V-REP restore a robot by giving every object below its base the pose that it began with. A body that a
 //! revolute or prismatic joint carries goes there by its joint; where that cannot bring it, it is refused.
 
+use std::f64::consts::TAU;
+
 use sincro_dynamics::inverse_kinematics::rotation_between;
 use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::model::JointInfo;
 use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_math::elementary::atan2;
 
@@ -16,6 +19,8 @@ const TOLERANCE: f64 = 1e-6;
 /// Distance `[m]` and angle `[rad]` between poses that are taken for the same: rounding of a way through other
 /// parametrizations.
 const SAME: f64 = 1e-9;
+/// Excess over a limit `[rad]` or `[m]` that is put down to the drift of its constraint.
+const LIMIT_SLACK: f64 = 1e-4;
 
 impl SimApi<'_> {
     /// Returns true if an object stands at a pose in the world already, but for rounding.
@@ -26,12 +31,13 @@ impl SimApi<'_> {
     }
 
     /// Brings a body to a pose in the world by the revolute or prismatic joint that carries it; the joint is at rest
-    /// then. A pose whose position or orientation is the present one asks for the other alone. Returns false if no such
-    /// joint carries the body.
+    /// then. A pose whose position or orientation is the present one asks for the other alone. Of the angles of a
+    /// revolute joint that differ by full turns it takes the one within its limits that is nearest to the initial angle
+    /// of the scene. Returns false if no such joint carries the body.
     ///
     /// # Errors
     ///
-    /// The joint cannot bring it there.
+    /// The joint cannot bring it there, or not within its limits.
     pub(super) fn bring_by_joint(&mut self, entry: &Entry, x_wo: &Pose<f64>) -> Result<bool, ApiError> {
         let one_axis = |kind: &JointKind| matches!(kind, JointKind::Revolute { .. } | JointKind::Prismatic { .. });
         let joints = &self.world.model().names().joints;
@@ -50,12 +56,40 @@ impl SimApi<'_> {
             let help = "the joint that carries it cannot bring it there: set the positions of the joints";
             ApiError(format!("`{}` cannot be put anywhere: {help}", entry.path))
         })?;
+        let position = self.position_after(&carrier, change).ok_or_else(|| {
+            let beyond = self.world.state.q[carrier.q_idx] + change;
+            ApiError(format!("`{}` cannot be put there: its joint would be at {beyond}, beyond its limits", entry.path))
+        })?;
         self.count_as_work(|sim| {
-            sim.world.state.q[carrier.q_idx] += change;
+            sim.world.state.q[carrier.q_idx] = position;
             sim.world.state.v[carrier.v_idx] = 0.0;
         });
         Ok(true)
     }
+
+    /// Position of a revolute or prismatic joint after a change: within its limits and, of a revolute one, nearest to
+    /// the initial one of the scene. None if it would be beyond its limits.
+    fn position_after(&self, joint: &JointInfo, change: f64) -> Option<f64> {
+        let q = self.world.state.q[joint.q_idx];
+        if change.abs() <= SAME {
+            // it stays, however many turns it has made
+            return Some(q);
+        }
+        let limits = &self.world.model().constraints().limits;
+        let bound = |sign: f64| limits.iter().find(|l| l.dof == joint.v_idx && l.sign == sign).map(|l| l.bound);
+        let range = [bound(1.0).unwrap_or(f64::NEG_INFINITY), bound(-1.0).unwrap_or(f64::INFINITY)];
+        let period = if matches!(joint.kind, JointKind::Revolute { .. }) { TAU } else { 0.0 };
+        nearest_within(q + change, period, self.registry.scene().initial.q[joint.q_idx], range)
+    }
+}
+
+/// Value `position + k · period` within a range that is nearest to `start`; none if no such value is within it. A
+/// period of 0 leaves `position` alone.
+fn nearest_within(position: f64, period: f64, start: f64, [lower, upper]: [f64; 2]) -> Option<f64> {
+    let is_within = |x: &f64| *x >= lower - LIMIT_SLACK && *x <= upper + LIMIT_SLACK;
+    let n_periods = if period > 0.0 { ((start - position) / period).round() } else { 0.0 };
+    let candidates = [0.0, -1.0, 1.0].map(|k| position + (n_periods + k) * period);
+    candidates.into_iter().filter(is_within).min_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs()))
 }
 
 /// Angle `[rad]` about an axis through a point that turns one pose into the other; none if no angle does.
