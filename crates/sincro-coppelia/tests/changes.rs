@@ -517,3 +517,50 @@ fn a_body_is_put_back_without_full_turns_and_within_the_limits_of_its_joint() {
     call(&mut session, "sim.setObjectPosition", "/slide", &within).unwrap();
     assert!((position(&mut session, "/rail") - 0.09).abs() < 1e-9);
 }
+
+#[test]
+fn the_motor_of_a_kinematic_joint_is_set_for_when_it_is_dynamic() {
+    let mut session = session_of_motors();
+    let int = |id: i64, value: i64| [Value::Int(id), Value::Int(value)];
+    let mode = |session: &mut Session, mode: i64, options: i64| {
+        call(session, "sim.setJointMode", "/hinge", &[Value::Int(mode), Value::Int(options)]).unwrap()
+    };
+    let limit = |session: &mut Session| call(session, "sim.getJointTargetForce", "/hinge", &[]).unwrap();
+    mode(&mut session, 0, 0);
+    assert_eq!(limit(&mut session), [Value::Real(50.0)]);
+    session.start().unwrap();
+    call(&mut session, "sim.setJointPosition", "/hinge", &[Value::Real(0.5)]).unwrap();
+    let stays = |session: &mut OpenSession| {
+        (0..5).for_each(|_| session.step().unwrap());
+        assert_eq!(position(session, "/hinge"), 0.5);
+    };
+    for (id, value) in [(2000, 0), (2000, 1), (2001, 1)] {
+        call(&mut session, "sim.setObjectInt32Param", "/hinge", &int(id, value)).unwrap();
+        assert_eq!(
+            call(&mut session, "sim.getObjectInt32Param", "/hinge", &[Value::Int(id)]),
+            Ok(vec![Value::Int(value)])
+        );
+        stays(&mut session);
+    }
+    let limits = Value::reals([10.0, 100.0]);
+    call(&mut session, "sim.setJointTargetVelocity", "/hinge", &[Value::Real(2.0), limits]).unwrap();
+    stays(&mut session);
+    // less than the 4.9 N·m of its weight
+    call(&mut session, "sim.setJointTargetForce", "/hinge", &[Value::Real(3.0)]).unwrap();
+    stays(&mut session);
+    assert_eq!(call(&mut session, "sim.getJointMode", "/hinge", &[]), Ok(vec![Value::Int(0), Value::Int(0)]));
+    let hinge = session.sim().registry.find("/hinge", Search::default()).unwrap();
+    let copied = session.call("sim.copyPasteObjects", &[Value::List(vec![hinge.into()]), Value::Int(1)]).unwrap();
+    assert_eq!(copied.len(), 1);
+    stays(&mut session);
+    assert_eq!(call(&mut session, "sim.getJointMode", "/hinge0", &[]), Ok(vec![Value::Int(0), Value::Int(0)]));
+    assert_eq!(position(&mut session, "/hinge0"), 0.5);
+    // hybrid, its own motor holds it as far as it can
+    mode(&mut session, 0, 1);
+    assert_eq!(limit(&mut session), [Value::Real(3.0)]);
+    (0..5).for_each(|_| session.step().unwrap());
+    assert!(position(&mut session, "/hinge") > 0.5 + 1e-3, "it sinks: {}", position(&mut session, "/hinge"));
+    mode(&mut session, 5, 0);
+    assert_eq!(limit(&mut session), [Value::Real(3.0)]);
+    assert_eq!(position(&mut session, "/hinge0"), 0.5);
+}

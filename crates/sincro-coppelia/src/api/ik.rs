@@ -426,7 +426,7 @@ impl SimApi<'_> {
     /// A motor in position or spring mode gets it as its target while a run is on; any other joint is put there.
     pub(super) fn apply(&mut self, joint: Handle, q: f64) -> Result<(), ApiError> {
         use sincro_dynamics::actuation::MotorMode::{Position, Spring};
-        let has_target = matches!(self.joint_mode(joint)?, Position | Spring);
+        let has_target = matches!(self.driving_mode(joint)?, Position | Spring);
         if self.registry.phase != Phase::Stopped && has_target {
             return self.set_target_position(joint, q);
         }

@@ -6,10 +6,14 @@
 //! | kinematic (0), inverse kinematics (2), dependent (4) | where it is put, at once; the dynamics hold it there |
 //! | the same, hybrid | to where it would be put, by its motor in position control |
 //!
-//! A joint that is held is one with an ideal velocity motor at rest; its own motor is kept for the dynamic mode.
+//! A joint that is held is one with an ideal velocity motor at rest; its own motor is kept for the dynamic mode. What
+//! is asked and told of a motor (mode, gains, limits) is of the one that is kept.
+
+use std::collections::BTreeMap;
 
 use sincro_dynamics::actuation::{Motor, MotorMode};
 
+use super::joints::{POSITION_GAIN, check_motor};
 use super::registry::Handle;
 use super::{ApiError, SimApi};
 
@@ -59,7 +63,7 @@ impl SimApi<'_> {
             let Some(mode) = self.registry.joint_modes.remove(&handle) else {
                 return self.joint_mode(handle).map(|_| ());
             };
-            self.change_motor(handle, |motor| *motor = mode.motor)?;
+            self.change_driving_motor(handle, |motor| *motor = mode.motor)?;
             return self.command(handle);
         }
         if number == DEPENDENT && self.joint_dependency(handle)?.is_some() {
@@ -74,14 +78,59 @@ impl SimApi<'_> {
             None => self.joint_motor(handle)?.unwrap_or(Motor::new(MotorMode::Free)),
         };
         self.registry.joint_modes.insert(handle, StaticMode { number, is_hybrid, motor });
+        self.drive_by_mode(handle)?;
         if is_hybrid {
             let here = self.joint_position(handle)?;
-            self.set_joint_mode(handle, MotorMode::Position)?;
             return self.set_target_position(handle, here);
         }
-        let held = Motor { max_torque: f64::INFINITY, ..Motor::new(MotorMode::Velocity) };
-        self.change_motor(handle, |motor| *motor = held)?;
         self.command(handle)
+    }
+
+    /// Gives the world the motor that drives a joint in its mode, if that is not dynamic: the joint's own one in
+    /// position control if it is hybrid, else an ideal one at rest.
+    fn drive_by_mode(&mut self, handle: Handle) -> Result<(), ApiError> {
+        let Some(mode) = self.registry.joint_modes.get(&handle).copied() else { return Ok(()) };
+        let motor = if mode.is_hybrid {
+            let kp = if mode.motor.kp == 0.0 { POSITION_GAIN } else { mode.motor.kp };
+            Motor { mode: MotorMode::Position, kp, ..mode.motor }
+        } else {
+            Motor { max_torque: f64::INFINITY, ..Motor::new(MotorMode::Velocity) }
+        };
+        self.change_driving_motor(handle, |driving| *driving = motor)
+    }
+
+    /// Motor of a joint for the dynamic mode, if that is not the mode of the joint.
+    pub(super) fn kept_motor(&self, handle: Handle) -> Option<Motor<f64>> {
+        self.registry.joint_modes.get(&handle).map(|mode| mode.motor)
+    }
+
+    /// Changes the motor of a joint that is kept for the dynamic mode; the motor of a hybrid joint follows.
+    ///
+    /// # Errors
+    ///
+    /// A number of the motor is negative or not a number.
+    pub(super) fn change_kept_motor(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut Motor<f64>),
+    ) -> Result<(), ApiError> {
+        let Some(mode) = self.registry.joint_modes.get_mut(&handle) else { return Ok(()) };
+        let mut motor = mode.motor;
+        change(&mut motor);
+        check_motor(&motor)?;
+        mode.motor = motor;
+        if mode.is_hybrid { self.drive_by_mode(handle) } else { Ok(()) }
+    }
+
+    /// Gives copies of joints the modes of their originals.
+    pub(super) fn copy_joint_modes(&mut self, copies: &BTreeMap<Handle, Handle>) -> Result<(), ApiError> {
+        for (original, copy) in copies {
+            let Some(mode) = self.registry.joint_modes.get(original).copied() else { continue };
+            self.registry.joint_modes.insert(*copy, mode);
+            self.drive_by_mode(*copy)?;
+            self.command(*copy)?;
+        }
+        Ok(())
     }
 
     /// Returns true if a joint is held where it was put.

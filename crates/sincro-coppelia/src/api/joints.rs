@@ -12,7 +12,7 @@ use super::{ApiError, SimApi};
 
 /// Velocity a unit of error of a motor that becomes a position motor and has no gain: that of V-REP's default P = 0.1
 /// in steps of 5 ms [1/s].
-const POSITION_GAIN: f64 = 20.0;
+pub(super) const POSITION_GAIN: f64 = 20.0;
 
 impl SimApi<'_> {
     /// Position of a joint with one coordinate: `[rad]`, `[m]` if it is prismatic. That of a revolute joint without
@@ -80,13 +80,23 @@ impl SimApi<'_> {
         Ok(before.map(|before| (before - self.world.state.totals[2 + motor]) / self.registry.sample_time()))
     }
 
-    /// Present parameters of the motor of a joint, in SI units; none without motor.
+    /// Present parameters of the motor of a joint, in SI units; none without motor. Of a joint whose mode is not
+    /// dynamic they are those that it will have in the dynamic mode.
     ///
     /// # Errors
     ///
     /// There is no such joint.
     pub(crate) fn joint_motor(&self, handle: Handle) -> Result<Option<Motor<f64>>, ApiError> {
-        Ok(self.registry.joint(handle)?.drive)
+        Ok(self.kept_motor(handle).or(self.registry.joint(handle)?.drive))
+    }
+
+    /// Mode of the motor that drives a joint at present: also of a joint whose mode is not dynamic.
+    ///
+    /// # Errors
+    ///
+    /// There is no such joint.
+    pub(super) fn driving_mode(&self, handle: Handle) -> Result<MotorMode, ApiError> {
+        Ok(self.registry.joint(handle)?.drive.map_or(MotorMode::Free, |motor| motor.mode))
     }
 
     /// Mode of the motor of a joint: [`MotorMode::Free`] without motor, [`MotorMode::Velocity`] for a rotor.
@@ -123,7 +133,8 @@ impl SimApi<'_> {
         self.command(handle)
     }
 
-    /// Changes the numbers of a motor: limit, gains. Its targets are kept.
+    /// Changes the numbers of a motor: limit, gains. Its targets are kept. In another mode than the dynamic one they
+    /// act when the joint is dynamic again, in a hybrid one at once, too.
     ///
     /// # Errors
     ///
@@ -133,12 +144,26 @@ impl SimApi<'_> {
         handle: Handle,
         change: impl FnOnce(&mut Motor<f64>),
     ) -> Result<(), ApiError> {
+        match self.kept_motor(handle) {
+            Some(_) => self.change_kept_motor(handle, change),
+            None => self.change_driving_motor(handle, change),
+        }
+    }
+
+    /// Changes the motor that drives a joint at present.
+    ///
+    /// # Errors
+    ///
+    /// As of [`SimApi::change_motor`].
+    pub(super) fn change_driving_motor(
+        &mut self,
+        handle: Handle,
+        change: impl FnOnce(&mut Motor<f64>),
+    ) -> Result<(), ApiError> {
         let joint = self.registry.joint_mut(handle)?;
         let (Some(index), Some(mut motor)) = (joint.motor, joint.drive) else { return Err(self.without_motor(handle)) };
         change(&mut motor);
-        if let Some((name, x)) = motor.numbers().into_iter().find(|(_, x)| x.is_nan() || *x < 0.0) {
-            return Err(ApiError(format!("{name} would be {x}, expected a number that is not negative")));
-        }
+        check_motor(&motor)?;
         self.registry.joint_mut(handle)?.drive = Some(motor);
         self.world.set_motor(sincro_dynamics::ids::MotorId::new(index), motor);
         self.moved();
@@ -207,7 +232,7 @@ impl SimApi<'_> {
     /// `handle` is no object, or no joint with one coordinate.
     pub fn target_force(&self, handle: Handle) -> Result<f64, ApiError> {
         let joint = self.registry.joint(handle)?;
-        Ok(match joint.drive {
+        Ok(match self.joint_motor(handle)? {
             None => 0.0,
             Some(motor) if motor.mode == MotorMode::Torque => {
                 joint.target_force.unwrap_or_else(|| self.commanded(joint, MotorMode::Torque))
@@ -228,11 +253,11 @@ impl SimApi<'_> {
         if self.parked_mode(handle).is_some() {
             return self.set_parked_effort(handle, force.abs());
         }
-        let joint = self.joint_with_motor(handle)?;
-        let is_torque = joint.drive.is_some_and(|m| m.mode == MotorMode::Torque);
+        let is_torque = self.joint_motor(handle)?.is_some_and(|m| m.mode == MotorMode::Torque);
         if !is_torque {
             return self.change_motor(handle, |motor| motor.max_torque = force.abs());
         }
+        let joint = self.joint_with_motor(handle)?;
         let direction = joint.target_velocity.unwrap_or(0.0);
         let along = if direction < 0.0 { -force.abs() } else { force.abs() };
         joint.target_force = Some(if signed { force } else { along });
@@ -320,6 +345,18 @@ impl SimApi<'_> {
     fn without_motor(&self, handle: Handle) -> ApiError {
         let path = self.registry.entry(handle).map_or("", |e| e.path.as_str());
         ApiError(format!("joint `{path}` has no motor; give it one in the scene: motor = {{ mode = \"velocity\" }}"))
+    }
+}
+
+/// Checks the numbers of a motor.
+///
+/// # Errors
+///
+/// One is negative or not a number.
+pub(super) fn check_motor(motor: &Motor<f64>) -> Result<(), ApiError> {
+    match motor.numbers().into_iter().find(|(_, x)| x.is_nan() || *x < 0.0) {
+        Some((name, x)) => Err(ApiError(format!("{name} would be {x}, expected a number that is not negative"))),
+        None => Ok(()),
     }
 }
 

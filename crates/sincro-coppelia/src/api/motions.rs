@@ -147,7 +147,7 @@ impl SimApi<'_> {
         let profile = planned(axis)?;
         // forgets where the target was on its way to
         self.set_target_position(handle, position)?;
-        let is_followed = matches!(self.joint_mode(handle)?, MotorMode::Position | MotorMode::Spring);
+        let is_followed = matches!(self.driving_mode(handle)?, MotorMode::Position | MotorMode::Spring);
         self.start_joint_motion(
             handle,
             motor.filter(|_| is_followed),
@@ -169,7 +169,8 @@ impl SimApi<'_> {
         let start = self.registry.joint_motions.get(&handle).filter(|c| c.is_velocity).map_or(here, JointMotion::now);
         let profile = planned(Axis { start, limits: Limits::symmetric(1.0, a, j), goal: Goal::Velocity(velocity) })?;
         self.set_target_velocity(handle, velocity)?;
-        let is_followed = self.joint_mode(handle)? == MotorMode::Velocity;
+        // a joint that is held has a motor at rest
+        let is_followed = self.driving_mode(handle)? == MotorMode::Velocity && !self.is_held(handle);
         self.start_joint_motion(
             handle,
             motor.filter(|_| is_followed),

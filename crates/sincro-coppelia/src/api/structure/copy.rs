@@ -54,6 +54,7 @@ impl SimApi<'_> {
         for (original, path) in &copied {
             copies.insert(*original, self.handle_at(path)?);
         }
+        self.copy_joint_modes(&copies)?;
         // runtime objects go with what they hang on
         let mut runtime: Vec<Handle> = chosen.iter().copied().filter(|h| !copies.contains_key(h)).collect();
         runtime.retain(|h| self.registry.entry(*h).is_ok_and(|entry| entry.is_runtime));
