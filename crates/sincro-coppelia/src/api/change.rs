@@ -92,9 +92,8 @@ impl SimApi<'_> {
     /// has such an inertia (a negative principal moment, or one larger than the sum of the others).
     pub fn set_mass(&mut self, handle: Handle, mass: MassProperties) -> Result<(), ApiError> {
         self.mass(handle)?;
-        let entry = self.registry.entry(handle)?;
-        let path = entry.path.clone();
-        if entry.frame.link.is_none() {
+        let path = self.registry.entry(handle)?.path.clone();
+        if self.is_fixed(handle)? {
             return Err(ApiError(format!("`{path}` is fixed in the world: it has no mass")));
         }
         check_mass(&path, &mass)?;

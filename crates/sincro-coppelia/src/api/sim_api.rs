@@ -175,12 +175,13 @@ impl<'a> SimApi<'a> {
         // what is fixed in the world, and what carries others, is put elsewhere with all that it carries
         let is_base = matches!(entry.kind, Kind::Frame | Kind::Joint(_) | Kind::Sensor | Kind::ForceSensor(_));
         let is_body = matches!(entry.kind, Kind::Body(_));
-        let is_fixed = is_body && entry.frame.link.is_none();
+        let is_fixed = is_body && self.is_fixed(handle)?;
         if (is_fixed || is_base && !self.is_free_joint(handle)) && self.is_of_model(handle) {
+            self.put_belt_back(handle)?;
             if self.stands_at(handle, &x_wo)? {
                 return Ok(());
             }
-            return self.place_in_model(handle, &x_wo);
+            return self.place_fixed(handle, &x_wo);
         }
         if is_body && self.is_joined(handle) {
             return self.place_joined(handle, &x_wo);

@@ -145,7 +145,7 @@ fn compute(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn is_dynamic(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = body(sim, a)?;
-    one(sim.is_running() && sim.registry.entry(own)?.frame.link.is_some())
+    one(sim.is_running() && !sim.is_fixed(own)?)
 }
 
 /// The initial velocity that was set for a body takes effect.

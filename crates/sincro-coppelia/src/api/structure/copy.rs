@@ -55,6 +55,7 @@ impl SimApi<'_> {
             copies.insert(*original, self.handle_at(path)?);
         }
         self.copy_joint_modes(&copies)?;
+        self.copy_belts(&copies)?;
         // runtime objects go with what they hang on
         let mut runtime: Vec<Handle> = chosen.iter().copied().filter(|h| !copies.contains_key(h)).collect();
         runtime.retain(|h| self.registry.entry(*h).is_ok_and(|entry| entry.is_runtime));
@@ -115,7 +116,7 @@ impl SimApi<'_> {
         for handle in below.iter().filter(|h| **h != root && self.is_of_model(**h)) {
             paths.push(self.model_path(*handle)?);
         }
-        let moves = matches!(entry.kind, Kind::Body(_)) && entry.frame.link.is_some();
+        let moves = matches!(entry.kind, Kind::Body(_)) && !self.is_fixed(root)?;
         let carrier = self.free_carrier(root).filter(|joint| moves && self.is_free_joint(*joint));
         let own_path = paths[0].clone();
         let pairs = if let Some(joint) = carrier {
@@ -143,7 +144,8 @@ impl SimApi<'_> {
             let joint = edit.draft.add("joint", free_joint(&format!("{name}_free"), "/", &pose));
             edit.draft.copy_some(&paths, &own_path, &name, &joint, &Pose::identity())
         } else {
-            let pose = self.own_pose(root)?;
+            // of a belt where it is put back to
+            let pose = self.own_pose(self.belt_joint(root).unwrap_or(root))?;
             edit.draft.copy_some(&paths, &own_path, &name, "/", &pose)
         };
         for (old, new) in pairs {

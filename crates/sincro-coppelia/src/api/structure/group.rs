@@ -51,7 +51,7 @@ impl SimApi<'_> {
         let idle = idle_joints(&edit.draft, &gone);
         gone.extend(idle);
         self.remove_and_rebuild(edit, gone, &heirs)?;
-        if self.registry.entry(first)?.frame.link.is_some() {
+        if !self.is_fixed(first)? {
             self.set_mass(first, mass)?;
         }
         Ok(first)
@@ -84,11 +84,15 @@ impl SimApi<'_> {
     fn check_at_rest(&mut self, first: Handle, other: Handle) -> Result<(), ApiError> {
         let [one, two] = [self.registry.entry(first)?.clone(), self.registry.entry(other)?.clone()];
         let refused = |what: &str| ApiError(format!("`{}` and `{}` {what}", one.path, two.path));
-        if one.frame.link.is_none() != two.frame.link.is_none() {
+        let are_fixed = [self.is_fixed(first)?, self.is_fixed(other)?];
+        if are_fixed[0] != are_fixed[1] {
             return Err(refused("cannot be one body: one of them is fixed in the world (parameter 3003)"));
         }
         if self.registry.visible_tree(other).contains(&first) {
             return Err(refused("cannot be one body: the first hangs on the other, give them in the other order"));
+        }
+        if are_fixed == [true; 2] {
+            return Ok(());
         }
         let (a, b) = (self.twist(&one.frame), self.twist(&two.frame));
         let apart = self.place(&two.frame).pos - self.place(&one.frame).pos;

@@ -3,7 +3,7 @@
 use sincro_dynamics::spatial::Pose;
 
 use super::remove::idle_joints;
-use super::{Rebuild, free_joint, table};
+use super::{Belt, Rebuild, free_joint, table};
 use crate::api::registry::{Handle, Kind};
 use crate::api::tree::is_force_sensor;
 use crate::api::{ApiError, Reference, SimApi};
@@ -29,12 +29,15 @@ impl SimApi<'_> {
         let mut edit = self.draft()?;
         self.join_parked(parent, &mut edit)?;
         let is_body = matches!(self.registry.entry(handle)?.kind, Kind::Body(_));
+        // belts and what hangs on them are placed where the belts are put back to
+        [Some(handle), parent].into_iter().flatten().try_for_each(|body| self.put_belt_back(body))?;
+        let belt = self.belt_joint(handle);
         let carrier = if is_body { self.free_carrier(handle) } else { None };
-        let unit = carrier.unwrap_or(handle);
+        let unit = belt.or(carrier).unwrap_or(handle);
         let place = self.hung_place(handle, parent, keeps_place)?;
         let is_free = self.is_free_joint(unit);
         let is_parked = self.was_joint(unit);
-        let moves = self.registry.entry(handle)?.frame.link.is_some();
+        let moves = !self.is_fixed(handle)?;
         match parent {
             None if is_free || is_parked => {
                 self.free(unit, handle, &place, &mut edit)?;
@@ -49,8 +52,8 @@ impl SimApi<'_> {
                 self.park(unit, handle, (parent, &place), &mut edit)?;
             }
             _ => {
-                // a body that is joined goes with the frame that lets it be parted
-                let moved = if is_parked { unit } else { handle };
+                // a body that is joined goes with the frame that lets it be parted, a belt with its joint
+                let moved = if is_parked || belt.is_some() { unit } else { handle };
                 let own = self.own_pose(moved)?;
                 let shown = self.pose(handle, Reference::World)?;
                 // of a joint the model's axes are others than those that the API shows
@@ -164,9 +167,14 @@ impl SimApi<'_> {
         let Kind::Body(mass) = entry.kind else {
             return Err(ApiError(format!("`{}` is no body", entry.path)));
         };
-        if entry.frame.link.is_none() == is_static {
+        if self.is_fixed(handle)? == is_static {
             return Ok(());
         }
+        let was_massless = self.registry.belts.get(&handle).is_some_and(Belt::was_massless);
+        if !is_static && (mass.mass <= 0.0 || was_massless) {
+            return Err(ApiError(format!("`{}` has no mass: give it one in the scene", entry.path)));
+        }
+        self.take_off_belt(handle)?;
         let place = self.pose(handle, Reference::World)?;
         let mut edit = self.draft()?;
         let carrier = self.free_carrier(handle);
@@ -178,9 +186,6 @@ impl SimApi<'_> {
             let joint = carrier.filter(|joint| self.is_free_joint(*joint)).ok_or_else(belongs)?;
             self.park(joint, handle, (None, &place), &mut edit)?;
             return self.rebuild(edit);
-        }
-        if mass.mass <= 0.0 {
-            return Err(ApiError(format!("`{}` has no mass: give it one in the scene", entry.path)));
         }
         if let Some(joint) = carrier.filter(|joint| self.was_joint(*joint)) {
             self.free(joint, handle, &place, &mut edit)?;
