@@ -275,3 +275,51 @@ fn dummies_that_are_linked_join_the_bodies_that_carry_them() {
     steps(&mut session, 20);
     assert!(position(&mut session, body)[2] < 0.46, "it falls");
 }
+
+/// The box above the floor, linked with the slab by a dummy on each; returns the dummies, that of the slab first.
+fn linked(session: &mut OpenSession) -> [i64; 2] {
+    let carriers = ["/slab", "/box"].map(|path| handle(session, path));
+    session.start().unwrap();
+    put(session, carriers[1], [0.0, 0.0, 0.5]);
+    let dummies = carriers.map(|carrier| {
+        let dummy = call(session, "sim.createDummy", &[0.01.into()])[0].as_int().unwrap();
+        put(session, dummy, [0.0, 0.0, 0.4]);
+        hang(session, dummy, carrier);
+        dummy
+    });
+    call(session, "sim.setLinkDummy", &[dummies[1].into(), dummies[0].into()]);
+    dummies
+}
+
+fn link_of(session: &mut Session, dummy: i64) -> i64 {
+    call(session, "sim.getLinkDummy", &[dummy.into()])[0].as_int().unwrap()
+}
+
+#[test]
+fn a_link_ends_with_its_dummies_and_the_bodies_that_it_joins() {
+    for (name, removed) in
+        [("sim.removeObject", None), ("sim.removeObject", Some("/slab")), ("sim.removeModel", Some("/slab"))]
+    {
+        let mut session = open();
+        let [dummy, other] = linked(&mut session);
+        let body = handle(&mut session, "/box");
+        let removed = removed.map_or(dummy, |path| handle(&mut session, path));
+        call(&mut session, name, &[removed.into()]);
+        assert_eq!(link_of(&mut session, other), -1);
+        assert_eq!(parent(&mut session, body), -1);
+        steps(&mut session, 20);
+        assert!(position(&mut session, body)[2] < 0.46, "it falls");
+    }
+}
+
+#[test]
+fn a_joined_body_that_is_hung_elsewhere_is_linked_no_more() {
+    let mut session = open();
+    let dummies = linked(&mut session);
+    let [body, slab, block] = ["/box", "/slab", "/block"].map(|path| handle(&mut session, path));
+    assert_eq!(parent(&mut session, body), slab);
+    hang(&mut session, body, block);
+    assert_eq!(dummies.map(|dummy| link_of(&mut session, dummy)), [-1, -1]);
+    call(&mut session, "sim.setLinkDummy", &[dummies[0].into(), (-1_i64).into()]);
+    assert_eq!(parent(&mut session, body), block);
+}

@@ -70,6 +70,8 @@ impl ObjectRegistry {
         self.senses.forget(handle);
         self.drawings.forget(handle);
         self.parked.remove(&handle);
+        self.forget_links(handle);
+        self.looks.retain(|(owner, _), _| *owner != handle);
         self.flags.forget(handle);
         self.forget_entity(Entity::Object(handle));
         Ok(())

@@ -185,6 +185,8 @@ impl ObjectRegistry {
         self.respondable_masks.remove(&handle);
         self.joint_modes.remove(&handle);
         self.belts.remove(&handle);
+        self.forget_links(handle);
+        self.looks.retain(|(owner, _), _| *owner != handle);
         self.solids.remove(&handle);
         self.recorded_frames.remove(&handle);
         self.moved_frames.remove(&handle);

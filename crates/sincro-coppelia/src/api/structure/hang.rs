@@ -64,7 +64,10 @@ impl SimApi<'_> {
             }
         }
         self.part_idle(&mut edit)?;
-        self.rebuild(edit)
+        self.rebuild(edit)?;
+        // whoever hangs a body elsewhere takes it off the one that a link has joined it to
+        self.registry.dummy_links.retain(|_, link| !link.has_joined(handle));
+        Ok(())
     }
 
     /// Place in the world of an object that is hung elsewhere.

@@ -4,7 +4,9 @@
 //! bodies, which has to be free, is hung on the other, as in a perfectly inelastic impact, and parted when the link
 //! ends.
 
-use crate::api::registry::{Handle, Kind};
+use std::collections::BTreeSet;
+
+use crate::api::registry::{Handle, Kind, ObjectRegistry};
 use crate::api::{ApiError, SimApi};
 
 /// Link of a dummy with another one.
@@ -13,6 +15,27 @@ pub(in crate::api) struct Link {
     other: Handle,
     /// Body that was hung on another one for the link.
     joined: Handle,
+    /// Body that it was hung on.
+    carrier: Handle,
+}
+
+impl Link {
+    /// Returns true if the link has joined a body to another one.
+    pub(super) fn has_joined(&self, body: Handle) -> bool {
+        self.joined == body
+    }
+
+    /// Returns true if an object is a dummy or a body of the link, `dummy` being the one that has it.
+    fn concerns(&self, dummy: Handle, object: Handle) -> bool {
+        [dummy, self.other, self.joined, self.carrier].contains(&object)
+    }
+}
+
+impl ObjectRegistry {
+    /// Forgets the links of an object that has gone.
+    pub(in crate::api) fn forget_links(&mut self, object: Handle) {
+        self.dummy_links.retain(|dummy, link| !link.concerns(*dummy, object));
+    }
 }
 
 impl SimApi<'_> {
@@ -46,16 +69,33 @@ impl SimApi<'_> {
         };
         let carrier = carrier.ok_or_else(|| ApiError::new("a dummy that no body carries is linked with none"))?;
         self.set_parent(joined, Some(carrier), true)?;
-        self.registry.dummy_links.insert(dummy, Link { other, joined });
-        self.registry.dummy_links.insert(other, Link { other: dummy, joined });
+        self.registry.dummy_links.insert(dummy, Link { other, joined, carrier });
+        self.registry.dummy_links.insert(other, Link { other: dummy, joined, carrier });
         Ok(())
     }
 
-    /// Ends the link of a dummy.
+    /// Ends the links of objects: of dummies, and those that join one of the bodies. Returns true if there were any.
+    ///
+    /// # Errors
+    ///
+    /// The bodies cannot be parted.
+    pub(super) fn unlink_all(&mut self, objects: &BTreeSet<Handle>) -> Result<bool, ApiError> {
+        let links = self.registry.dummy_links.iter();
+        let concerned = links.filter(|(dummy, link)| objects.iter().any(|object| link.concerns(**dummy, *object)));
+        let dummies: Vec<Handle> = concerned.map(|(dummy, _)| *dummy).collect();
+        dummies.iter().try_for_each(|dummy| self.unlink(*dummy))?;
+        Ok(!dummies.is_empty())
+    }
+
+    /// Ends the link of a dummy, and parts the bodies if they still hang on each other for it.
     fn unlink(&mut self, dummy: Handle) -> Result<(), ApiError> {
-        let Some(link) = self.registry.dummy_links.remove(&dummy) else { return Ok(()) };
+        let Some(link) = self.registry.dummy_links.get(&dummy).copied() else { return Ok(()) };
+        if self.registry.visible_parent(link.joined) == Some(link.carrier) {
+            self.set_parent(link.joined, None, true)?;
+        }
+        self.registry.dummy_links.remove(&dummy);
         self.registry.dummy_links.remove(&link.other);
-        if self.registry.entry(link.joined).is_ok() { self.set_parent(link.joined, None, true) } else { Ok(()) }
+        Ok(())
     }
 
     /// Nearest body above an object.

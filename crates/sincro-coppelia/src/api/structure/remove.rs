@@ -14,20 +14,17 @@ const ACTING: [&str; 3] = ["force", "rotor", "drag"];
 impl SimApi<'_> {
     /// Removes objects, with `whole` each with all below it; else their children pass to what carries them. Joints that
     /// carried only what is removed go, too: those that let it move freely for good, the others until something that
-    /// moves is hung on them. Scripts of what is removed end before the next phase.
+    /// moves is hung on them. Links of dummies end with the dummies and the bodies that they join. Scripts of what is
+    /// removed end before the next phase.
     ///
     /// # Errors
     ///
     /// A handle is no object.
     pub fn remove_objects(&mut self, handles: &[Handle], whole: bool) -> Result<(), ApiError> {
-        let mut chosen: BTreeSet<Handle> = BTreeSet::new();
-        for handle in handles {
-            self.registry.entry(*handle)?;
-            chosen.insert(*handle);
-            if whole {
-                chosen.extend(self.registry.tree(*handle));
-                chosen.extend(self.registry.visible_tree(*handle));
-            }
+        let mut chosen = self.with_trees(handles, whole)?;
+        if self.unlink_all(&chosen)? {
+            // a body that a link has joined to one of them is not below it any more
+            chosen = self.with_trees(handles, whole)?;
         }
         // a frame that was the free joint of a body goes with it
         let carriers: Vec<Handle> = chosen.iter().filter_map(|handle| self.free_carrier(*handle)).collect();
@@ -49,6 +46,20 @@ impl SimApi<'_> {
         gone.extend(idle);
         self.remove_and_rebuild(edit, gone, &BTreeMap::new())?;
         runtime.into_iter().try_for_each(|handle| self.remove(handle))
+    }
+
+    /// Objects, with `whole` each with all below it.
+    fn with_trees(&self, handles: &[Handle], whole: bool) -> Result<BTreeSet<Handle>, ApiError> {
+        let mut chosen = BTreeSet::new();
+        for handle in handles {
+            self.registry.entry(*handle)?;
+            chosen.insert(*handle);
+            if whole {
+                chosen.extend(self.registry.tree(*handle));
+                chosen.extend(self.registry.visible_tree(*handle));
+            }
+        }
+        Ok(chosen)
     }
 
     /// Makes an edit without the objects `gone`. Their children pass to what carries those, where they are, or to the
