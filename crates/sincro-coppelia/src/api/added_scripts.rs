@@ -132,9 +132,10 @@ impl SimApi<'_> {
         Ok(FIRST + self.registry.added_scripts.len() as i64 - 1)
     }
 
+    /// The parser of texts, if the caller may add, change and remove scripts.
     fn parser(&self) -> Result<&'static dyn ScriptParser, ApiError> {
         if self.own.is_none() && !self.registry.takes_script_texts {
-            let refused = "clients give no scripts their texts here: `sincro serve --grant scripts` lets them";
+            let refused = "clients change no scripts here: `sincro serve --grant scripts` lets them";
             return Err(ApiError::new(refused));
         }
         self.registry.script_parser.ok_or_else(|| ApiError::new("no scripts can be run here"))
@@ -187,6 +188,7 @@ impl SimApi<'_> {
     ///
     /// There is no such script or object, or the object has a script of that kind.
     pub(crate) fn associate_script(&mut self, number: i64, object: Option<Handle>) -> Result<(), ApiError> {
+        self.parser()?;
         let k = self.script_entry(number)?;
         let added = self.registry.added_scripts[k].clone();
         if let Some(handle) = object.filter(|_| added.object != object) {
@@ -205,6 +207,7 @@ impl SimApi<'_> {
     ///
     /// There is no such script.
     pub(crate) fn init_script(&mut self, number: i64) -> Result<(), ApiError> {
+        self.parser()?;
         let k = self.script_entry(number)?;
         let added = self.registry.added_scripts[k].clone();
         self.change_script(k, added)
@@ -216,6 +219,7 @@ impl SimApi<'_> {
     ///
     /// There is no such script.
     pub(crate) fn remove_script(&mut self, number: i64) -> Result<(), ApiError> {
+        self.parser()?;
         let k = self.script_entry(number)?;
         let added = self.registry.added_scripts[k].clone();
         self.change_script(k, AddedScript { is_removed: true, ..added })

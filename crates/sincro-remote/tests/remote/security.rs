@@ -6,6 +6,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use sincro_coppelia::api::Value;
 use sincro_remote::limits::{Deadlines, PER_ADDRESS};
 use sincro_remote::{Options, Server};
 
@@ -13,6 +14,7 @@ use super::scene::{finished, options, serve, serve_with, session};
 use sincro_testing::clients::legacy::Client as Legacy;
 use sincro_testing::clients::ws::Client as Ws;
 use sincro_testing::clients::zmq::Client as Zmq;
+use sincro_testing::{SceneFolder, scenes, with_scripts};
 
 /// Deadlines that a test can wait for.
 const SHORT: Deadlines = Deadlines {
@@ -228,6 +230,37 @@ fn pings_put_off_no_deadline_of_a_message() {
         std::thread::sleep(Duration::from_millis(100));
     }
     assert!(begin.elapsed() > SHORT.read / 2, "it was open until then");
+}
+
+#[test]
+fn clients_change_no_scripts_without_the_grant() {
+    let script = "[[script]]\nobject = \"/joint1/link1\"\ncode = \"\"\"
+        function sysCall_init() sim.setInt32Signal('begun', (sim.getInt32Signal('begun') or 0) + 1) end
+        function sysCall_actuation() sim.setInt32Signal('steps', (sim.getInt32Signal('steps') or 0) + 1) end\"\"\"\n";
+    let scene = format!("{}\n{script}", scenes::TWO_LINK_ARM);
+    let folder = SceneFolder::of(&scene, scenes::TWO_LINK_ARM_EXPERIMENT);
+    let server = folder.session(with_scripts(), None).serve(&options());
+    let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("scripts"));
+    client.call("sim.setStepping", &[Value::Bool(true)]).unwrap();
+    client.call("sim.startSimulation", &[]).unwrap();
+    let (link, other) = (client.object("/link1"), client.object("/joint2"));
+    let (child, text) = (Value::Int(1), Value::from("function sysCall_init() end"));
+    let tries = [
+        ("sim.addScript", vec![child.clone()]),
+        ("sim.createScript", vec![child, text.clone()]),
+        ("sim.setScriptText", vec![link.clone(), text]),
+        ("sim.associateScriptWithObject", vec![link.clone(), other]),
+        ("sim.associateScriptWithObject", vec![link.clone(), Value::Int(-1)]),
+        ("sim.initScript", vec![link.clone()]),
+        ("sim.removeScript", vec![link]),
+    ];
+    for (name, arguments) in tries {
+        let refused = client.call(name, &arguments).expect_err(name);
+        assert!(refused.contains("--grant scripts"), "{name}: {refused}");
+        client.call("sim.step", &[]).unwrap();
+    }
+    let mut signal = |name: &str| client.call("sim.getInt32Signal", &[Value::from(name)]).unwrap().remove(0);
+    assert_eq!((signal("begun"), signal("steps")), (Value::Int(1), Value::Int(7)));
 }
 
 /// Waits for something that happens soon.
