@@ -36,8 +36,12 @@ pub(super) struct AddedScript {
     kind: Kind,
     is_threaded: bool,
     object: Option<Handle>,
+    /// Object that it is being taken off; none but during that change.
+    former_object: Option<Handle>,
     text: String,
-    /// True once it was taken away, or if it takes a script of the scene away.
+    /// Script of the scene that it takes the place of.
+    origin: Option<Arc<Script>>,
+    /// True once it was taken away: its handle is not given again.
     is_removed: bool,
 }
 
@@ -57,29 +61,40 @@ impl ObjectRegistry {
         std::mem::take(&mut self.script_restarts)
     }
 
-    /// Puts scripts that were added into a scene, in place of its own on the same objects.
+    /// Puts scripts that were added into a scene: first all of theirs are erased, where they are and where they were,
+    /// then those that have a text are put on their objects.
     pub(super) fn put_scripts(&self, scene: &mut Scene) {
-        for added in &self.added_scripts {
-            let Some(handle) = added.object.filter(|handle| self.entry(*handle).is_ok()) else { continue };
-            let is_same = |script: &Script| handle_of_id(script.object) == handle && script.kind == added.kind;
-            let former = scene.scripts.iter().position(is_same).map(|k| scene.scripts.remove(k));
-            if added.is_removed || added.text.is_empty() {
-                continue;
-            }
+        let is_known = |script: &Script| {
+            let object = Some(handle_of_id(script.object));
+            let is_its_own = |added: &AddedScript| {
+                added.kind == script.kind && (added.object == object || added.former_object == object)
+            };
+            self.added_scripts.iter().any(is_its_own)
+        };
+        scene.scripts.retain(|script| !is_known(script));
+        for added in self.added_scripts.iter().filter(|added| !added.text.is_empty()) {
+            let Some(handle) = added.object else { continue };
             let object = handle.0 as usize - 1;
             let of_scene = scene.objects.iter().find(|other| other.id == object).map(|other| other.path.clone());
-            let path = of_scene.or_else(|| self.entry(handle).ok().map(|entry| entry.path.clone()));
-            scene.scripts.push(script_of(added, (object, path.unwrap_or_default()), former));
+            let at_runtime = || Some(self.entry(handle).ok().filter(|entry| entry.is_runtime)?.path.clone());
+            if let Some(path) = of_scene.or_else(at_runtime) {
+                scene.scripts.push(script_of(added, (object, path)));
+            }
         }
     }
 }
 
-/// The script as a scene holds it; parameters, files and limits are those of one that it takes the place of.
-fn script_of(added: &AddedScript, (object, path): (usize, String), former: Option<Script>) -> Script {
+/// The script as a scene holds it. One that takes the place of a script of the scene is this script as long as the text
+/// is the same; with another text it keeps the parameters, files and limits.
+fn script_of(added: &AddedScript, (object, path): (usize, String)) -> Script {
+    let origin = added.origin.as_deref();
+    if let Some(same) = origin.filter(|origin| origin.text == added.text) {
+        return Script { object, path, ..same.clone() };
+    }
     let source = Arc::new(SourceText { path: PathBuf::from("added script"), text: added.text.clone() });
     let at = Location { source: source.clone(), span: 0..0 };
-    let (max_memory, max_instructions) = former.as_ref().map_or(LIMITS, |s| (s.max_memory, s.max_instructions));
-    let (parameters, files) = former.map_or_else(Default::default, |s| (s.parameters, s.files));
+    let (max_memory, max_instructions) = origin.map_or(LIMITS, |s| (s.max_memory, s.max_instructions));
+    let (parameters, files) = origin.map_or_else(Default::default, |s| (s.parameters.clone(), s.files.clone()));
     Script {
         object,
         path,
@@ -104,17 +119,35 @@ impl SimApi<'_> {
     ///
     /// There is no such type, no scripts can be run, or there are too many.
     pub(crate) fn add_script(&mut self, script_type: i64) -> Result<i64, ApiError> {
+        let script = self.new_script(script_type)?;
+        self.keep_script(script)
+    }
+
+    /// Makes a script with a text, without object. Returns its handle.
+    ///
+    /// # Errors
+    ///
+    /// There is no such type, the text cannot be parsed or is too long, no scripts can be run, or there are too many.
+    pub(crate) fn create_script(&mut self, script_type: i64, text: &str) -> Result<i64, ApiError> {
+        let script = self.new_script(script_type)?;
+        let script = self.with_text(&script, text)?;
+        self.keep_script(script)
+    }
+
+    fn new_script(&self, script_type: i64) -> Result<AddedScript, ApiError> {
         let kind = match script_type & !THREADED {
             CHILD => Kind::Child,
             CUSTOMIZATION => Kind::Customization,
             _ => return Err(ApiError(format!("{script_type} is no type of script: child 1, customization 6"))),
         };
         self.parser()?;
-        self.keep_script(AddedScript {
+        Ok(AddedScript {
             kind,
             is_threaded: script_type & THREADED != 0,
             object: None,
+            former_object: None,
             text: String::new(),
+            origin: None,
             is_removed: false,
         })
     }
@@ -141,102 +174,138 @@ impl SimApi<'_> {
         self.registry.script_parser.ok_or_else(|| ApiError::new("no scripts can be run here"))
     }
 
-    /// The script of a handle, or the one on an object: a child script before a customization script. One of the scene
-    /// is added in its own place.
-    fn script_entry(&mut self, number: i64) -> Result<usize, ApiError> {
+    /// The script of a handle, or the one on an object: a child script before a customization script; with its place
+    /// among those that were added. One of the scene is not there yet: its place is the next one. When it was taken
+    /// off, its object in the scene file still names it as long as no other script is there.
+    fn script_entry(&self, number: i64) -> Result<(usize, AddedScript), ApiError> {
         let none = || ApiError(format!("there is no script {number}"));
+        let all = &self.registry.added_scripts;
         if let Some(k) = number.checked_sub(FIRST).and_then(|k| usize::try_from(k).ok()) {
-            let is_there = self.registry.added_scripts.get(k).is_some_and(|script| !script.is_removed);
-            return if is_there { Ok(k) } else { Err(none()) };
+            let own = all.get(k).filter(|script| !script.is_removed).ok_or_else(none)?;
+            return Ok((k, own.clone()));
         }
         let object = self.registry.entry(Handle(i32::try_from(number).map_err(|_| none())?))?.handle;
-        let scripts = &self.registry.scene().scripts;
-        let of_object = scripts.iter().filter(|script| handle_of_id(script.object) == object);
-        let script = of_object.min_by_key(|script| script.kind).ok_or_else(none)?;
-        let is_known = |added: &AddedScript| (added.object, added.kind) == (Some(object), script.kind);
-        let known = self.registry.added_scripts.iter().rposition(is_known);
-        if let Some(k) = known {
-            return Ok(k);
+        let on_object = all.iter().enumerate().filter(|(_, added)| added.object == Some(object));
+        let of_added = on_object.min_by_key(|(_, added)| added.kind);
+        let of_object = self.registry.scene().scripts.iter().filter(|script| handle_of_id(script.object) == object);
+        let of_scene = of_object.min_by_key(|script| script.kind);
+        let is_first = |kind: Kind| of_scene.is_none_or(|script| kind <= script.kind);
+        if let Some((k, added)) = of_added.filter(|(_, added)| is_first(added.kind)) {
+            return Ok((k, added.clone()));
         }
-        let (text, is_threaded, kind) = (script.text.clone(), script.is_threaded, script.kind);
-        let added = AddedScript { kind, is_threaded, object: Some(object), text, is_removed: false };
-        Ok((self.keep_script(added)? - FIRST) as usize)
+        if let Some(script) = of_scene {
+            let added = AddedScript {
+                kind: script.kind,
+                is_threaded: script.is_threaded,
+                object: Some(object),
+                former_object: None,
+                text: script.text.clone(),
+                origin: Some(Arc::new(script.clone())),
+                is_removed: false,
+            };
+            return Ok((all.len(), added));
+        }
+        let was_there = |added: &AddedScript| {
+            added.object.is_none() && added.origin.as_ref().is_some_and(|script| handle_of_id(script.object) == object)
+        };
+        let k = all.iter().position(was_there).ok_or_else(none)?;
+        Ok((k, all[k].clone()))
+    }
+
+    /// A script with another text.
+    fn with_text(&self, script: &AddedScript, text: &str) -> Result<AddedScript, ApiError> {
+        if text.len() > MAX_LEN {
+            return Err(ApiError(format!("a text of {} bytes, expected {MAX_LEN} at most", text.len())));
+        }
+        let added = AddedScript { text: text.to_owned(), ..script.clone() };
+        let object = added.object.map_or(0, |handle| handle.0 as usize - 1);
+        let path = added.object.and_then(|handle| Some(self.registry.entry(handle).ok()?.path.clone()));
+        let script = script_of(&added, (object, path.unwrap_or_default()));
+        self.parser()?.check(&script).map_err(|fault| ApiError(fault.to_string()))?;
+        Ok(added)
     }
 
     /// Gives a script a text; if it has an object, it begins anew.
     ///
     /// # Errors
     ///
-    /// There is no such script, or the text cannot be parsed or is too long.
+    /// There is no such script, the text cannot be parsed or is too long, or the caller may not change scripts.
     pub(crate) fn set_script_text(&mut self, number: i64, text: &str) -> Result<(), ApiError> {
-        if text.len() > MAX_LEN {
-            return Err(ApiError(format!("a text of {} bytes, expected {MAX_LEN} at most", text.len())));
-        }
-        let parser = self.parser()?;
-        let k = self.script_entry(number)?;
-        let added = AddedScript { text: text.to_owned(), ..self.registry.added_scripts[k].clone() };
-        let object = added.object.map_or(0, |handle| handle.0 as usize - 1);
-        let path = added.object.and_then(|handle| Some(self.registry.entry(handle).ok()?.path.clone()));
-        let script = script_of(&added, (object, path.unwrap_or_default()), None);
-        parser.check(&script).map_err(|fault| ApiError(fault.to_string()))?;
-        self.change_script(k, added)
+        self.parser()?;
+        let (k, before) = self.script_entry(number)?;
+        let to = self.with_text(&before, text)?;
+        self.change_script(k, before, to)
     }
 
     /// Puts a script on an object; for none it is taken off.
     ///
     /// # Errors
     ///
-    /// There is no such script or object, or the object has a script of that kind.
+    /// There is no such script or object, the object has a script of that kind, or the caller may not change scripts.
     pub(crate) fn associate_script(&mut self, number: i64, object: Option<Handle>) -> Result<(), ApiError> {
         self.parser()?;
-        let k = self.script_entry(number)?;
-        let added = self.registry.added_scripts[k].clone();
-        if let Some(handle) = object.filter(|_| added.object != object) {
+        let (k, before) = self.script_entry(number)?;
+        if let Some(handle) = object.filter(|_| before.object != object) {
             let own = self.registry.entry(handle)?;
-            let is_taken = |script: &Script| handle_of_id(script.object) == handle && script.kind == added.kind;
-            if self.registry.scene().scripts.iter().any(is_taken) {
+            let of_scene = |script: &Script| handle_of_id(script.object) == handle && script.kind == before.kind;
+            let of_added = |other: &AddedScript| other.object == object && other.kind == before.kind;
+            let is_taken =
+                self.registry.scene().scripts.iter().any(of_scene) || self.registry.added_scripts.iter().any(of_added);
+            if is_taken {
                 return Err(ApiError(format!("`{}` has a script of that kind already", own.path)));
             }
         }
-        self.change_script(k, AddedScript { object, ..added })
+        let to = AddedScript { object, ..before.clone() };
+        self.change_script(k, before, to)
     }
 
     /// Lets a script begin anew, before the next phase of the step.
     ///
     /// # Errors
     ///
-    /// There is no such script.
+    /// There is no such script, or the caller may not change scripts.
     pub(crate) fn init_script(&mut self, number: i64) -> Result<(), ApiError> {
         self.parser()?;
-        let k = self.script_entry(number)?;
-        let added = self.registry.added_scripts[k].clone();
-        self.change_script(k, added)
+        let (k, before) = self.script_entry(number)?;
+        let to = before.clone();
+        self.change_script(k, before, to)
     }
 
     /// Takes a script away.
     ///
     /// # Errors
     ///
-    /// There is no such script.
+    /// There is no such script, or the caller may not change scripts.
     pub(crate) fn remove_script(&mut self, number: i64) -> Result<(), ApiError> {
         self.parser()?;
-        let k = self.script_entry(number)?;
-        let added = self.registry.added_scripts[k].clone();
-        self.change_script(k, AddedScript { is_removed: true, ..added })
+        let (k, before) = self.script_entry(number)?;
+        let to = AddedScript { object: None, text: String::new(), origin: None, is_removed: true, ..before.clone() };
+        self.change_script(k, before, to)
     }
 
-    /// Makes a change of a script a part of the scene; without an object there is nothing to change yet.
-    fn change_script(&mut self, k: usize, to: AddedScript) -> Result<(), ApiError> {
-        let before = std::mem::replace(&mut self.registry.added_scripts[k], to.clone());
-        if before.object.is_none() && to.object.is_none() {
-            return Ok(());
+    /// Makes a change of the script of a place a part of the scene; without an object there is nothing to change yet.
+    fn change_script(&mut self, k: usize, before: AddedScript, to: AddedScript) -> Result<(), ApiError> {
+        let objects = [before.object, to.object];
+        let restarts = objects.into_iter().flatten().map(|object| (object, to.kind)).collect::<Vec<_>>();
+        let is_new = k == self.registry.added_scripts.len();
+        let now = AddedScript { former_object: before.object, ..to };
+        if is_new {
+            self.keep_script(now)?;
+        } else {
+            self.registry.added_scripts[k] = now;
         }
-        if let Err(refused) = self.rebuild_scripts() {
-            self.registry.added_scripts[k] = before;
+        if !restarts.is_empty()
+            && let Err(refused) = self.rebuild_scripts()
+        {
+            if is_new {
+                self.registry.added_scripts.truncate(k);
+            } else {
+                self.registry.added_scripts[k] = before;
+            }
             return Err(refused);
         }
-        let objects = [before.object, to.object];
-        self.registry.script_restarts.extend(objects.into_iter().flatten().map(|object| (object, to.kind)));
+        self.registry.added_scripts[k].former_object = None;
+        self.registry.script_restarts.extend(restarts);
         Ok(())
     }
 }

@@ -321,3 +321,112 @@ fn a_script_may_be_put_on_an_object_that_was_made() {
     );
     assert_eq!(said, ["ends"]);
 }
+
+/// A text that says where it begins, and that it ends.
+const TELLS: &str = "
+    function sysCall_init() print('begins', sim.getObjectAlias(sim.getObject('.'))) end
+    function sysCall_cleanup() print('ends') end";
+
+#[test]
+fn an_added_script_is_on_one_object_at_a_time() {
+    let said = said_on_floor(&format!(
+        "function sysCall_init()
+            n, box, point = 0, sim.getObject('/box'), sim.createDummy(0.01)
+            sim.setObjectAlias(point, 'point')
+            script = sim.createScript(sim.scripttype_childscript, [[{TELLS}]])
+        end
+        function sysCall_actuation()
+            n = n + 1
+            if n == 2 then sim.associateScriptWithObject(script, box) end
+            if n == 4 then sim.associateScriptWithObject(script, point) end
+            if n == 6 then sim.associateScriptWithObject(script, -1) end
+            if n == 8 then print('off') sim.associateScriptWithObject(script, box) end
+            if n == 10 then sim.removeObjects({{ box }}) end
+            if n == 12 then print('without box') end
+        end"
+    ));
+    let wanted = ["begins\tbox", "ends", "begins\tpoint", "ends", "off", "begins\tbox", "ends", "without box"];
+    assert_eq!(said, wanted);
+}
+
+#[test]
+fn a_script_of_the_scene_is_moved_and_taken_off() {
+    let said = said_on_floor(&format!(
+        "{TELLS}
+        function sysCall_actuation()
+            n = (n or 0) + 1
+            local floor, box = sim.getObject('/floor'), sim.getObject('/box')
+            local is_first = sim.getObject('.') == floor
+            if n == 2 and is_first then print(sim.associateScriptWithObject(sim.handle_self, box)) end
+            if n == 2 and not is_first then print(sim.associateScriptWithObject(sim.handle_self, -1)) end
+        end"
+    ));
+    assert_eq!(said, ["begins\tfloor", "1", "ends", "begins\tbox", "1", "ends"]);
+}
+
+#[test]
+fn a_script_of_the_scene_that_was_taken_off_can_be_put_back() {
+    let said = said_on_floor(&format!(
+        "{TELLS}
+        local box = sim.getObject('/box')
+        if not sim.getInt32Signal('made') then
+            sim.setInt32Signal('made', 1)
+            sim.associateScriptWithObject(sim.createScript(sim.scripttype_childscript, [[
+                function sysCall_init() n, floor = 0, sim.getObject('/floor') end
+                function sysCall_actuation()
+                    n = n + 1
+                    if n == 2 then sim.associateScriptWithObject(floor, -1) end
+                    if n == 4 then print('off') sim.associateScriptWithObject(floor, floor) end
+                end]]), box)
+        end"
+    ));
+    assert_eq!(said, ["begins\tfloor", "ends", "off", "begins\tfloor", "ends"]);
+}
+
+#[test]
+fn an_added_script_is_named_by_its_object() {
+    let said = said_on_floor(&format!(
+        "function sysCall_init()
+            n, box, point = 0, sim.getObject('/box'), sim.createDummy(0.01)
+            sim.setObjectAlias(point, 'point')
+            sim.associateScriptWithObject(sim.createScript(sim.scripttype_childscript, [[{TELLS}]]), box)
+        end
+        function sysCall_actuation()
+            n = n + 1
+            if n == 2 then sim.initScript(box) end
+            if n == 4 then sim.removeScript(box) end
+            if n == 6 then print(pcall(sim.initScript, box)) end
+        end"
+    ));
+    assert_eq!(said[..4], ["begins\tbox", "ends", "begins\tbox", "ends"]);
+    assert!(said[4].contains("there is no script") && said.len() == 5, "{said:?}");
+}
+
+#[test]
+fn an_object_has_one_added_script_of_a_kind() {
+    let said = said_on_floor(
+        "function sysCall_init()
+            local box = sim.getObject('/box')
+            local a, b = sim.addScript(sim.scripttype_childscript), sim.addScript(sim.scripttype_childscript)
+            sim.associateScriptWithObject(b, box)
+            print(pcall(sim.associateScriptWithObject, a, box))
+            sim.removeScript(b)
+            sim.associateScriptWithObject(a, box)
+            sim.setScriptText(a, \"function sysCall_init() print('a runs') end\")
+            sim.associateScriptWithObject(sim.addScript(sim.scripttype_customizationscript), box)
+        end",
+    );
+    assert!(said[0].contains("false") && said[0].contains("has a script of that kind already"), "{said:?}");
+    assert_eq!(said[1..], ["a runs"]);
+}
+
+#[test]
+fn texts_that_are_refused_use_up_no_scripts() {
+    let said = said_on_floor(
+        "function sysCall_init()
+            for _ = 1, 1001 do pcall(sim.createScript, sim.scripttype_childscript, 'function (') end
+            print(pcall(sim.createScript, sim.scripttype_childscript, 'x = 1'))
+        end",
+    );
+    assert!(said.len() == 1 && said[0].starts_with("true\t"), "{said:?}");
+}

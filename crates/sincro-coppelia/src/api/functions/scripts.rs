@@ -19,9 +19,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
             if !is_lua {
                 return Err(ApiError(format!("scripts in `{}` are not run: Lua only", a.text(3)?)));
             }
-            let own = sim.add_script(script_type)?;
-            sim.set_script_text(own, text)?;
-            one(own)
+            one(sim.create_script(script_type, text)?)
         },
     },
     Function {
