@@ -20,6 +20,7 @@ use sincro_coppelia::host::Phase;
 use sincro_scene::script::{Kind, Script, ScriptError, Style};
 
 use crate::guard::Guard;
+use crate::lexer::{self, Word};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
 use crate::{api, callback, contact, convert, fault, files, power};
@@ -117,7 +118,6 @@ impl Machine {
         files::offer(&lua, script)?;
         let chunk = compile(&lua, script)?;
         lua.set_named_registry_value(TEXT, &chunk)?;
-        shared.change_cascade(index, |cascade| cascade.is_automatic = !calls_those_below(&script.text));
         let (style, entries) = (script.style, Entries::default());
         Ok(Self {
             lua,
@@ -228,10 +228,15 @@ impl Machine {
         self.within(Self::update_entries)
     }
 
-    /// Lets scripts above know how this one is called.
+    /// Lets scripts above know how this one is called; an old one may call those below it itself.
     fn tell_style(&self) {
-        let is_thread = self.script().is_threaded || (self.style == Style::Old && self.thread.is_some());
-        self.shared.change_cascade(self.index, |cascade| (cascade.style, cascade.is_thread) = (self.style, is_thread));
+        let script = self.script();
+        let is_thread = script.is_threaded || (self.style == Style::Old && self.thread.is_some());
+        let is_caller = self.style == Style::Old && !is_thread && calls_those_below(&script.text);
+        self.shared.change_cascade(self.index, |cascade| {
+            (cascade.style, cascade.is_thread) = (self.style, is_thread);
+            cascade.is_automatic &= !is_caller;
+        });
     }
 
     /// Calls an old script as a whole, a new one and a thread by a function.
@@ -462,15 +467,20 @@ impl Machine {
     }
 }
 
-/// Returns true if a text calls the scripts below it as V-REP up to 3.1.2 did.
+/// Returns true if a text calls the scripts below it as V-REP up to 3.1.2 did; comments and quoted texts do not count.
 fn calls_those_below(text: &str) -> bool {
-    text.contains("simHandleChildScript(")
+    let words = lexer::words(text);
+    let is_call =
+        |pair: &[Word]| text[pair[0].at.clone()] == *"simHandleChildScript" && text[pair[1].at.clone()] == *"(";
+    words.windows(2).any(is_call)
 }
 
 /// Returns true if a text is one of V-REP up to 3.1.2, where scripts had no call types.
 fn is_for_actuation(text: &str) -> bool {
-    let has_call_types = text.contains("sim_call_type") || text.contains("sysCall_");
-    !has_call_types && (calls_those_below(text) || text.contains("simGetScriptExecutionCount"))
+    let words = lexer::words(text);
+    let names = |part: &str| words.iter().any(|word| text[word.at.clone()].contains(part));
+    let has_call_types = names("sim_call_type") || names("sysCall_");
+    !has_call_types && (calls_those_below(text) || names("simGetScriptExecutionCount"))
 }
 
 /// The run's seed and the object's path, mixed (FNV-1a).

@@ -3,7 +3,7 @@
 //! | | V-REP up to 3.1.2 | from 3.1.3 on |
 //! |---|---|---|
 //! | called by | `simHandleChildScript(sim_handle_all, …)` of the script above | the step, or `simHandleChildScripts(type, …)` of the script above if that has switched off `automaticcascadingcalls` |
-//! | one script | `simHandleChildScript(handle, …)`, with its results | – |
+//! | one script | `simHandleChildScript(handle, …)`, with its results; nil for a thread, which the step resumes | – |
 //! | result for several | their number | their number |
 //!
 //! The scripts that are met first on the ways down are called, with the arguments (`...` of an old script, arguments of
@@ -50,7 +50,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         if !is_call_type(call_type, "actuation") && !is_call_type(call_type, "sensing") {
             return Err(fail("scripts are called for actuation and sensing: the others are called by the simulation"));
         }
-        call_below(lua, &shared, index, call_type, &arguments).map(|n| n as i64)
+        call_below(lua, &shared, index, (call_type, false), &arguments).map(|n| n as i64)
     })?;
     let (shared, index, own) = (context.shared.clone(), context.index, context.own);
     context.add("handleChildScript", move |lua, (which, arguments): (LuaValue, MultiValue)| {
@@ -68,17 +68,18 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         };
         let call_type = present_call_type(lua)?;
         if handle == ALL || handle == ALL_EXCEPT_EXPLICIT {
-            let places = shared.first_below(shared.script(index).object);
-            let is_meant = |place: &&usize| handle == ALL || !shared.cascade(**place).is_explicit;
-            let meant: Vec<usize> = places.iter().filter(is_meant).copied().collect();
-            for place in &meant {
-                call(lua, &shared, *place, call_type, &arguments)?;
-            }
-            return Ok(MultiValue::from_iter([LuaValue::Integer(meant.len() as i64)]));
+            let n = call_below(lua, &shared, index, (call_type, handle == ALL_EXCEPT_EXPLICIT), &arguments)?;
+            return Ok(MultiValue::from_iter([LuaValue::Integer(n as i64)]));
         }
         let place = place_of(&shared, index, handle).ok_or_else(|| unknown(handle, "handleChildScript"))?;
         shared.change_cascade(place, |cascade| cascade.is_explicit = true);
+        if shared.cascade(place).is_thread {
+            return Ok(MultiValue::from_iter([LuaValue::Nil]));
+        }
         let results = call(lua, &shared, place, call_type, &arguments)?;
+        if shared.cascade(place).is_automatic {
+            call_below(lua, &shared, place, (call_type, true), &arguments)?;
+        }
         // nothing returned is nil
         Ok(if results.is_empty() { MultiValue::from_iter([LuaValue::Nil]) } else { results })
     })
@@ -94,19 +95,21 @@ fn present_call_type(lua: &Lua) -> mlua::Result<i64> {
     Ok(lua.globals().get::<Option<i64>>("sim_call_type")?.unwrap_or(actuation))
 }
 
-/// Calls the scripts below one, and those below them; returns the number of the first ones.
+/// Calls the scripts below one, and those below them; returns the number of the first ones. If `skips_explicit`, those
+/// that are called by their handles are left out, with all below them.
 fn call_below(
     lua: &Lua,
     shared: &Arc<Shared>,
     place: usize,
-    call_type: i64,
+    (call_type, skips_explicit): (i64, bool),
     arguments: &MultiValue,
 ) -> mlua::Result<usize> {
-    let below = shared.first_below(shared.script(place).object);
+    let mut below = shared.first_below(shared.script(place).object);
+    below.retain(|place| !(skips_explicit && shared.cascade(*place).is_explicit));
     for place in &below {
         call(lua, shared, *place, call_type, arguments)?;
         if shared.cascade(*place).is_automatic {
-            call_below(lua, shared, *place, call_type, arguments)?;
+            call_below(lua, shared, *place, (call_type, skips_explicit), arguments)?;
         }
     }
     Ok(below.len())

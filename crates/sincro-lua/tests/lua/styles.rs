@@ -200,7 +200,11 @@ fn said_by(codes: [&str; 4]) -> Vec<String> {
         code => format!("[[script]]\nobject = \"{object}\"\ncode = \"\"\"{code}\"\"\"\n"),
     };
     let objects = ["/hinge", "/hinge/arm", "/hinge/arm/tip", "/hinge/arm/other"];
-    let scripts: String = objects.iter().zip(codes).map(|(object, code)| script(object, code)).collect();
+    said_in_a_step(&objects.iter().zip(codes).map(|(object, code)| script(object, code)).collect::<String>())
+}
+
+/// Messages in one step of scripts, as the scene file has them.
+fn said_in_a_step(scripts: &str) -> Vec<String> {
     let scene = format!("{PENDULUM}\n[[frame]]\nname = \"other\"\nparent = \"/hinge/arm\"\n{scripts}");
     let experiment = EXPERIMENT.replace("0.05", "0.01");
     let loaded = open(&[("scene.toml", &scene), ("experiment.toml", &experiment)]).unwrap_or_else(|p| panic!("{p}"));
@@ -269,4 +273,49 @@ fn a_fault_in_a_script_below_names_it() {
         .replace("Scripts(sim_call_type, 7, 'go', {1, 2})", "Scripts, sim_call_type)");
     let said = said_by(["", &calls, "if sim_call_type == sim_childscriptcall_actuation then error('no leg') end", ""]);
     assert!(said[1].contains("script of `/hinge/arm/tip`: no leg"), "{said:?}");
+}
+
+/// Scripts of V-REP up to 3.1.2 that print their arguments.
+const OLDEST: [&str; 3] = [
+    "simGetScriptExecutionCount() print('arm', ...)",
+    "simGetScriptExecutionCount() print('tip', ...)",
+    "simGetScriptExecutionCount() print('other', ...)",
+];
+
+#[test]
+fn a_script_of_v_rep_3_1_2_calls_also_those_below_the_ones_that_call_none() {
+    let [arm, tip, other] = OLDEST;
+    let all = said_by(["print(simHandleChildScript(sim_handle_all, 5))", arm, tip, other]);
+    assert_eq!(all, ["arm\t5", "tip\t5", "other\t5", "1"]);
+    let by_handle = "print(simHandleChildScript(simGetScriptAssociatedWithObject(simGetObjectHandle('arm')), 6))";
+    assert_eq!(said_by([by_handle, arm, tip, other]), ["arm\t6", "tip\t6", "other\t6", "nil"]);
+    let with_one_explicit = "
+        simHandleChildScript(simGetScriptAssociatedWithObject(simGetObjectHandle('tip')), 7)
+        print(simHandleChildScript(sim_handle_all_except_explicit, 8))";
+    assert_eq!(said_by([with_one_explicit, arm, tip, other]), ["tip\t7", "arm\t8", "other\t8", "1"]);
+    let itself = format!("{arm} simHandleChildScript(sim_handle_all, 9)");
+    let called_once = said_by(["simHandleChildScript(sim_handle_all, 5)", &itself, tip, other]);
+    assert_eq!(called_once, ["arm\t5", "tip\t9", "other\t9"]);
+}
+
+#[test]
+fn a_thread_that_is_called_by_its_handle_is_left_to_the_step() {
+    let script = |object: &str, code: &str| format!("[[script]]\nobject = \"{object}\"\ncode = \"{code}\"\n");
+    let calls = "print(simHandleChildScript(simGetScriptAssociatedWithObject(simGetObjectHandle('tip'))))";
+    let waits = "print('begins') simSwitchThread() print('never')";
+    let scripts = script("/hinge/arm", calls) + &script("/hinge/arm/tip", waits) + "threaded = true\n";
+    assert_eq!(said_in_a_step(&scripts), ["begins", "nil"]);
+}
+
+#[test]
+fn calls_in_comments_in_quotes_and_in_new_scripts_leave_those_below_to_the_step() {
+    let below = "function sysCall_actuation() print('below') end";
+    for above in [
+        "-- formerly: simHandleChildScript(sim_handle_all)\nfunction sysCall_init() end",
+        "--[[ simHandleChildScript(sim_handle_all)\n ]] word = 'simHandleChildScript(sim_handle_all)'",
+        "function sysCall_init() if word then simHandleChildScript(sim_handle_all) end end",
+    ] {
+        assert_eq!(said_by([above, "", below, ""]), ["below"], "{above}");
+    }
+    assert_eq!(said_by(["if word then simHandleChildScript (sim_handle_all) end", "", below, ""]), [""; 0]);
 }
