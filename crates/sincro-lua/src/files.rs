@@ -15,7 +15,7 @@ pub(crate) fn offer(lua: &Lua, script: &Script) -> mlua::Result<()> {
         found.map(|(_, source)| lua.create_string(&source.text)).transpose()
     })?;
     let (open, lines, kind): (Function, Function, Function) =
-        lua.load(include_str!("files.lua")).set_name("=sincro").call(text)?;
+        lua.load(include_str!("files.lua")).set_name(crate::sandbox::OWN_SOURCE).call(text)?;
     let io: Table = lua.globals().get("io")?;
     io.set("open", open)?;
     io.set("lines", lines)?;

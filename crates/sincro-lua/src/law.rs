@@ -60,7 +60,7 @@ impl LuaLaw {
         chunk.set_environment(environment.clone()).exec()?;
         let output: Option<Function> = environment.get("output")?;
         let update: Option<Function> = environment.get("update")?;
-        lua.load(LOCK).set_name("=sincro").call::<()>(&environment)?;
+        lua.load(LOCK).set_name(crate::sandbox::OWN_SOURCE).call::<()>(&environment)?;
         let missing = |name: &str| Error::RuntimeError(format!("the text has no function `{name}`"));
         if update.is_none() && !spec.memory.is_empty() {
             return Err(missing("update"));
@@ -158,7 +158,7 @@ end";
 fn environment(lua: &Lua) -> mlua::Result<Table> {
     let text = "local own = setmetatable({}, { __index = ... })
     return setmetatable({}, { __index = own, __newindex = own })";
-    lua.load(text).set_name("=sincro").call(lua.globals())
+    lua.load(text).set_name(crate::sandbox::OWN_SOURCE).call(lua.globals())
 }
 
 /// An error with its line.

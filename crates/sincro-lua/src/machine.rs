@@ -161,6 +161,11 @@ impl Machine {
         let Some(function) = api::function_of(&self.lua, name) else {
             return Err(ApiError(format!("the script of `{path}` has no function `{name}`")));
         };
+        // those of Lua and of the simulator would act for the script, beyond what clients are granted
+        let info = function.info();
+        if info.what != "Lua" || info.source.as_deref() == Some(sandbox::OWN_SOURCE) {
+            return Err(ApiError(format!("`{name}` is no function that the script of `{path}` itself has")));
+        }
         let done = self.within(|m| {
             let values = function.call(convert::list_to_lua(&m.lua, arguments)?)?;
             convert::list_from_lua(values)

@@ -18,6 +18,9 @@ use crate::power;
 /// The chunk name of a script: positions read `script:12:`.
 pub(crate) const CHUNK: &str = "script";
 
+/// Source of the functions in Lua that are not the script's own.
+pub(crate) const OWN_SOURCE: &str = "=sincro";
+
 /// Longest text that is compiled in a run [bytes].
 const MAX_TEXT: usize = 1 << 20;
 
@@ -94,7 +97,7 @@ pub(crate) fn furnish(lua: &Lua, guard: &Arc<Guard>, seed: u64, services: Servic
     host.set("text", lua.create_function(|lua, error: Value| text_of(lua, error))?)?;
     host.set("time", clock(lua, &time)?)?;
     host.set("signal", lua.create_function(move |lua, name: String| signal(lua, &name))?)?;
-    let waits: Table = lua.load(include_str!("prelude.lua")).set_name("=sincro").call(host)?;
+    let waits: Table = lua.load(include_str!("prelude.lua")).set_name(OWN_SOURCE).call(host)?;
     Ok(Waits { switch: waits.get("switch")?, wait: waits.get("wait")?, wait_for_signal: waits.get("wait_for_signal")? })
 }
 

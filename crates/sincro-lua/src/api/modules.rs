@@ -18,19 +18,21 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     modules.set("simIK", inverse_kinematics(context)?)?;
     modules.set("simUI", interfaces(context)?)?;
     modules.set("simRemoteApi", remote_api(context)?)?;
-    let pack: Table = lua.load(include_str!("../message_pack.lua")).set_name("=sincro").call(())?;
+    let pack: Table = lua.load(include_str!("../message_pack.lua")).set_name(crate::sandbox::OWN_SOURCE).call(())?;
     modules.set("messagePack", &pack)?;
     modules.set("MessagePack", pack)?;
-    let json: Table = lua.load(include_str!("../json.lua")).set_name("=sincro").call(())?;
+    let json: Table = lua.load(include_str!("../json.lua")).set_name(crate::sandbox::OWN_SOURCE).call(())?;
     modules.set("dkjson", &json)?;
     modules.set("json", json)?;
-    let matrix: Table = lua.load(include_str!("../matrix.lua")).set_name("=sincro").call(&context.sim)?;
+    let matrix: Table =
+        lua.load(include_str!("../matrix.lua")).set_name(crate::sandbox::OWN_SOURCE).call(&context.sim)?;
     for pair in matrix.pairs::<String, Table>() {
         let (name, class) = pair?;
         lua.globals().set(name, class)?;
     }
     modules.set("matrix", matrix)?;
-    let environment: Function = lua.load(include_str!("../environment.lua")).set_name("=sincro").call(())?;
+    let environment: Function =
+        lua.load(include_str!("../environment.lua")).set_name(crate::sandbox::OWN_SOURCE).call(())?;
     let (script, guard) = (context.shared.script(context.index), context.guard.clone());
     // files whose text is running: one of them that is asked for again is a loop
     let loading = Mutex::new(BTreeSet::<String>::new());
@@ -108,7 +110,7 @@ fn inverse_kinematics(context: &ApiContext<'_>) -> mlua::Result<Table> {
         module.set(*name, *value)?;
     }
     // validation callbacks cannot leave the script
-    context.lua.load(include_str!("../ik.lua")).set_name("=sincro").call::<()>(&module)?;
+    context.lua.load(include_str!("../ik.lua")).set_name(crate::sandbox::OWN_SOURCE).call::<()>(&module)?;
     context.lua.globals().set("simIK", &module)?;
     Ok(module)
 }

@@ -51,7 +51,7 @@ pub(super) fn offer(context: &ApiContext<'_>, waits: &Waits) -> mlua::Result<()>
         convert::list_to_lua(lua, &values)
     })?;
     host.set("results", results)?;
-    let functions: Table = lua.load(include_str!("../moves.lua")).set_name("=sincro").call(host)?;
+    let functions: Table = lua.load(include_str!("../moves.lua")).set_name(crate::sandbox::OWN_SOURCE).call(host)?;
     for pair in functions.pairs::<String, Function>() {
         let (name, function) = pair?;
         context.put(&name, function.clone())?;

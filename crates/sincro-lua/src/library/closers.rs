@@ -20,7 +20,7 @@ pub(super) fn install(lua: &Lua) -> mlua::Result<Table> {
     lua.set_named_registry_value(METATABLES, &metatables)?;
     lua.set_named_registry_value(NO_PIECE, lua.create_function(|_, _: MultiValue| Ok(()))?)?;
     // of strings: the only values with a metatable that `setmetatable` did not give them
-    let of_strings: Value = lua.load("return getmetatable('')").set_name("=sincro").eval()?;
+    let of_strings: Value = lua.load("return getmetatable('')").set_name(crate::sandbox::OWN_SOURCE).eval()?;
     if let Value::Table(of_strings) = of_strings {
         remember(&metatables, &of_strings)?;
     }

@@ -252,12 +252,18 @@ fn clients_change_no_scripts_without_the_grant() {
         ("sim.associateScriptWithObject", vec![link.clone(), other]),
         ("sim.associateScriptWithObject", vec![link.clone(), Value::Int(-1)]),
         ("sim.initScript", vec![link.clone()]),
-        ("sim.removeScript", vec![link]),
+        ("sim.removeScript", vec![link.clone()]),
     ];
-    for (name, arguments) in tries {
-        let refused = client.call(name, &arguments).expect_err(name);
+    for (name, arguments) in &tries {
+        let refused = client.call(name, arguments).expect_err(name);
         assert!(refused.contains("--grant scripts"), "{name}: {refused}");
         client.call("sim.step", &[]).unwrap();
+    }
+    // nor by way of the script itself
+    for (name, arguments) in tries {
+        let through = [vec![Value::from(name), link.clone()], arguments].concat();
+        let refused = client.call("sim.callScriptFunction", &through).expect_err(name);
+        assert!(refused.contains("is no function that the script"), "{name}: {refused}");
     }
     let mut signal = |name: &str| client.call("sim.getInt32Signal", &[Value::from(name)]).unwrap().remove(0);
     assert_eq!((signal("begun"), signal("steps")), (Value::Int(1), Value::Int(7)));
