@@ -15,7 +15,7 @@ use sincro_math::record::{Program, Recorded};
 use sincro_scene::record::Probe;
 use sincro_scene::record::probe::{View, of_state};
 
-pub(super) use rows::{CompiledScratch, ResultsMut, Rows, each};
+pub(super) use rows::{CompiledScratch, ResultsMut, Rows, set_bits};
 
 use super::plan::Plan;
 use crate::rollout::StepsBy;

@@ -56,7 +56,7 @@ pub(in super::super) struct ResultsMut<'a> {
 
 /// Numbers of the bits that are set.
 #[inline]
-pub(in super::super) fn each(mut bits: u64) -> impl Iterator<Item = usize> {
+pub(in super::super) fn set_bits(mut bits: u64) -> impl Iterator<Item = usize> {
     core::iter::from_fn(move || {
         let first = bits.trailing_zeros();
         bits &= bits.wrapping_sub(1);
@@ -125,12 +125,12 @@ impl Rows {
         }
         let (finite, signals) = found.split_at(width);
         let signals_of_rows = &mut self.rows[layout.signals() * width..];
-        for lane in each(lanes) {
+        for lane in set_bits(lanes) {
             for k in (0..layout.n_signals).map(|k| k * width + lane) {
                 signals_of_rows[k] = unsigned_zero(signals[k]);
             }
         }
-        each(lanes).all(|lane| finite[lane] == 0.0)
+        set_bits(lanes).all(|lane| finite[lane] == 0.0)
     }
 
     /// Writes what the agent sees of the present state in the worlds of the bits `lanes`; false, with nothing written,
@@ -146,7 +146,7 @@ impl Rows {
         let bad = task.look.evaluate_in_form(self.known(), &[], &mut [], [&mut [], &mut seen[..]], 0);
         let is_seen = bad.is_some_and(|bad| bad & lanes == 0);
         if is_seen {
-            for lane in each(lanes) {
+            for lane in set_bits(lanes) {
                 observations[lane * n..(lane + 1) * n].copy_from_slice(&seen[lane * n..(lane + 1) * n]);
             }
         }
@@ -210,7 +210,7 @@ impl Rows {
             }
             Action::Parts { .. } => self.act_in_parts(task, over, scratch, results),
         }?;
-        for lane in each(kept) {
+        for lane in set_bits(kept) {
             for k in (0..layout.given()).map(|k| k * width + lane) {
                 self.rows[k] = scratch.before[k];
             }

@@ -5,7 +5,7 @@ pub(super) use crate::task::compiled::CompiledScratch;
 use sincro_dynamics::state::State;
 
 use super::{Group, Scratch, Worlds};
-use crate::task::compiled::{CompiledTask, ResultsMut, Rows, each, flags};
+use crate::task::compiled::{CompiledTask, ResultsMut, Rows, flags, set_bits};
 use crate::task::plan::{Plan, copy_unsigned, unsigned_zero};
 use crate::task::{Autoreset, StepMut};
 
@@ -108,7 +108,7 @@ impl Group {
             Autoreset::SameStep => (compiled.over & !was_over, was_over),
             Autoreset::Disabled => (0, was_over),
         };
-        for k in each(compiled.over) {
+        for k in set_bits(compiled.over) {
             let is_set = |bits: u64| bits >> k & 1 == 1;
             self.episodes.is_over[k] = true;
             if is_set(was_over) {
@@ -142,7 +142,7 @@ impl Group {
         let away = *away & worlds;
         let is_seen = rows.look(task, worlds & !away, compiled, observations);
         debug_assert!(is_seen, "what ended could be looked at before");
-        for k in each(away) {
+        for k in set_bits(away) {
             self.write(plan, k, observations, &mut scratch.stack);
         }
     }
@@ -179,7 +179,7 @@ impl Group {
         observations: &mut [f64],
         scratch: &mut Scratch,
     ) {
-        for k in each(begins) {
+        for k in set_bits(begins) {
             self.draw(plan, k, scratch);
             let Some(CompiledWorlds { rows, away, over, .. }) = &mut self.compiled else { return };
             rows.start(task, k, &scratch.drawn.state, &scratch.drawn.named);
@@ -199,7 +199,7 @@ impl Group {
         }
         self.start(plan, scratch);
         self.look(plan);
-        for k in each(begins) {
+        for k in set_bits(begins) {
             self.write(plan, k, observations, &mut scratch.stack);
         }
     }
@@ -267,7 +267,7 @@ impl Group {
         let (CompiledWorlds { rows, away, .. }, layout, n) = (&*compiled, task.layout, self.n_signals);
         let here = !*away & ((1 << task.width()) - 1);
         let mut state = plan.loaded.scene.initial.clone();
-        for k in each(here) {
+        for k in set_bits(here) {
             rows.read_state(k, &mut state);
             self.episodes.actions[k] = rows.get(k, layout.count()) as u64;
             let commands = &mut self.commands[k * layout.n_commands..][..layout.n_commands];
@@ -292,7 +292,7 @@ impl Group {
             bundle.set_commands(plan, &self.commands);
         }
         self.observe(plan);
-        for k in each(here) {
+        for k in set_bits(here) {
             if !self.is_finite[k] {
                 continue;
             }
