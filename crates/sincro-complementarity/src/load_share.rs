@@ -7,6 +7,11 @@
 //! is the least Σ gᵢ λᵢ². It depends on the state alone: not on the history, the frame, the order of bodies, or the
 //! units of lengths and masses, and it does not jump where a contact begins to slip. Where contacts slide, the share
 //! decides about the motion.
+//!
+//! **Friction at its limit.** A sticking contact whose share is beyond its friction creeps within the compliances of
+//! the others. Where its creep relieves nothing (it alone holds the body, and what slides beside it presses on it), the
+//! load shifts instead: of all shares with friction at its limit, the one taken is nearest to that of equal stiffness,
+//! by Σ gᵢ Δλᵢ². So friction that some share can keep within its limit does not slip.
 
 use sincro_math::{Real, dot};
 
@@ -17,6 +22,12 @@ use super::solver::{norm, pair};
 
 /// Maximum number of updates of the friction that creeps.
 const MAX_CREEPING: usize = 12;
+
+/// Maximum number of shifts of the load: directions of friction at its limit change with each.
+const MAX_SHIFTS: usize = 60;
+
+/// Square of the effect of shares on friction at its limit, relative to that of their terms, that is none.
+const NO_EFFECT: f64 = 1e-20;
 
 /// Excess of friction over its limit, relative to the largest force, above which it creeps.
 const CREEPS: f64 = 1e-10;
@@ -36,11 +47,19 @@ struct Creeping<R> {
 impl<R: Real> Creeping<R> {
     /// Force along the direction beyond the limit.
     fn beyond(&self, lambda: &[R]) -> R {
-        let mut sum = -(lambda[self.normal] * R::splat(self.coefficient));
+        self.along(lambda) - self.limit(lambda)
+    }
+
+    fn along(&self, lambda: &[R]) -> R {
+        let mut sum = R::zero();
         for k in 0..self.dim {
             sum += self.direction[k] * lambda[self.row + k];
         }
         sum
+    }
+
+    fn limit(&self, lambda: &[R]) -> R {
+        lambda[self.normal] * R::splat(self.coefficient)
     }
 }
 
@@ -61,6 +80,8 @@ pub(crate) struct LoadShare<R> {
     creeping: Vec<Creeping<R>>,
     /// Multipliers before anything is added.
     elastic: Vec<R>,
+    /// Multipliers of equally stiff constraints without creep.
+    equal: Vec<R>,
 }
 
 impl<R: Real> LoadShare<R> {
@@ -79,21 +100,94 @@ impl<R: Real> LoadShare<R> {
         self.creeping.clear();
         self.elastic.clear();
         self.elastic.extend_from_slice(lambda);
-        for _ in 0..MAX_CREEPING {
+        for updates in 0..MAX_CREEPING {
             self.assemble((m, n, redundant), active_set, blocks);
-            self.parts.clear();
-            self.parts.resize(redundant + self.creeping.len(), R::zero());
-            self.system.solve(RANK, &mut self.parts);
-            lambda.copy_from_slice(&self.elastic);
-            for (combination, part) in self.kernel.chunks_exact(m).zip(&self.parts) {
-                for (lambda, x) in lambda.iter_mut().zip(combination) {
-                    *lambda += *part * *x;
-                }
+            self.solve_parts(redundant);
+            let is_determined = self.system.rank == self.parts.len();
+            if !is_determined && updates > 0 {
+                self.shift_load((m, redundant), blocks, lambda);
+                return;
             }
-            if self.system.rank < self.parts.len() || !self.find_creeping(blocks, lambda) {
+            lambda.copy_from_slice(&self.elastic);
+            self.add_parts(m, lambda);
+            if updates == 0 {
+                self.equal.clear();
+                self.equal.extend_from_slice(lambda);
+            }
+            if !is_determined || !self.find_creeping(blocks, lambda) {
                 return;
             }
         }
+    }
+
+    /// Solves the system for the parts of the multipliers without effect, and for one unknown of each creeping group.
+    fn solve_parts(&mut self, redundant: usize) {
+        self.parts.clear();
+        self.parts.resize(redundant + self.creeping.len(), R::zero());
+        self.system.solve(RANK, &mut self.parts);
+    }
+
+    /// Adds the parts of the multipliers without effect.
+    fn add_parts(&self, m: usize, lambda: &mut [R]) {
+        for (combination, part) in self.kernel.chunks_exact(m).zip(&self.parts) {
+            for (lambda, x) in lambda.iter_mut().zip(combination) {
+                *lambda += *part * *x;
+            }
+        }
+    }
+
+    /// Shifts the load to the share nearest to that of equal stiffness in which the friction that is listed as creeping
+    /// is at its limit; where there is none, the share of equal stiffness stays.
+    fn shift_load(&mut self, (m, redundant): (usize, usize), blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
+        for _ in 0..MAX_SHIFTS {
+            let is_effective = self.assemble_shift((m, redundant));
+            if is_effective {
+                self.solve_parts(redundant);
+            }
+            lambda.copy_from_slice(&self.equal);
+            if !is_effective || self.system.rank < self.parts.len() {
+                return;
+            }
+            self.add_parts(m, lambda);
+            if !self.find_creeping(blocks, lambda) {
+                return;
+            }
+        }
+        lambda.copy_from_slice(&self.equal);
+    }
+
+    /// Fills the linear system of the least shift, with one multiplier of each friction at its limit; returns false if
+    /// shares have no effect on one of them.
+    fn assemble_shift(&mut self, (m, redundant): (usize, usize)) -> bool {
+        self.system.reset(redundant + self.creeping.len());
+        let kernel = |k: usize| &self.kernel[k * m..(k + 1) * m];
+        for (i, j) in (0..redundant).flat_map(|i| (0..redundant).map(move |j| (i, j))) {
+            let products = kernel(i).iter().zip(kernel(j)).zip(&self.compliances);
+            let metric = products.fold(R::zero(), |sum, ((x, y), compliance)| sum + *x * *y * *compliance);
+            self.system.set(i, j, metric);
+        }
+        for (k, creeping) in self.creeping.iter().enumerate() {
+            let row = redundant + k;
+            let (mut effect, mut terms) = (0.0, 0.0);
+            for j in 0..redundant {
+                let size = self.system.get(j, j).lane(0).max(f64::MIN_POSITIVE);
+                let (along, limit) = (creeping.along(kernel(j)).lane(0), creeping.limit(kernel(j)).lane(0));
+                effect += (along - limit) * (along - limit) / size;
+                terms += (along.abs() + limit.abs()) * (along.abs() + limit.abs()) / size;
+            }
+            if effect <= NO_EFFECT * terms {
+                return false;
+            }
+            // of size one beside the metric, whatever the units
+            let scale = R::splat(1.0 / effect.sqrt());
+            for j in 0..redundant {
+                let scaled = creeping.beyond(kernel(j)) * scale;
+                self.system.set(row, j, scaled);
+                self.system.set(j, row, scaled);
+            }
+            self.system.rhs[row] = -(creeping.beyond(&self.equal) * scale);
+        }
+        true
     }
 
     /// Fills the linear system: compatible deformations, and friction at its limit where it creeps.

@@ -313,3 +313,61 @@ fn redundant_contacts_without_slip_have_one_motion() {
         }
     }
 }
+
+/// A wheel that stands on a corner which sticks and turns about it, so that its other corner slides: the share of the
+/// load between the corners decides what friction the first one needs. Of the four motions (x, y, z, and the turn, whose
+/// arm is `arm`), the wheel is pushed along x and y.
+fn pivoting_wheel(push: [f64; 2]) -> (Vec<f64>, Vec<f64>, Vec<UnilateralConstraint<f64>>) {
+    let (mass, moment, arm) = (2.0, 0.03, 0.05);
+    // normal, then two tangents of each corner
+    let rows: [[f64; 4]; 6] = [
+        [0.0, 0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+        // its first tangent is the direction in which it slides
+        [0.0, 1.0, 0.0, arm],
+        [1.0, 0.0, 0.0, 0.0],
+    ];
+    let inverse = [1.0 / mass, 1.0 / mass, 1.0 / mass, 1.0 / moment];
+    let entry = |i: usize, j: usize| (0..4).map(|k| rows[i][k] * inverse[k] * rows[j][k]).sum::<f64>();
+    let a = (0..36).map(|k| entry(k / 6, k % 6)).collect();
+    let free = [push[0] / mass, push[1] / mass, -9.81, 0.0];
+    let b = rows.iter().map(|row| row.iter().zip(&free).map(|(x, y)| x * y).sum()).collect();
+    let mut blocks = contacts(2, 0, 0.8);
+    let sliding = blocks[1].groups[0].as_mut().unwrap();
+    sliding.is_sliding = true;
+    sliding.slip([-1.0, 0.0], None);
+    (a, b, blocks)
+}
+
+#[test]
+fn the_load_shifts_before_friction_that_holds_alone_is_beyond_its_limit() {
+    // (push in units of weight, load of the first corner); each push within what some share can hold
+    let weight = 2.0 * 9.81;
+    for push in [[0.0, 0.3], [0.41, 0.4], [0.45, 0.45], [-0.5, 0.5], [0.3, -0.1]] {
+        let (a, b, mut blocks) = pivoting_wheel(push.map(|x: f64| x * weight));
+        let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
+        let (mut solver, mut lambda) = (Solver::default(), vec![0.0; 6]);
+        solver.solve(&problem, &mut blocks, &mut lambda);
+        assert_eq!(solver.report.not_converged, 0, "{push:?}");
+        let first = blocks[0].groups[0].as_ref().unwrap();
+        assert_eq!(first.mode, ContactMode::Stick, "{push:?}: {lambda:?}");
+        // friction is what balance asks for, and within its limit: at it, where an equal share would need more
+        let share = lambda[0] / weight;
+        let needed = |share: f64| f64::hypot(push[0], push[1] - 0.8 * (1.0 - share));
+        let friction = f64::hypot(lambda[1], lambda[2]) / weight;
+        assert!((lambda[0] + lambda[3] - weight).abs() < 1e-9 * weight, "{push:?}: {lambda:?}");
+        assert!((friction - needed(share)).abs() < 1e-9, "{push:?}: {friction}, {share}");
+        if needed(0.5) > 0.8 * 0.5 {
+            assert!((friction - 0.8 * share).abs() < 1e-9, "{push:?}: {friction}, {share}");
+        } else {
+            assert!((share - 0.5).abs() < 1e-9, "{push:?}: {share}");
+        }
+        // the same modes give the same forces, from wherever they start
+        lambda.iter_mut().for_each(|x| *x *= 1.7);
+        assert!(solver.hold(&problem, &mut blocks, &mut lambda), "{push:?}");
+        assert_eq!(solver.worst_law(&problem, &blocks, &lambda), None, "{push:?}: {lambda:?}");
+        assert!((lambda[0] / weight - share).abs() < 1e-9, "{push:?}: {lambda:?}, {share}");
+    }
+}

@@ -203,6 +203,8 @@ pub struct World {
     statistics: StepStatistics,
     /// Events after which several sets of modes keep all laws.
     ambiguous_events: Occurrences,
+    /// True while modes a little ahead are taken if they graze a law now.
+    may_graze: bool,
     /// Changes of modes in the present step: events but for closing contacts, whose bounces may follow each other ever
     /// faster and come to rest.
     mode_changes: u32,
@@ -294,6 +296,7 @@ impl World {
             accelerations,
             statistics: StepStatistics::default(),
             ambiguous_events: Occurrences::default(),
+            may_graze: true,
             mode_changes: 0,
             chattering_steps: Occurrences::default(),
             settled_at: None,

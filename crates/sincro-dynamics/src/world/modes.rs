@@ -146,7 +146,8 @@ impl World {
             self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
             self.pose_kinks();
             self.evaluate_checked(t, system);
-            if !self.mechanism.is_grazing() {
+            let is_possible = if self.may_graze { self.mechanism.is_grazing() } else { self.mechanism.keeps_laws() };
+            if !is_possible {
                 self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
                 self.kinks.clone_from(&self.present_kinks);
             }

@@ -13,6 +13,10 @@ const MAX_EVENTS: usize = 10_000;
 /// Maximum number of events in a row without progress in time.
 const MAX_IDLE_EVENTS: usize = 20;
 
+/// Number of those after which modes that violate a law now are not taken, however little: the law which they graze is
+/// the event that ends the next sub-step at once, while the modes of the present instant may hold for a while.
+const MAX_GRAZING_EVENTS: usize = 2;
+
 /// Time between events, relative to the tick, that counts as none.
 const IDLE: f64 = 1e-12;
 
@@ -70,6 +74,7 @@ impl World {
             let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
             if self.is_constrained() {
                 self.resolve_impacts();
+                self.may_graze = idle <= MAX_GRAZING_EVENTS;
                 if !self.resolve_modes(t, (h_max, after_event), system) {
                     // no finite forces keep the laws here (Painlevé): impulses do
                     t = self.fallback_step(t, span, (&mut share, end), system)?;
