@@ -133,26 +133,27 @@ impl<R: Real> Quat<R> {
 
 impl<R: Real> Quat<R> {
     /// Unit quaternion of the rotation matrix `m` (dimensionless), with w ≥ 0; exact to rounding for any rotation
-    /// (Shepperd's choice of pivot). Only for numbers of one lane, since lanes can differ in their pivot.
+    /// (Shepperd's choice of pivot, by selection, so that lanes can differ in theirs).
+    #[inline(always)]
     pub fn from_matrix(m: &Mat3<R>) -> Self {
-        debug_assert!(R::IS_SCALAR, "lanes can differ in their pivot");
         let m = &m.0;
         let trace = m[0][0] + m[1][1] + m[2][2];
-        let pivots = [trace, m[0][0], m[1][1], m[2][2]];
-        let k = (0..4).fold(0, |best, k| if pivots[k].lane(0) > pivots[best].lane(0) { k } else { best });
-        let q = if k == 0 {
-            [R::one() + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
-        } else {
+        let mut q = [R::one() + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]];
+        let mut pivot = trace;
+        for k in 1..4 {
             let (i, j, l) = (k - 1, k % 3, (k + 1) % 3);
-            let mut q = [R::zero(); 4];
-            q[0] = m[l][j] - m[j][l];
-            q[1 + i] = R::one() + m[i][i] - m[j][j] - m[l][l];
-            q[1 + j] = m[i][j] + m[j][i];
-            q[1 + l] = m[i][l] + m[l][i];
-            q
-        };
+            let mut other = [m[l][j] - m[j][l]; 4];
+            other[1 + i] = R::one() + m[i][i] - m[j][j] - m[l][l];
+            other[1 + j] = m[i][j] + m[j][i];
+            other[1 + l] = m[i][l] + m[l][i];
+            for (q, other) in q.iter_mut().zip(other) {
+                *q = pivot.if_less(m[i][i], other, *q);
+            }
+            pivot = pivot.if_less(m[i][i], m[i][i], pivot);
+        }
         let q = Self::from_slice(&q).normalized();
-        if q.w.lane(0) < 0.0 { Self { w: -q.w, xyz: -q.xyz } } else { q }
+        let of_sign = |x: R| q.w.if_less(R::zero(), -x, x);
+        Self { w: of_sign(q.w), xyz: Vec3(q.xyz.0.map(of_sign)) }
     }
 }
 
