@@ -1,6 +1,7 @@
 //! Integrators, drives and force elements against closed forms and orders of convergence.
 
 mod air;
+mod bushings;
 mod contacts;
 mod dc_motors;
 mod drives;

@@ -29,14 +29,21 @@ const ROUGH: &[(&str, &str)] = &[
     ("step", "0.01"),
 ];
 
-/// With a formula, a table and a rope between points, one of them in a loop.
-const LINES: &[(&str, &str)] = &[(
-    "spring_damper",
-    "[{ name = \"a\", between = [\"/\", \"/shoulder/elbow/forearm\"], points = [[0.0, 0.3, 2.0], [0.0, 0.0, 0.0]], \
-      law = \"-20*x - 5*abs(x)*x - v\", actuator = { command = 0.5 } }, \
-     { name = \"b\", between = [\"/\", \"/shoulder/upper_arm\"], points = [[0.5, 0.0, 1.0], [0.0, 0.0, 0.0]], \
-      tension_only = true, table = [[0.0, 0.0], [0.1, -2.0], [0.3, -9.0]] }]",
-)];
+/// With a formula, a table and a rope between points, one of them in a loop, and a bushing.
+const LINES: &[(&str, &str)] = &[
+    (
+        "spring_damper",
+        "[{ name = \"a\", between = [\"/\", \"/shoulder/elbow/forearm\"], points = [[0.0, 0.3, 2.0], [0.0, 0.0, 0.0]], \
+          law = \"-20*x - 5*abs(x)*x - v\", actuator = { command = 0.5 } }, \
+         { name = \"b\", between = [\"/\", \"/shoulder/upper_arm\"], points = [[0.5, 0.0, 1.0], [0.0, 0.0, 0.0]], \
+          tension_only = true, table = [[0.0, 0.0], [0.1, -2.0], [0.3, -9.0]] }]",
+    ),
+    (
+        "bushing",
+        "[{ name = \"c\", between = [\"/shoulder/upper_arm\", \"/shoulder/elbow/forearm\"], stiffness = 2.0, \
+          rotational_stiffness = [1.0, 4.0, 3.0], rotational_damping = 0.1 }]",
+    ),
+];
 
 /// With an IMU, and a step at which the explicit methods are stable.
 const FLIGHT: &[(&str, &str)] = &[

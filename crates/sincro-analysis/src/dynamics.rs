@@ -106,8 +106,8 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
     Ok(EquationTerms { mass_matrix: mass, inverse_dynamics: inverse, forward_dynamics: forward, passive })
 }
 
-/// Adds the generalized forces of springs and dampers between points, of tendons and of elastic gears, without those of
-/// actuators.
+/// Adds the generalized forces of springs and dampers between points, of tendons, bushings and elastic gears,
+/// without those of actuators.
 fn add_path_forces(model: &Model<f64>, (q, v): (&[f64], &[f64]), scratch: &mut Scratch<f64>, passive: &mut [f64]) {
     let zeros = vec![0.0; v.len()];
     kinematics::motions(model, q, v, &zeros, scratch);
@@ -126,6 +126,15 @@ fn add_path_forces(model: &Model<f64>, (q, v): (&[f64], &[f64]), scratch: &mut S
                 if let Some(link) = at.link {
                     wrenches[link] += segment.wrench(end, &line, force, &scratch.link_poses()[link]);
                 }
+            }
+        }
+    }
+    for bushing in model.bushings() {
+        let at = bushing.motion(|link| (scratch.twist(link), scratch.link_poses()[link]));
+        let force = bushing.force(&at);
+        for (end, frame) in bushing.ends.iter().enumerate() {
+            if let Some(link) = frame.link {
+                wrenches[link] += bushing.wrench(end, &at, &force, &scratch.link_poses()[link]);
             }
         }
     }

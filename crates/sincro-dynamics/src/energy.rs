@@ -77,6 +77,9 @@ pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>)
         let at = element.length(q, v, |link| (scratch.links[link].v, scratch.poses[link]));
         e.potential += element.potential(at.length);
     }
+    for bushing in &model.bushings {
+        e.potential += bushing.potential(&bushing.motion(|link| (scratch.links[link].v, scratch.poses[link])));
+    }
     for &link in &model.sprung {
         let link = &model.links[link];
         e.potential += spring::stored_energy(link, &model.dofs[link.v_idx as usize..], q);

@@ -1,11 +1,12 @@
-//! Stiffness estimate: rates of springs and dampers, of joints and between points, which an explicit method must
-//! resolve.
+//! Stiffness estimate: rates of springs and dampers, of joints, between points and of bushings, which an explicit
+//! method must resolve.
 //!
 //! For each degree of freedom with stiffness k, damping c and the inertia D that a torque on it meets with everything
 //! beyond left free (`joint_inertias` in `recursions/aba.rs`), the rate is that of the faster root of D s² + c s + k
 //! = 0. Coupling between joints is neglected, and D changes with the pose.
 
 use crate::actuation::MotorMode;
+use crate::actuation::bushing::BushingMotion;
 use crate::actuation::spring_damper::{Line, PathLength};
 use crate::constraint::implicit_forces::ImplicitForces;
 use crate::model::Model;
@@ -27,6 +28,8 @@ pub enum StiffElement {
     SpringDamper(usize),
     /// Elastic gear, by its index in [`Model::elastic_gears`], taken as touching.
     ElasticGear(usize),
+    /// Bushing, by its index in [`Model::bushings`]: along or about one of its axes.
+    Bushing(usize),
     /// Winding with inductance, by its index in [`Model::windings`]: a spring of stiffness N² k_t k_e/L in series with
     /// a damper of N² k_t k_e/R.
     Winding(usize),
@@ -62,6 +65,7 @@ impl Stiffness {
                 format!("winding of the motor of `{}`", model.names().dof_name(model.windings[k].dof))
             }
             StiffElement::ElasticGear(k) => format!("coupling `{}`", model.names().elastic_gears[k]),
+            StiffElement::Bushing(k) => format!("bushing `{}`", model.names().bushings[k]),
             StiffElement::SpringDamper(k) => format!("spring or tendon `{}`", model.names().spring_dampers[k]),
         }
     }
@@ -74,6 +78,17 @@ pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     StiffnessProbe::new(model).stiffest(model, state)
 }
 
+/// Inverse inertias J M⁻¹ Jᵀ that each bushing of `model` meets at a state, all else free: along the axes of its first
+/// frame `[1/kg]`, then about them `[1/(kg·m²)]`; zero where it moves nothing.
+#[must_use]
+pub fn inverse_inertias_of_bushings(model: &Model<f64>, state: &State<f64>) -> Vec<[f64; 6]> {
+    let mut probe = StiffnessProbe::new(model);
+    let _fastest = probe.stiffest(model, state);
+    let first = model.spring_dampers.len() + model.elastic_gears.len();
+    let all: Vec<f64> = probe.forces.iter().flat_map(|forces| forces.inverse_inertias().skip(first)).collect();
+    all.chunks_exact(6).map(|six| core::array::from_fn(|k| six[k])).collect()
+}
+
 /// Working memory of [`stiffest`], for many states of one model without allocation.
 #[derive(Clone, Debug)]
 pub struct StiffnessProbe {
@@ -82,6 +97,7 @@ pub struct StiffnessProbe {
     forces: Option<Box<ImplicitForces<f64>>>,
     lines: Vec<Line<f64>>,
     lengths: Vec<PathLength<f64>>,
+    bushings: Vec<BushingMotion<f64>>,
 }
 
 impl StiffnessProbe {
@@ -94,6 +110,7 @@ impl StiffnessProbe {
             forces: ImplicitForces::new(model),
             lines: Vec::new(),
             lengths: Vec::with_capacity(model.spring_dampers.len()),
+            bushings: Vec::with_capacity(model.bushings.len()),
         }
     }
 
@@ -116,7 +133,7 @@ impl StiffnessProbe {
     /// Fastest spring or damper between two points, with everything between them left free; leaves the factors of the
     /// mass matrix.
     fn stiffest_line(&mut self, model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
-        let Self { scratch, at_rest, forces, lines, lengths } = self;
+        let Self { scratch, at_rest, forces, lines, lengths, bushings } = self;
         let forces = forces.as_mut()?;
         kinematics::motions(model, &state.q, &state.v, at_rest.zeros(), scratch);
         lines.clear();
@@ -126,9 +143,11 @@ impl StiffnessProbe {
             lines.extend(element.segments().iter().map(|segment| segment.line(motion)));
             lengths.push(element.length(&state.q, &state.v, motion));
         }
+        bushings.clear();
+        bushings.extend(model.bushings.iter().map(|bushing| bushing.motion(motion)));
         at_rest.factor(model, &state.q, scratch);
-        forces.place(model, lines, scratch, at_rest.zeros());
-        let n_rows = lengths.len() + model.elastic_gears.len();
+        forces.place(model, (lines, bushings), scratch, at_rest.zeros());
+        let n_rows = ImplicitForces::n_rows(model);
         forces.factor(model, scratch, core::iter::repeat_n(1.0, n_rows), at_rest.zeros());
         let each = model.spring_dampers.iter().zip(lengths.iter()).zip(forces.inverse_inertias()).enumerate();
         let each = each.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, ((element, at), inverse))| {
@@ -139,7 +158,12 @@ impl StiffnessProbe {
         let of_gears = of_gears.filter(|(_, (_, inverse))| *inverse > 0.0).map(|(k, (gear, inverse))| {
             Stiffness::new(StiffElement::ElasticGear(k), gear.stiffness, gear.damping, 1.0 / inverse)
         });
-        each.chain(of_gears).filter(|s| s.rate > 0.0).max_by(|a, b| a.rate.total_cmp(&b.rate))
+        let of_bushings = forces.inverse_inertias().skip(lengths.len() + model.elastic_gears.len()).enumerate();
+        let of_bushings = of_bushings.filter(|(_, inverse)| *inverse > 0.0).map(|(i, inverse)| {
+            let (bushing, k) = (&model.bushings[i / 6], i % 6);
+            Stiffness::new(StiffElement::Bushing(i / 6), bushing.stiffness[k], bushing.damping[k], 1.0 / inverse)
+        });
+        each.chain(of_gears).chain(of_bushings).filter(|s| s.rate > 0.0).max_by(|a, b| a.rate.total_cmp(&b.rate))
     }
 }
 

@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::document::Document;
 
 /// Keys of the lists of a scene file that hold objects, in the order in which they are read.
-pub const KINDS: [&str; 12] = [
+pub const KINDS: [&str; 13] = [
     "joint",
     "body",
     "frame",
@@ -18,10 +18,11 @@ pub const KINDS: [&str; 12] = [
     "coupling",
     "spring_damper",
     "tendon",
+    "bushing",
 ];
 
 /// Keys of the lists whose elements join objects: their path is `/` and the name, wherever they stand.
-pub(crate) const JOINING: [&str; 4] = ["closure", "coupling", "spring_damper", "tendon"];
+pub(crate) const JOINING: [&str; 5] = ["closure", "coupling", "spring_damper", "tendon", "bushing"];
 
 /// Object of a scene file by path and place, before it is validated; found by [`raw_objects`].
 #[derive(Clone, Debug)]

@@ -884,7 +884,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "pid=3",
         r##"--set:1:1: error: `pid`: a scene or experiment has no `pid`
-  help: keys: `spring_damper`, `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `units` and 38 more"##,
+  help: keys: `spring_damper`, `wind`, `air_density`, `plot`, `seed`, `body`, `title`, `units` and 39 more"##,
     ),
     (
         "diagram.pid=3",
@@ -906,7 +906,7 @@ const SETTINGS: &[(&str, &str)] = &[
     (
         "sample_time=0.003",
         r##"--set:1:1: error: `sample_time`: a scene or experiment has no `sample_time`
-  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `campaign`, `spring_damper`, `rest_speed`, `initial_pose` and 38 more"##,
+  help: keys: `plot`, `parameters`, `simulation_step`, `frame`, `campaign`, `spring_damper`, `rest_speed`, `initial_pose` and 39 more"##,
     ),
     (
         "diagram.sample_time=0.003",

@@ -161,7 +161,7 @@ quaternion_wxyz = [1, 0, 0, 0]"#,
         "[[frame]]",
         "[[frme]]",
         r#"scene.toml:17:3: error: unknown key `frme`
-  help: did you mean `frame`? keys here: `frame`, `force`, `format`, `parameters`, `camera`, `rest_speed`, `air_density`, `drag` and 17 more"#,
+  help: did you mean `frame`? keys here: `frame`, `force`, `format`, `parameters`, `camera`, `rest_speed`, `air_density`, `drag` and 18 more"#,
     ),
     (
         "experiment.toml",

@@ -44,7 +44,7 @@ const REFUSED: &[(&str, &str)] = &[
     (
         "stpe=0.1",
         r#"--set:1:1: error: `stpe`: a scene or experiment has no `stpe`
-  help: did you mean `step`? keys: `step`, `stop_when`, `seed`, `scene`, `sweep`, `title`, `rest_speed`, `script` and 38 more"#,
+  help: did you mean `step`? keys: `step`, `stop_when`, `seed`, `scene`, `sweep`, `title`, `rest_speed`, `script` and 39 more"#,
     ),
     (
         "/shoulder=2",

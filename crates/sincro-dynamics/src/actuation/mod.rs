@@ -10,12 +10,14 @@
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //! | [`elastic_gear`] | −k p − c ẋ between two joints, outside of the backlash | ½ k p² | c ẋ² |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
+//! | [`bushing`] | a force and torque between two frames | ½ Σ kᵢ xᵢ² | Σ cᵢ ẋᵢ² |
 //!
 //! Uniform gravity enters the recursions as an acceleration of the base ([`crate::energy`] has its potential energy),
 //! one that depends on the position as forces on bodies ([`gravity_field`]); elements in the air are in
 //! [`crate::aero`].
 
 pub mod applied;
+pub mod bushing;
 pub(crate) mod damper;
 pub mod drive;
 pub mod elastic_gear;
@@ -28,6 +30,7 @@ pub mod spring_damper;
 pub mod winding;
 
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
+pub use bushing::Bushing;
 pub use drive::{Drive, DriveKind};
 pub use elastic_gear::ElasticGear;
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};

@@ -157,7 +157,7 @@ pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'sta
         return Some("a rotor of particles");
     }
     if method != MethodKind::Rk4 && model.has_lines() {
-        return Some("a spring or damper between two points, or an elastic gear, with an implicit method");
+        return Some("a spring or damper between two points, an elastic gear or a bushing, with an implicit method");
     }
     (!model.constraints().is_empty()).then_some("contacts, loop joints or limits of joints")
 }

@@ -1,6 +1,6 @@
 //! Checks of the builder's objects: errors, for which no model is built, and warnings.
 
-use crate::actuation::{DriveKind, MotorMode, SpringDamper, Winding};
+use crate::actuation::{Bushing, DriveKind, MotorMode, SpringDamper, Winding};
 use crate::aero::rotor::RotorLaw;
 use crate::joint::{Friction, JointKind};
 use crate::model::builder::{
@@ -77,6 +77,12 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
             let help = "give a finite ratio other than 0, a positive stiffness, damping and backlash of zero or more";
             let (severity, help) = (Severity::Error, help.into());
             found.0.push(Diagnostic { severity, node: None, field: "coupling", message, help });
+        }
+    }
+    for (name, spec) in &builder.bushings {
+        for (_, message, help) in spec.problems(&format!("bushing `{name}`")) {
+            let (severity, help) = (Severity::Error, help.into());
+            found.0.push(Diagnostic { severity, node: None, field: "bushing", message, help });
         }
     }
     found.0
@@ -402,7 +408,7 @@ fn carries_a_body(builder: &ModelBuilder, joint: NodeId) -> bool {
     })
 }
 
-/// Springs and dampers between points of one body, whose length never changes.
+/// Springs and dampers between points of one body, whose length never changes, and bushings between its frames.
 pub(super) fn idle_lines(model: &Model<f64>) -> Vec<Diagnostic> {
     let is_idle = |(element, _): &(&SpringDamper<f64>, &String)| {
         element.shares().is_empty() && element.segments().iter().all(|s| s.ends[0].link == s.ends[1].link)
@@ -418,7 +424,16 @@ pub(super) fn idle_lines(model: &Model<f64>) -> Vec<Diagnostic> {
             help: "join points that move against each other".into(),
         }
     };
-    lines.filter(is_idle).map(diagnostic).collect()
+    let bushings = model.bushings.iter().zip(&model.names.bushings);
+    let idle_bushings = bushings.filter(|(element, _)| element.ends[0].link == element.ends[1].link);
+    let of_bushing = |(_, name): (&Bushing<f64>, &String)| Diagnostic {
+        severity: Severity::Error,
+        node: None,
+        field: "bushing",
+        message: format!("both ends of bushing `{name}` are fixed in one another: it moves nothing"),
+        help: "join frames that move against each other".into(),
+    };
+    lines.filter(is_idle).map(diagnostic).chain(idle_bushings.map(of_bushing)).collect()
 }
 
 /// Joints along which no inertia can be felt: a point mass on its own axis, say.

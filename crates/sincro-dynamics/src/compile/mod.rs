@@ -9,9 +9,10 @@ use std::sync::Arc;
 
 use sincro_math::scalar_field::ScalarField;
 
+use crate::actuation::bushing::LinkFrame;
 use crate::actuation::spring::NonlinearSpring;
 use crate::actuation::spring_damper::{JointShare, LineActuator, LinkPoint, Path, Segment};
-use crate::actuation::{AppliedTorque, AppliedWrench, ElasticGear, Motor, SpringDamper};
+use crate::actuation::{AppliedTorque, AppliedWrench, Bushing, ElasticGear, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedSource};
 use crate::contact::{self, Collider, PairLaw};
@@ -85,6 +86,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             drags: Vec::new(),
             spring_dampers: Vec::new(),
             elastic_gears: Vec::new(),
+            bushings: Vec::new(),
             wind: builder.wind.clone(),
             gravity_field: builder.gravity_field.clone(),
             n_q: 0,
@@ -240,6 +242,18 @@ impl Compiler<'_> {
                 backlash: spec.backlash,
             });
             names.elastic_gears.push(name.clone());
+        }
+        for (name, spec) in &builder.bushings {
+            let end = |k: usize| {
+                let Attached { link, pose } = carriers[spec.ends[k].0 as usize].attached();
+                LinkFrame { link, pose: pose.compose(&spec.poses[k]) }
+            };
+            structure.bushings.push(Bushing {
+                ends: [end(0), end(1)],
+                stiffness: spec.stiffness,
+                damping: spec.damping,
+            });
+            names.bushings.push(name.clone());
         }
         structure.names = Arc::new(names);
         let mut n_states = structure.rotors.iter().filter(|r| r.speed.state().is_some()).count();

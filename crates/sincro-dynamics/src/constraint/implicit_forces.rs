@@ -5,7 +5,7 @@
 //! couples all degrees of freedom between the points (of an elastic gear, whose row is ẋ = q̇₂ − r q̇₁, its two); joint
 //! springs are on the diagonal of the mass matrix only. A path of several lines has the sum of their rows, a linear
 //! combination of joint coordinates that of rows of two joints each.
-//! Forces λ = −κ ℓ̈ of all m paths solve, with the rows scaled by √κ,
+//! A bushing has six rows. Forces λ = −κ ℓ̈ of all m rows solve, with the rows scaled by √κ,
 //!
 //! (1 + Ĵ M⁻¹ Ĵᵀ) λ̂ = −(Ĵ v̇₀ + Ĵ˙ v), λ = √κ λ̂,
 //!
@@ -25,10 +25,13 @@ use sincro_math::Real;
 
 use super::delassus::{Delassus, InverseMass};
 use super::row::{Motions, Row, force_at, force_rate};
+use crate::actuation::Bushing;
+use crate::actuation::bushing::BushingMotion;
 use crate::actuation::spring_damper::{JointShare, Line, PathLength, Segment};
 use crate::joint::WORLD;
 use crate::model::Model;
 use crate::scratch::Scratch;
+use crate::spatial::{Force, Vec3};
 
 /// Forces along all paths at the new state, with working memory.
 #[derive(Clone, Debug)]
@@ -65,10 +68,28 @@ fn row_of_shares<R: Real>(shares: &[JointShare<R>]) -> Row<R> {
     Row::of_joints([of(0), of(1)])
 }
 
+/// Row of a bushing: of its translation along axis `k` of A (0–2), or of its rotation (3–5).
+fn row_of_bushing<R: Real>(element: &Bushing<R>, at: &BushingMotion<R>, k: usize) -> Row<R> {
+    let [one, two] = element.ends.map(|end| end.link.map_or(WORLD, |link| link as u32));
+    if k < 3 {
+        let n = at.axes.col(k);
+        let w_dot = force_rate(at.point, n, at.velocity, at.turning.cross(n));
+        return Row::between(two, one, force_at(at.point, n), w_dot);
+    }
+    let n = at.axes.mul_vec(at.rotation_rows.row(k - 3));
+    let moment = |ang: Vec3<R>| Force { ang, lin: Vec3::zero() };
+    Row::between(two, one, moment(n), moment(at.turning.cross(n)))
+}
+
 impl<R: Real> ImplicitForces<R> {
-    /// Working memory for the model; none if it has no springs and dampers along paths and no elastic gears.
+    /// Number of rows of a model, with all parts of a path taken as one.
+    pub fn n_rows(model: &Model<R>) -> usize {
+        model.spring_dampers.len() + model.elastic_gears.len() + 6 * model.bushings.len()
+    }
+
+    /// Working memory for the model; none if it has no springs and dampers along paths, elastic gears or bushings.
     pub fn new(model: &Model<R>) -> Option<Box<Self>> {
-        let m = model.spring_dampers.len() + model.elastic_gears.len();
+        let m = Self::n_rows(model);
         if m == 0 {
             return None;
         }
@@ -99,8 +120,15 @@ impl<R: Real> ImplicitForces<R> {
         size_of_val(&*self.factors) + size_of_val(&*self.lower) + size_of_val(&*self.row) * 4
     }
 
-    /// Rows of the paths, with all their lines one after the other, at joint rates `v`, at the poses of `scratch`.
-    pub fn place(&mut self, model: &Model<R>, lines: &[Line<R>], scratch: &Scratch<R>, v: &[R]) {
+    /// Rows of the paths, with all their lines one after the other, and of the bushings, at joint rates `v`, at the
+    /// poses of `scratch`.
+    pub fn place(
+        &mut self,
+        model: &Model<R>,
+        (lines, bushings): (&[Line<R>], &[BushingMotion<R>]),
+        scratch: &Scratch<R>,
+        v: &[R],
+    ) {
         self.motions.place(model, scratch, v);
         self.rows.clear();
         self.ends.clear();
@@ -114,6 +142,12 @@ impl<R: Real> ImplicitForces<R> {
             let [one, two] = gear.dofs.map(|dof| dof as u32);
             self.rows.push(Row::of_joints([(two, R::one()), (one, -gear.ratio)]));
             self.ends.push(self.rows.len());
+        }
+        for (element, at) in model.bushings.iter().zip(bushings) {
+            for k in 0..6 {
+                self.rows.push(row_of_bushing(element, at, k));
+                self.ends.push(self.rows.len());
+            }
         }
     }
 
@@ -268,12 +302,22 @@ impl<R: Real> ImplicitForces<R> {
         }
     }
 
-    /// Sets the rate of each path for other joint rates `v` at the same poses [m/s].
-    pub fn rates_at(&mut self, model: &Model<R>, v: &[R], lengths: &mut [PathLength<R>]) {
+    /// Sets the rate of each path and bushing for other joint rates `v` at the same poses `[m/s]`, `[rad/s]`.
+    pub fn rates_at(
+        &mut self,
+        model: &Model<R>,
+        v: &[R],
+        lengths: &mut [PathLength<R>],
+        bushings: &mut [BushingMotion<R>],
+    ) {
         self.motions.place_velocities(model, v);
+        let rate = |i: usize| self.parts(i).iter().fold(R::zero(), |sum, row| sum + self.motions.placed_rate(row, v));
         for (i, at) in lengths.iter_mut().enumerate() {
-            let parts = self.parts(i).iter();
-            at.rate = parts.fold(R::zero(), |sum, row| sum + self.motions.placed_rate(row, v));
+            at.rate = rate(i);
+        }
+        let first = lengths.len() + model.elastic_gears.len();
+        for (i, at) in bushings.iter_mut().enumerate() {
+            at.rates = at.rates_of_rows(core::array::from_fn(|k| rate(first + 6 * i + k)));
         }
     }
 }

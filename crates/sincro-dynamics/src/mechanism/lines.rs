@@ -1,8 +1,9 @@
-//! Springs and dampers along paths, and elastic gears: their forces on links, at one instant or at the end of a
-//! linearly implicit step, and their power. Torques of those on joints are in [`torques`](super::torques).
+//! Springs and dampers along paths, elastic gears and bushings: their forces on links, at one instant or at the end of
+//! a linearly implicit step, and their power. Torques of those on joints are in [`torques`](super::torques).
 
-use sincro_math::Real;
+use sincro_math::{Real, dot};
 
+use crate::actuation::bushing::BushingMotion;
 use crate::actuation::spring_damper::{Line, Path, PathLength};
 use crate::constraint::implicit_forces::ImplicitForces;
 use crate::model::Model;
@@ -16,7 +17,9 @@ pub(super) struct Lines<R> {
     lines: Vec<Line<R>>,
     /// Length of each path.
     lengths: Vec<PathLength<R>>,
-    /// κ = h (c + h k) of each, of a linearly implicit step.
+    /// Deflection of each bushing.
+    bushings: Vec<BushingMotion<R>>,
+    /// κ = h (c + h k) of each row of a linearly implicit step.
     kappa: Vec<R>,
     /// Power of the forces that were added to the external wrenches `[W]`.
     power: R,
@@ -26,13 +29,14 @@ pub(super) struct Lines<R> {
 impl<R: Real> Lines<R> {
     pub fn new(model: &Model<R>) -> Self {
         let n = model.spring_dampers.len();
-        let m = n + model.elastic_gears.len();
+        let m = ImplicitForces::n_rows(model);
         // solves linear systems: lanes leave implicit methods to one world at a time
         let implicit = if R::IS_SCALAR { ImplicitForces::new(model) } else { None };
         let n_lines = model.spring_dampers.iter().map(|element| element.segments().len()).sum();
         Self {
             lines: Vec::with_capacity(n_lines),
             lengths: Vec::with_capacity(n),
+            bushings: Vec::with_capacity(model.bushings.len()),
             kappa: vec![R::zero(); m],
             power: R::zero(),
             implicit,
@@ -43,6 +47,7 @@ impl<R: Real> Lines<R> {
     pub fn heap_bytes(&self) -> usize {
         size_of_val(&*self.lines)
             + size_of_val(&*self.lengths)
+            + size_of_val(&*self.bushings)
             + size_of_val(&*self.kappa)
             + self.implicit.as_ref().map_or(0, |implicit| implicit.heap_bytes())
     }
@@ -102,10 +107,39 @@ impl<R: Real> Lines<R> {
                 *kappa = of_dampers * (c + of_springs * k);
             }
         }
+        self.add_bushing_wrenches(model, scratch, implicit, external);
         if R::IS_SCALAR
             && let (Some(_), Some(forces)) = (implicit, &mut self.implicit)
         {
-            forces.place(model, &self.lines, scratch, v);
+            forces.place(model, (&self.lines, &self.bushings), scratch, v);
+        }
+    }
+
+    /// Adds the wrenches of bushings, as [`Lines::add_wrenches`].
+    #[inline(always)]
+    fn add_bushing_wrenches(
+        &mut self,
+        model: &Model<R>,
+        scratch: &Scratch<R>,
+        implicit: Option<(f64, f64)>,
+        external: &mut [Force<R>],
+    ) {
+        self.bushings.clear();
+        let first = model.spring_dampers.len() + model.elastic_gears.len();
+        for (element, kappa) in model.bushings.iter().zip(self.kappa[first..].chunks_exact_mut(6)) {
+            let mut at = element.motion(|link| (scratch.links[link].v, scratch.poses[link]));
+            let mut force = element.force(&at);
+            if let Some(steps) = implicit {
+                let ahead = element.implicit(&mut at, (R::splat(steps.0), R::splat(steps.1)), kappa);
+                force.iter_mut().zip(ahead).for_each(|(force, ahead)| *force += ahead);
+            }
+            for (end, frame) in element.ends.iter().enumerate() {
+                if let Some(link) = frame.link {
+                    external[link] += element.wrench(end, &at, &force, &scratch.poses[link]);
+                }
+            }
+            self.power += dot(&force, &at.rates);
+            self.bushings.push(at);
         }
     }
 
@@ -127,13 +161,16 @@ impl<R: Real> Lines<R> {
         if R::IS_SCALAR
             && let (Some(v), Some(forces)) = (v, &mut self.implicit)
         {
-            forces.rates_at(model, v, &mut self.lengths);
+            forces.rates_at(model, v, &mut self.lengths, &mut self.bushings);
         }
         let (mut work, mut heat) = (-self.power, R::zero());
         for (element, at) in model.spring_dampers.iter().zip(&self.lengths) {
             let forces = element.forces(at.length, at.rate, commands);
             work += forces.actuator * at.rate;
             heat -= forces.damping * at.rate;
+        }
+        for (element, at) in model.bushings.iter().zip(&self.bushings) {
+            heat -= dot(&element.dissipative(at.rates), &at.rates);
         }
         (work, heat)
     }

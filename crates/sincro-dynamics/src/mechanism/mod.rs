@@ -540,7 +540,7 @@ impl<R: Real> Mechanism<R> {
                 work += self.air_dissipation;
                 dissipation += self.air_dissipation;
             }
-            if !self.model.spring_dampers.is_empty() {
+            if !self.model.spring_dampers.is_empty() || !self.model.bushings.is_empty() {
                 let (of_actuators, heat) =
                     self.lines.power(&self.model, &self.commands, (steps.0.lane(0) != 0.0).then_some(v));
                 work += of_actuators;

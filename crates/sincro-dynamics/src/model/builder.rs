@@ -324,6 +324,42 @@ pub struct ElasticGearSpec {
     pub backlash: f64,
 }
 
+/// Bushing between two frames, to be added by [`ModelBuilder::bushing`]; lists of six have x, y, z of the translation,
+/// then of the rotation, along and about the axes of the first frame.
+#[derive(Clone, Debug)]
+pub struct BushingSpec {
+    /// Bodies or frames (the world too) that carry its two frames.
+    pub ends: [NodeId; 2],
+    /// The two frames in these, in their order `[m]`: it is without force where they coincide.
+    pub poses: [Pose<f64>; 2],
+    /// Stiffnesses `[N/m]`, `[N·m/rad]`.
+    pub stiffness: [f64; 6],
+    /// Dampings `[N·s/m]`, `[N·m·s/rad]`.
+    pub damping: [f64; 6],
+}
+
+impl BushingSpec {
+    /// Checks the numbers: for each fault the name of the field, a message about the element, and a help; empty if
+    /// there is none. `of` is the element as messages call it, with its name.
+    #[must_use]
+    pub fn problems(&self, of: &str) -> Vec<(&'static str, String, &'static str)> {
+        let lists = [
+            ("stiffness", &self.stiffness[..3], "N/m"),
+            ("damping", &self.damping[..3], "N·s/m"),
+            ("rotational_stiffness", &self.stiffness[3..], "N·m/rad"),
+            ("rotational_damping", &self.damping[3..], "N·m·s/rad"),
+        ];
+        let mut found = Vec::new();
+        for (key, list, unit) in lists {
+            if let Some(x) = list.iter().find(|x| !(x.is_finite() && **x >= 0.0)) {
+                let message = format!("{key} {x} {unit} of {of} is negative or not finite");
+                found.push((key, message, "give finite numbers, zero or more"));
+            }
+        }
+        found
+    }
+}
+
 pub(crate) struct Node {
     pub(crate) name: String,
     pub(crate) parent: NodeId,
@@ -358,6 +394,7 @@ pub struct ModelBuilder {
     pub(crate) loop_joints: Vec<(String, LoopJointSpec)>,
     pub(crate) gears: Vec<(String, GearSpec)>,
     pub(crate) elastic_gears: Vec<(String, ElasticGearSpec)>,
+    pub(crate) bushings: Vec<(String, BushingSpec)>,
     pub(crate) spring_dampers: Vec<(String, SpringDamperSpec)>,
     pub(crate) rest_speed: f64,
 }
@@ -378,6 +415,7 @@ impl ModelBuilder {
             loop_joints: Vec::new(),
             gears: Vec::new(),
             elastic_gears: Vec::new(),
+            bushings: Vec::new(),
             spring_dampers: Vec::new(),
             rest_speed: REST_SPEED,
         }
@@ -548,6 +586,11 @@ impl ModelBuilder {
     /// Adds an elastic gear with backlash; see [`ElasticGear`](crate::actuation::ElasticGear).
     pub fn elastic_gear(&mut self, name: &str, spec: ElasticGearSpec) {
         self.elastic_gears.push((name.into(), spec));
+    }
+
+    /// Adds a bushing; see [`Bushing`](crate::actuation::Bushing).
+    pub fn bushing(&mut self, name: &str, spec: BushingSpec) {
+        self.bushings.push((name.into(), spec));
     }
 
     /// Adds a spring, damper and actuator between two points, or a tendon; see

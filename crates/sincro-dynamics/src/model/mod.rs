@@ -28,8 +28,8 @@ pub use crate::geometry::{MassProperties, Shape};
 pub use crate::ids::{BodyId, JointId, MotorId, RotorId};
 pub use crate::joint::{Dof, Link};
 pub use builder::{
-    BodySpec, DragSpec, ElasticGearSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder, NodeId, PathSpec,
-    REST_SPEED, RotorDrive, RotorSpec, SpringDamperSpec,
+    BodySpec, BushingSpec, DragSpec, ElasticGearSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder,
+    NodeId, PathSpec, REST_SPEED, RotorDrive, RotorSpec, SpringDamperSpec,
 };
 pub(crate) use constraints::RESERVED_SLOTS;
 pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
@@ -43,7 +43,7 @@ use crate::actuation::Drive;
 use crate::actuation::damper;
 use crate::actuation::spring::{self, NonlinearSpring};
 use crate::actuation::{
-    AppliedTorque, AppliedWrench, ElasticGear, GravityField, Motor, MotorMode, SpringDamper, Winding,
+    AppliedTorque, AppliedWrench, Bushing, ElasticGear, GravityField, Motor, MotorMode, SpringDamper, Winding,
 };
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
@@ -263,9 +263,16 @@ impl<R: Real> Model<R> {
         &self.elastic_gears
     }
 
-    /// Returns true if there are springs and dampers that couple degrees of freedom: along paths, of elastic gears.
+    /// Bushings, in the order in which they were added.
+    #[must_use]
+    pub fn bushings(&self) -> &[Bushing<R>] {
+        &self.bushings
+    }
+
+    /// Returns true if there are springs and dampers that couple degrees of freedom: along paths, of elastic gears
+    /// and of bushings.
     pub(crate) fn has_lines(&self) -> bool {
-        !self.spring_dampers.is_empty() || !self.elastic_gears.is_empty()
+        !self.spring_dampers.is_empty() || !self.elastic_gears.is_empty() || !self.bushings.is_empty()
     }
 
     /// Wind that rotors and drag elements feel; `None` if the air rests.

@@ -106,6 +106,8 @@ pub struct Names {
     pub spring_dampers: Vec<String>,
     /// Names of the elastic gears, in the order of [`Model::elastic_gears`](super::Model::elastic_gears).
     pub elastic_gears: Vec<String>,
+    /// Names of the bushings, in the order of [`Model::bushings`](super::Model::bushings).
+    pub bushings: Vec<String>,
     /// Sensors, each with a frame of the same name.
     pub sensors: Vec<SensorInfo>,
     /// Id of the joint of each degree of freedom (n_v).

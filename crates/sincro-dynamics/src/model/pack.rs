@@ -5,9 +5,10 @@ use std::sync::Arc;
 use sincro_math::{Dual, Real};
 
 use super::{Dof, Link, Model, ModelParams, Structure};
+use crate::actuation::bushing::LinkFrame;
 use crate::actuation::spring_damper::{JointShare, LineActuator, LinkPoint, Path, Segment};
 use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
-use crate::actuation::{ElasticGear, ForceLaw, SpringDamper, Winding};
+use crate::actuation::{Bushing, ElasticGear, ForceLaw, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, SpeedSource};
 use crate::joint::Friction;
@@ -195,6 +196,17 @@ impl<R: Real> Model<R> {
             damping: num(&|m| m.elastic_gears[i].damping),
             backlash: num(&|m| m.elastic_gears[i].backlash),
         });
+        let bushings = first.bushings.iter().enumerate().map(|(i, own)| Bushing {
+            ends: core::array::from_fn(|e| LinkFrame {
+                link: own.ends[e].link,
+                pose: Pose {
+                    rot: mat3(&|m| m.bushings[i].ends[e].pose.rot),
+                    pos: vec3(&|m| m.bushings[i].ends[e].pose.pos),
+                },
+            }),
+            stiffness: core::array::from_fn(|k| num(&|m| m.bushings[i].stiffness[k])),
+            damping: core::array::from_fn(|k| num(&|m| m.bushings[i].damping[k])),
+        });
         let params = ModelParams {
             gravity: vec3(&|m| m.params.gravity),
             inertias: inertias.collect(),
@@ -213,6 +225,7 @@ impl<R: Real> Model<R> {
             drags: drags.collect(),
             spring_dampers: spring_dampers.collect(),
             elastic_gears: elastic_gears.collect(),
+            bushings: bushings.collect(),
             wind: first.wind.clone(),
             gravity_field: first.gravity_field.clone(),
             n_q: first.n_q,
@@ -290,6 +303,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         m.spring_dampers.iter().map(structure).collect()
     };
     let gears = |m: &Model<f64>| -> Vec<_> { m.elastic_gears.iter().map(|gear| gear.dofs).collect() };
+    let bushings = |m: &Model<f64>| -> Vec<_> { m.bushings.iter().map(|x| x.ends.map(|end| end.link)).collect() };
     let friction = |m: &Model<f64>| -> Vec<_> { m.dofs.iter().map(|x| !x.friction.is_none()).collect() };
     let checks = [
         (links(a) == links(b), "links and joints"),
@@ -300,6 +314,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (rotors(a) == rotors(b), "rotors"),
         (drags(a) == drags(b), "drag elements"),
         (gears(a) == gears(b), "elastic gears"),
+        (bushings(a) == bushings(b), "bushings"),
         (lines(a) == lines(b), "springs and dampers between two points, and tendons"),
         (a.wind == b.wind, "wind"),
         (a.gravity_field == b.gravity_field, "gravity over the position"),

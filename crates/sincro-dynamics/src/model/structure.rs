@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Dof, Link, Names};
 use crate::actuation::spring::NonlinearSpring;
-use crate::actuation::{AppliedTorque, AppliedWrench, ElasticGear, GravityField, SpringDamper, Winding};
+use crate::actuation::{AppliedTorque, AppliedWrench, Bushing, ElasticGear, GravityField, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
@@ -26,6 +26,7 @@ pub struct Structure<R> {
     pub(crate) drags: Vec<AirDrag<R>>,
     pub(crate) spring_dampers: Vec<SpringDamper<R>>,
     pub(crate) elastic_gears: Vec<ElasticGear<R>>,
+    pub(crate) bushings: Vec<Bushing<R>>,
     pub(crate) wind: Option<Arc<Wind>>,
     pub(crate) gravity_field: Option<Arc<GravityField>>,
     /// Number of coordinates.

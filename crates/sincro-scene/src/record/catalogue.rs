@@ -9,7 +9,8 @@ use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, Model};
 
 use super::{
-    ContactQuantity, EnergyQuantity, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity,
+    BushingQuantity, ContactQuantity, EnergyQuantity, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity,
+    WindingQuantity,
 };
 
 /// Signal that can be recorded: name, unit, and the probe that reads it; an entry of [`catalogue`].
@@ -126,6 +127,18 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
         }
         if let Some(actuator) = model.spring_dampers()[k].actuator {
             list.add(format!("{name}.command"), "N", Probe::Command(actuator.command));
+        }
+    }
+    for (k, name) in model.names().bushings.iter().enumerate() {
+        use BushingQuantity as Q;
+        let quantities = [
+            ("deflection", "m", Q::Deflection),
+            ("rotation", "rad", Q::Rotation),
+            ("force", "N", Q::Force),
+            ("torque", "N·m", Q::Torque),
+        ];
+        for (what, unit, quantity) in quantities {
+            list.vector(&format!("{name}.{what}"), &XYZ, unit, |c| Probe::Bushing(quantity, k, c));
         }
     }
     for (k, name) in model.names().elastic_gears.iter().enumerate() {

@@ -76,6 +76,8 @@ pub enum Probe {
     Drag(usize, usize),
     /// Quantity of a spring and damper between two points, or of a tendon: quantity, index of the element.
     SpringDamper(LineQuantity, usize),
+    /// Quantity of a bushing: quantity, index of the bushing, component in the axes of its first frame.
+    Bushing(BushingQuantity, usize, usize),
     /// Quantity of an elastic gear: quantity, index of the gear.
     ElasticGear(GearQuantity, usize),
     /// Quantity of a motor's winding: quantity, index of the winding.
@@ -142,6 +144,19 @@ pub enum LineQuantity {
     Rate,
     /// Force along the path, positive where it makes it longer `[N]`.
     Force,
+}
+
+/// Quantity of a bushing, for [`Probe::Bushing`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BushingQuantity {
+    /// Position of the second frame in the first `[m]`.
+    Deflection,
+    /// Rotation vector of the second frame in the first `[rad]`.
+    Rotation,
+    /// Force on the second body `[N]`.
+    Force,
+    /// Torque on the second body about the origin of the second frame `[N·m]`.
+    Torque,
 }
 
 /// Quantity of an elastic gear, for [`Probe::ElasticGear`], in the units of its second joint.

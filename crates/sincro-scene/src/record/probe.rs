@@ -14,7 +14,9 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::world::Observation;
 use sincro_math::Real;
 
-use super::{EnergyQuantity, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity};
+use super::{
+    BushingQuantity, EnergyQuantity, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity,
+};
 
 /// State at which a [`Probe`] is evaluated, in any number type; lists have the order of the model's state.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +63,7 @@ pub fn needs_kinematics(probe: Probe) -> bool {
             | Probe::Rotor(..)
             | Probe::Drag(..)
             | Probe::SpringDamper(..)
+            | Probe::Bushing(..)
     )
 }
 
@@ -87,6 +90,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
         Probe::Drag(k, component) => drag(at, k)[component],
         Probe::SpringDamper(quantity, k) if !has_actuated_force(model, quantity, k) => of_line(at, quantity, k),
+        Probe::Bushing(quantity, k, component) => of_bushing(at, quantity, k, component),
         Probe::ElasticGear(quantity, k) => {
             let gear = &model.elastic_gears()[k];
             let (x, rate) = gear.error(at.q, at.v);
@@ -220,6 +224,17 @@ fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
         LineQuantity::Length => path.length,
         LineQuantity::Rate => path.rate,
         LineQuantity::Force => element.forces(path.length, path.rate, at.commands).total(),
+    }
+}
+
+fn of_bushing<R: Real>(at: &View<'_, R>, quantity: BushingQuantity, k: usize, component: usize) -> R {
+    let element = &at.model.bushings()[k];
+    let motion = element.motion(|link| (at.scratch.twist(link), at.scratch.link_poses()[link]));
+    match quantity {
+        BushingQuantity::Deflection => motion.deflection[component],
+        BushingQuantity::Rotation => motion.deflection[3 + component],
+        BushingQuantity::Force => element.force(&motion)[component],
+        BushingQuantity::Torque => element.force(&motion)[3 + component],
     }
 }
 

@@ -6,8 +6,8 @@
 use std::fmt::Write as _;
 
 use super::{
-    ContactQuantity, EnergyQuantity, Entry, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity,
-    WindingQuantity, catalogue,
+    BushingQuantity, ContactQuantity, EnergyQuantity, Entry, FrameQuantity, GearQuantity, LineQuantity, Probe,
+    RotorQuantity, WindingQuantity, catalogue,
 };
 use crate::scene::from_text;
 
@@ -15,7 +15,7 @@ use crate::scene::from_text;
 const SAMPLE: &str = include_str!("sample.toml");
 
 /// Objects of the sample with the headings of their tables; `""` takes the rest.
-const SECTIONS: [(&str, &str); 20] = [
+const SECTIONS: [(&str, &str); 21] = [
     ("/slide", "Prismatic joint"),
     ("/hinge", "Revolute joint, with a motor, a spring and stops; a screw joint has the same"),
     ("/wheel", "Revolute joint with a motor in mode `voltage`"),
@@ -32,6 +32,7 @@ const SECTIONS: [(&str, &str); 20] = [
     ("/free/solid/rotor", "Rotor; without a lag there is no command beside the speed"),
     ("/free/solid/hull", "Drag element"),
     ("/cable", "Spring, damper and actuator between two points; without an actuator there is no command"),
+    ("/mount", "Bushing: a compliant element between two frames"),
     ("/teeth", "Elastic coupling; a rigid one has the signal of closures"),
     ("/free/solid/imu", "Inertial measurement unit; this and all other sensors also have the signals of a frame"),
     ("/free/solid/pose", "Pose sensor"),
@@ -181,6 +182,12 @@ fn meaning(probe: Probe) -> &'static str {
         Probe::SpringDamper(LineQuantity::Length, _) => "distance of its ends, or length of the tendon",
         Probe::SpringDamper(LineQuantity::Rate, _) => "rate of that distance",
         Probe::SpringDamper(LineQuantity::Force, _) => "force along it, positive where it pushes the ends apart",
+        Probe::Bushing(BushingQuantity::Deflection, ..) => "position of the second frame, axes of the first",
+        Probe::Bushing(BushingQuantity::Rotation, ..) => "rotation vector of the second frame, axes of the first",
+        Probe::Bushing(BushingQuantity::Force, ..) => "force on the second body, axes of the first frame",
+        Probe::Bushing(BushingQuantity::Torque, ..) => {
+            "torque on the second body about the origin of its frame, axes of the first frame"
+        }
         Probe::ElasticGear(GearQuantity::MeshError, _) => {
             "mesh error, second − ratio·first − offset, the travel within the backlash included"
         }

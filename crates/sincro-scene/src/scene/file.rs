@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::air::{DragFile, WindFile};
+use super::bushing::BushingFile;
 use super::camera::CameraFile;
 use super::field::{AirDensityFile, GravityFile};
 use super::pose_start::InitialPoseFile;
@@ -87,6 +88,9 @@ pub(crate) struct SceneFile {
     /// Springs, dampers and actuators between two points.
     #[serde(default)]
     pub spring_damper: Vec<SpringDamperFile>,
+    /// Compliant elements with six degrees of freedom between two frames.
+    #[serde(default)]
+    pub bushing: Vec<BushingFile>,
     /// Springs, dampers and actuators along paths through several bodies, or over several joints.
     #[serde(default)]
     pub tendon: Vec<TendonFile>,

@@ -1,4 +1,4 @@
-//! Names of what joins objects and is none itself: closures, couplings, springs between points, tendons.
+//! Names of what joins objects and is none itself: closures, couplings, springs between points, bushings, tendons.
 
 use super::file::SceneFile;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -19,6 +19,8 @@ pub(super) fn check<'a>(
     let of_kind = |kind: &'static str| move |(k, name)| (name, format!("/{kind}/{k}"));
     let all = closures.map(of_kind("closure")).chain(couplings.map(of_kind("coupling")));
     let all = all.chain(lines.map(of_kind("spring_damper")));
+    let bushings = file.bushing.iter().map(|bushing| bushing.name.as_str()).enumerate();
+    let all = all.chain(bushings.map(of_kind("bushing")));
     for (name, pointer) in all.chain(tendons.map(of_kind("tendon"))) {
         let at = document.at(&format!("{pointer}/name"));
         let is_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';

@@ -5,6 +5,7 @@
 
 mod air;
 mod body;
+mod bushing;
 mod camera;
 mod contact;
 mod field;
@@ -460,7 +461,7 @@ impl Assembly {
         }
     }
 
-    /// Springs and dampers between points of objects, and tendons, which name objects by their paths.
+    /// Springs and dampers between points of objects, bushings and tendons, which name objects by their paths.
     fn join_by_springs(
         &mut self,
         file: &SceneFile,
@@ -478,6 +479,14 @@ impl Assembly {
             let path = format!("/{}", own.name);
             self.builder.spring_damper(&path, spec);
             self.line_commands.extend(command.map(|command| (path, command)));
+        }
+        for (k, own) in file.bushing.iter().enumerate() {
+            let pointer = format!("/bushing/{k}");
+            let (objects, nodes) = (&self.objects, &self.nodes);
+            let ends = contact::Joiner { objects, nodes, document, diagnostics }.ends(&own.between, &pointer);
+            if let Some(spec) = ends.and_then(|ends| bushing::spec(own, ends, &pointer, document, diagnostics)) {
+                self.builder.bushing(&format!("/{}", own.name), spec);
+            }
         }
         for (k, own) in file.tendon.iter().enumerate() {
             let pointer = format!("/tendon/{k}");

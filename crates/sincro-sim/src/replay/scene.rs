@@ -307,6 +307,13 @@ impl Maker<'_> {
             let kind = if line.len() == 2 { "spring_damper" } else { "tendon" };
             objects.push(ObjectView { mover, pose, line, ..beside(name, kind) });
         }
+        for (element, name) in self.model.bushings().iter().zip(&self.model.names().bushings) {
+            let [(mover, pose), other_end] = element.ends.map(|end| {
+                let mover = end.link.and_then(|link| self.links.iter().position(|l| *l == link));
+                (mover, seven(&end.pose))
+            });
+            objects.push(ObjectView { mover, pose, other_end: Some(other_end), ..beside(name, "bushing") });
+        }
         objects.extend(set.gears.iter().map(|coupling| beside(&coupling.name, "coupling")));
     }
 
