@@ -42,13 +42,14 @@ mod merge;
 mod mesh;
 mod mjcf;
 mod number;
+mod path_mass;
 mod policy;
 pub mod report;
 mod resolve;
 mod robot;
 mod sdf;
 mod source;
-mod tendon_mass;
+
 mod urdf;
 mod verify;
 mod writer;

@@ -331,10 +331,21 @@ pub(crate) struct Loop {
     pub element: (usize, u32),
     /// Kind: `point`, `hinge`, `weld`, and its axis for a hinge.
     pub kind: LoopKind,
-    /// True if the source holds it by a soft constraint, which may be open.
-    pub is_soft: bool,
+    /// Softness, if the source holds it by a soft constraint, which may be open; none for a hard one.
+    pub softness: Option<Softness>,
     /// Links (none: the world) and the frame in each.
     pub ends: [(Option<usize>, Placement); 2],
+}
+
+/// Spring and damper that a soft constraint stands for, by the mass that it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Softness {
+    /// Stiffness over mass `[1/s²]`.
+    pub stiffness: f64,
+    /// Damping over mass `[1/s]`.
+    pub damping: f64,
+    /// True if it is to be a bushing even where it is closed at the start, since one end may be moved.
+    pub is_moved: bool,
 }
 
 /// Kinds of loop joints.

@@ -48,7 +48,7 @@ pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
     }
     out += &format!("  <worldbody>\n{world}  </worldbody>\n");
     tendons.write(&mut out, tree);
-    equality(&mut out, tree);
+    equality(&mut out, tree, &tendons);
     actuators(&mut out, tree, &tendons);
     out += "</mujoco>\n";
     Ok(out)
@@ -196,7 +196,7 @@ fn geom(out: &mut String, tree: &mut Tree<'_>, k: usize, piece: &Piece, more: &s
     *out += &format!("{pad}  <geom {shape} {} {more}{color}/>\n", place(&piece.pose));
 }
 
-fn equality(out: &mut String, tree: &mut Tree<'_>) {
+fn equality(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
     let mut lines = String::new();
     for (first, second, ratio, offset) in tree.gears() {
         lines += &format!(
@@ -223,6 +223,7 @@ fn equality(out: &mut String, tree: &mut Tree<'_>) {
         lines += &format!("    {words}\n");
         tree.note(&closure.name, "MJCF's loops are soft");
     }
+    lines += &tendons.bushings(tree);
     if !lines.is_empty() {
         *out += &format!("  <equality>\n{lines}  </equality>\n");
     }

@@ -1,18 +1,36 @@
-//! Tendons of MJCF: springs, dampers and actuators between points, and tendons.
+//! Tendons of MJCF: springs, dampers and actuators between points, and tendons; soft equalities: bushings.
 
 use sincro_dynamics::actuation::NonlinearLaw;
+use sincro_dynamics::spatial::{Mat3, Pose};
+use sincro_dynamics::stiffness::inverse_inertias_of_bushings;
 
 use super::mjcf::is_site;
-use super::{Tree, escaped, numbers};
+use super::{Tree, escaped, numbers, wxyz};
 use crate::number::plain;
+use crate::path_mass::mean_masses;
 
-/// A site that a tendon runs through.
+/// Impedance of soft equalities (dimensionless).
+const IMPEDANCE: f64 = 0.95;
+
+/// Relative difference of stiffnesses over masses that is rounding of printed figures.
+const SAME: f64 = 1e-6;
+
+/// Common ratio of the numbers along three axes to a mass, and about them to a moment of inertia, as far as `masses`
+/// has these; none if they have none.
+fn common(numbers: &[f64; 6], masses: &[f64]) -> Option<f64> {
+    let ratios =
+        || masses.iter().enumerate().flat_map(|(k, mass)| numbers[3 * k..3 * k + 3].iter().map(move |x| x / mass));
+    let most = ratios().fold(0.0, f64::max);
+    ratios().all(|x| (x - most).abs() <= SAME * most).then_some(most)
+}
+
+/// A site that a tendon runs through, or that is a frame of a bushing.
 struct Site {
     name: String,
     /// Link of the tree that carries it; none for the world.
     link: Option<usize>,
-    /// In the frame of that link `[m]`.
-    position: [f64; 3],
+    /// In the frame of that link.
+    pose: Pose<f64>,
 }
 
 /// Tendons of a scene with their sites.
@@ -20,6 +38,8 @@ pub(super) struct Tendons {
     sites: Vec<Site>,
     /// Sites of each element of the model; empty for one over joints.
     of_elements: Vec<Vec<usize>>,
+    /// Sites of each bushing of the model.
+    of_bushings: Vec<[usize; 2]>,
 }
 
 /// Name of an element in the file.
@@ -32,31 +52,80 @@ impl Tendons {
     pub fn of(tree: &Tree<'_>) -> Self {
         let model = &tree.scene.model;
         let (mut sites, mut of_elements) = (Vec::new(), Vec::new());
+        let site = |name: String, link: Option<usize>, pose: Pose<f64>| {
+            let carrier = link.and_then(|link| {
+                (0..tree.links.len()).filter(|k| !is_site(tree, *k)).find_map(|k| {
+                    let path = &tree.scene.objects[tree.links[k].object].path;
+                    let info = model.names().frames.iter().find(|frame| frame.name == *path)?;
+                    (info.link == Some(link)).then(|| (k, info.pose.inverse().compose(&pose)))
+                })
+            });
+            let (link, pose) = carrier.map_or((None, pose), |(k, pose)| (Some(k), pose));
+            Site { name, link, pose }
+        };
         for (element, path) in model.spring_dampers().iter().zip(&model.names().spring_dampers) {
             let ends = element.segments().first().map(|s| s.ends[0]);
             let points = ends.into_iter().chain(element.segments().iter().map(|s| s.ends[1]));
             let mut own = Vec::new();
             for (k, point) in points.enumerate() {
-                let carrier = point.link.and_then(|link| {
-                    (0..tree.links.len()).filter(|k| !is_site(tree, *k)).find_map(|k| {
-                        let path = &tree.scene.objects[tree.links[k].object].path;
-                        let info = model.names().frames.iter().find(|frame| frame.name == *path)?;
-                        (info.link == Some(link)).then(|| (k, info.pose.inverse().point(point.position).0))
-                    })
-                });
-                let (link, position) = carrier.map_or((None, point.position.0), |(k, p)| (Some(k), p));
                 own.push(sites.len());
-                sites.push(Site { name: format!("{}-{}", name_of(path), k + 1), link, position });
+                sites.push(site(format!("{}-{}", name_of(path), k + 1), point.link, Pose::translation(point.position)));
             }
             of_elements.push(own);
         }
-        Self { sites, of_elements }
+        let mut of_bushings = Vec::new();
+        for (element, path) in model.bushings().iter().zip(&model.names().bushings) {
+            of_bushings.push([sites.len(), sites.len() + 1]);
+            sites.extend((0..2).map(|k| {
+                let end = element.ends[k];
+                site(format!("{}-{}", name_of(path), k + 1), end.link, end.pose)
+            }));
+        }
+        Self { sites, of_elements, of_bushings }
+    }
+
+    /// Lines of the bushings as soft equalities, whose stiffness and damping are those of the masses that they move at
+    /// the start; notes those that are none.
+    pub fn bushings(&self, tree: &mut Tree<'_>) -> String {
+        let model = &tree.scene.model;
+        let inverse = inverse_inertias_of_bushings(model, &tree.scene.initial);
+        let mut lines = String::new();
+        for (k, (element, path)) in model.bushings().iter().zip(&model.names().bushings).enumerate() {
+            let is_point = element.stiffness[3..] == [0.0; 3] && element.damping[3..] == [0.0; 3];
+            let rates = mean_masses(inverse[k]).and_then(|masses| {
+                let masses = if is_point { &masses[..1] } else { &masses[..] };
+                Some([common(&element.stiffness, masses)?, common(&element.damping, masses)?])
+            });
+            let Some(rates) = rates else {
+                tree.note(
+                    path,
+                    "MJCF has no spring between frames, and its soft welds have one time constant: not written",
+                );
+                continue;
+            };
+            let [stiffness, damping] = rates.map(|x| -(1.0 - IMPEDANCE) * x);
+            let [one, two] = self.of_bushings[k].map(|site| self.sites[site].name.clone());
+            lines += &format!(
+                "    <{} name=\"{}\" site1=\"{one}\" site2=\"{two}\" solref=\"{} {}\" solimp=\"{IMPEDANCE} {IMPEDANCE} 0.001\"/>\n",
+                if is_point { "connect" } else { "weld" },
+                name_of(path),
+                plain(stiffness),
+                plain(damping)
+            );
+            tree.note(
+                path,
+                "MJCF's stiffness and damping follow the mass that moves: they are these at the start only",
+            );
+        }
+        lines
     }
 
     /// Writes the sites on a link, or in the world.
     pub fn sites_of(&self, link: Option<usize>, out: &mut String, pad: &str) {
         for site in self.sites.iter().filter(|site| site.link == link) {
-            *out += &format!("{pad}<site name=\"{}\" pos=\"{}\"/>\n", site.name, numbers(&site.position));
+            let turned = site.pose.rot != Mat3::identity();
+            let quat = if turned { format!(" quat=\"{}\"", numbers(&wxyz(&site.pose))) } else { String::new() };
+            *out += &format!("{pad}<site name=\"{}\" pos=\"{}\"{quat}/>\n", site.name, numbers(&site.pose.pos.0));
         }
     }
 

@@ -221,6 +221,9 @@ impl<'a> Tree<'a> {
         for name in scene.model.names().spring_dampers.iter().filter(|_| format != Format::Mjcf) {
             self.note(name, "springs between points and tendons are not written");
         }
+        for name in scene.model.names().bushings.iter().filter(|_| format != Format::Mjcf) {
+            self.note(name, "a bushing is not written: the format has no springs between links");
+        }
         for spring in scene.model.nonlinear_springs() {
             let joint = scene.model.names().dof_joint[spring.dof];
             self.note(&scene.model.names().joint_info(joint).name, "the law of its spring is not written");

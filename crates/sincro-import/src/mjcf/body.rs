@@ -6,11 +6,11 @@ use sincro_scene::diagnostic::Diagnostic;
 use super::Reader;
 use super::orientation::{placement, rotation};
 use crate::findings::Findings;
+use crate::path_mass::tendon_mass;
 use crate::robot::{
     Inertial, Joint, JointKind, Link, Optics, Placement, Robot, Sensor, SensorKind, TendonPath, turned_inertia,
 };
 use crate::source::Element;
-use crate::tendon_mass::tendon_mass;
 
 /// Deepest nesting of bodies.
 const MAX_DEPTH: usize = 200;
@@ -143,11 +143,14 @@ impl<'d> Reader<'d> {
         self.tidy(&mut link);
         let is_mocap = element.attribute("mocap") == Some("true");
         if is_mocap {
-            element.change("a mocap body: fixed in the world");
+            element.change("a mocap body: fixed in the world, where a client may move it");
         }
         let joints: Vec<_> = children.iter().filter(|(c, ..)| matches!(c.name(), "joint" | "freejoint")).collect();
         let index = self.chain(element, &joints, (pose, parent.link), link, robot, findings);
         self.bodies.insert(name, index);
+        if is_mocap {
+            self.mocap.insert(index);
+        }
         self.add_sites(&children, index, robot, findings);
         self.add_cameras(&children, index, robot, findings);
         let inner = Parent { link: Some(index), depth: parent.depth + 1 };

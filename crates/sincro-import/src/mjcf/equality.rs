@@ -1,15 +1,15 @@
-//! Equalities as loop joints, gears, and stiff tendons.
+//! Equalities as loop joints or bushings, gears, and stiff tendons.
 
 use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
 use crate::findings::Findings;
-use crate::robot::{Gear, Loop, LoopKind, Placement, Robot};
+use crate::robot::{Gear, Loop, LoopKind, Placement, Robot, Softness};
 use crate::source::Element;
 
-/// A weld that is open by more than this at the start is not one of the mechanism `[m]`, `[rad]`.
-const OPEN: f64 = 1e-6;
+/// Impedance of an open constraint where the source gives none (dimensionless).
+const IMPEDANCE: f64 = 0.95;
 
 impl<'d> Reader<'d> {
     /// All equalities.
@@ -58,6 +58,7 @@ impl<'d> Reader<'d> {
         let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
         let point = x_wb.inverse().point(x_wa.point(Vec3(anchor.position)));
         let other = if by_sites { Placement::default() } else { Placement::new(point.0, [0.0; 3]) };
+        let softness = self.loop_softness(e, ends)?;
         e.change("a hard ball joint that closes a loop: a [[closure]]");
         let name = e.peek("name").map_or_else(|| format!("connect{}", robot.loops.len() + 1), str::to_owned);
         robot.loops.push(Loop {
@@ -65,7 +66,7 @@ impl<'d> Reader<'d> {
             at: e.location(),
             element: e.id(),
             kind: LoopKind::Point,
-            is_soft: true,
+            softness: Some(softness),
             ends: [(ends[0], anchor), (ends[1], other)],
         });
         Ok(())
@@ -79,35 +80,41 @@ impl<'d> Reader<'d> {
             [self.end(e, "body1")?, self.end(e, "body2")?]
         };
         let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
-        let actual = x_wa.inverse().compose(&x_wb);
-        let relative = match self.defaults.numbers(e, "main", "relpose")?.as_deref() {
-            Some(&[x, y, z, w, i, j, k]) if !by_sites && w * w + i * i + j * j + k * k > 0.0 => {
-                Placement { position: [x, y, z], rotation: crate::robot::Rotation::Quaternion([w, i, j, k]) }.pose()
+        let anchor = Pose::translation(Vec3(self.defaults.vector(e, "main", "anchor")?.unwrap_or_default()));
+        // the frame on the first body that the anchor on the second is held in
+        let (first, second) = match self.defaults.numbers(e, "main", "relpose")?.as_deref() {
+            _ if by_sites => (Placement::default(), Placement::default()),
+            Some(&[x, y, z, w, i, j, k]) if w * w + i * i + j * j + k * k > 0.0 => {
+                let rotation = crate::robot::Rotation::Quaternion([w, i, j, k]);
+                let given = Placement { position: [x, y, z], rotation }.pose();
+                (Placement::of_pose(&given), Placement::of_pose(&anchor))
             }
-            _ if by_sites => Pose::identity(),
-            _ => actual,
+            _ => (Placement::of_pose(&x_wa.inverse().compose(&x_wb).compose(&anchor)), Placement::of_pose(&anchor)),
         };
-        let gap = relative.inverse().compose(&actual);
-        let angle = (0..3).map(|k| gap.rot.0[k][k]).sum::<f64>() - 3.0;
-        if gap.pos.norm() > OPEN || angle.abs() > OPEN * OPEN {
-            e.drop(&format!(
-                "a soft weld that is open at the start by {:.3e} m: nothing hard can stand for it",
-                gap.pos.norm()
-            ));
-            return Ok(());
-        }
+        let softness = self.loop_softness(e, ends)?;
         e.change("a hard weld: a [[closure]]");
         let name = e.peek("name").map_or_else(|| format!("weld{}", robot.loops.len() + 1), str::to_owned);
-        let first = Placement::of_pose(&actual);
         robot.loops.push(Loop {
             name,
             at: e.location(),
             element: e.id(),
             kind: LoopKind::Weld,
-            is_soft: true,
-            ends: [(ends[0], first), (ends[1], Placement::default())],
+            softness: Some(softness),
+            ends: [(ends[0], first), (ends[1], second)],
         });
         Ok(())
+    }
+
+    /// Softness of a loop that holds two links together.
+    ///
+    /// A constraint with the impedance d accelerates a mass by (1 − d) of what other forces would, plus d of its
+    /// reference acceleration: it is the spring and damper that the time constant gives to a mass m/(1 − d).
+    fn loop_softness(&self, e: Element<'d>, ends: [Option<usize>; 2]) -> Result<Softness, Diagnostic> {
+        let impedance = self.defaults.numbers(e, "main", "solimp")?.and_then(|d| d.get(1).copied());
+        let apparent = 1.0 / (1.0 - impedance.unwrap_or(IMPEDANCE).clamp(1e-4, 0.9999));
+        let (stiffness, damping) = self.softness(e, "solref", apparent)?;
+        let is_moved = ends.iter().flatten().any(|link| self.mocap.contains(link));
+        Ok(Softness { stiffness, damping, is_moved })
     }
 
     /// q₁ − q₁₀ = c₀ + c₁·(q₂ − q₂₀)

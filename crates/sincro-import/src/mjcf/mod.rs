@@ -14,7 +14,7 @@ mod orientation;
 mod state;
 mod tendon;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::findings::Findings;
 use crate::robot::Robot;
@@ -70,6 +70,8 @@ struct Reader<'d> {
     sites: BTreeMap<String, usize>,
     /// Joints by name.
     joints: BTreeMap<String, usize>,
+    /// Links and sites of mocap bodies.
+    mocap: BTreeSet<usize>,
     /// Tendons by name.
     tendons: BTreeMap<String, tendon::KnownTendon>,
     /// Reference coordinate of each joint of the robot.
@@ -117,6 +119,7 @@ pub(crate) fn read<'d>(
         bodies: BTreeMap::new(),
         sites: BTreeMap::new(),
         joints: BTreeMap::new(),
+        mocap: BTreeSet::new(),
         tendons: BTreeMap::new(),
         references: Vec::new(),
         tuned: Vec::new(),

@@ -11,9 +11,9 @@ use sincro_scene::diagnostic::Diagnostic;
 use super::Reader;
 use super::actuator::Law;
 use crate::findings::Findings;
+use crate::path_mass::tendon_mass;
 use crate::robot::{Robot, Tendon, TendonLimits, TendonPath};
 use crate::source::Element;
-use crate::tendon_mass::tendon_mass;
 
 /// Time constant `[s]` and damping ratio of soft constraints where the source gives none.
 const SOLREF: [f64; 2] = [0.02, 1.0];
@@ -131,7 +131,7 @@ impl<'d> Reader<'d> {
     }
 
     /// Stiffness and damping of a soft constraint with a mass `[kg]`.
-    fn softness(&self, e: Element<'d>, key: &str, mass: f64) -> Result<(f64, f64), Diagnostic> {
+    pub(super) fn softness(&self, e: Element<'d>, key: &str, mass: f64) -> Result<(f64, f64), Diagnostic> {
         let given = self.defaults.numbers(e, "main", key)?.unwrap_or_default();
         let [one, two] = [0, 1].map(|k| given.get(k).copied().unwrap_or(SOLREF[k]));
         if one <= 0.0 && two <= 0.0 {

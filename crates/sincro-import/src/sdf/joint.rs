@@ -30,7 +30,7 @@ pub(super) fn joints(robot: &mut Robot, raw: &Raw<'_>, places: &Places, settings
             }
             Made::Loop(closure) => {
                 element.change("it closes a loop: a [[closure]]");
-                robot.loops.push(closure);
+                robot.loops.push(*closure);
             }
             Made::Gearbox(prefix) => gearboxes.push((*element, prefix)),
         }
@@ -52,7 +52,7 @@ pub(super) fn joints(robot: &mut Robot, raw: &Raw<'_>, places: &Places, settings
 enum Made {
     /// A joint of the tree, and the child's frame in the joint's.
     Tree(Box<Joint>, Placement),
-    Loop(Loop),
+    Loop(Box<Loop>),
     Gearbox(String),
 }
 
@@ -126,14 +126,14 @@ fn joint(
         element.change("spring, damping and limits of a joint that closes a loop are left out");
     }
     let ends = [(parent, made.pose), (Some(child), Placement::of_pose(&x_wc.inverse().compose(&x_wj)))];
-    Ok(Made::Loop(Loop {
+    Ok(Made::Loop(Box::new(Loop {
         name: name.to_owned(),
         at: element.location(),
         element: element.id(),
         kind,
-        is_soft: false,
+        softness: None,
         ends,
-    }))
+    })))
 }
 
 /// True if `from` carries `to` by joints already read.

@@ -1,5 +1,6 @@
 //! The experiment of a robot: it runs as it is.
 
+use super::loops::OPEN;
 use super::{Writer, one_line};
 use crate::number::{list, number, quoted};
 use crate::robot::Keyframe;
@@ -88,7 +89,8 @@ fn coordinates(writer: &Writer<'_>, keyframe: &Keyframe) -> Result<Vec<(usize, V
         return Err(format!("joint `{}` stands at {}, beyond its limits", robot.joints[k].name, number(starts[k])));
     }
     let open = |closure: &&crate::robot::Loop| {
-        writer.opening(closure, &writer.starts) <= super::OPEN && writer.opening(closure, &starts) > super::OPEN
+        let is_bushing = closure.softness.is_some_and(|softness| softness.is_moved);
+        !is_bushing && writer.opening(closure, &writer.starts) <= OPEN && writer.opening(closure, &starts) > OPEN
     };
     if let Some(closure) = robot.loops.iter().find(open) {
         return Err(format!("`{}` is open there", closure.name));

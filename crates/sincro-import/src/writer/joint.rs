@@ -13,7 +13,7 @@ const HOLDING_GAIN: f64 = 10.0;
 pub(super) fn starts(robot: &mut Robot, context: &Context<'_>) -> Vec<f64> {
     let one = |joint: &Joint| joint.kind.dofs() == 1;
     // loops are closed at zero coordinates
-    let has_loops = robot.loops.iter().any(|l| !l.is_soft);
+    let has_loops = robot.loops.iter().any(|l| l.softness.is_none());
     let mut starts: Vec<f64> = robot
         .joints
         .iter()

@@ -6,6 +6,7 @@
 mod body;
 mod experiment;
 mod joint;
+mod loops;
 mod tendon;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,12 +18,9 @@ use crate::mesh::{Content, Meshes};
 use crate::number::{degrees, list, name, number, quoted};
 use crate::policy;
 use crate::resolve::Resolver;
-use crate::robot::{JointKind, Loop, LoopKind, Optics, Placement, Robot, Rotation, SensorKind};
+use crate::robot::{JointKind, Optics, Placement, Robot, Rotation, SensorKind};
 use crate::source::{ElementStatus, Ledger};
 use crate::{Motors, Options};
-
-/// A soft loop joint that is open by more than this at the start is left out `[m]`, `[rad]`.
-const OPEN: f64 = 1e-7;
 
 /// A scene folder in memory.
 #[derive(Debug)]
@@ -306,56 +304,6 @@ impl Writer<'_> {
             self.line(&format!("far = {}", number(far)));
         }
         self.line("explicit_handling = true");
-    }
-
-    /// Distance and angle (a measure of it) by which a loop joint is open at the start.
-    fn opening(&self, closure: &Loop, starts: &[f64]) -> f64 {
-        let place = |k: usize| {
-            let (link, placement) = &closure.ends[k];
-            self.robot.link_pose(*link, starts).compose(&placement.pose())
-        };
-        let gap = place(0).inverse().compose(&place(1));
-        let turned = (0..3).map(|k| 1.0 - gap.rot.0[k][k]).sum::<f64>().abs().sqrt();
-        if closure.kind == LoopKind::Weld { gap.pos.norm().max(turned) } else { gap.pos.norm() }
-    }
-
-    fn loops(&mut self) {
-        for closure in &self.robot.loops {
-            let open = self.opening(closure, &self.starts);
-            if closure.is_soft && open > OPEN {
-                let words = format!("it is soft and open at the start by {open:.3e}: nothing hard can stand for it");
-                self.context.ledger.judge_place(closure.element, ElementStatus::Dropped, &words);
-                self.written.warnings.push((closure.at.clone(), format!("`{}` is left out: {words}", closure.name)));
-                continue;
-            }
-            let base = name(&closure.name);
-            let mut ends = Vec::new();
-            for (k, (link, placement)) in closure.ends.iter().enumerate() {
-                let parent = link.and_then(|l| self.link_paths[l].clone()).unwrap_or_else(|| "/".into());
-                let path = self.unique(&parent, &format!("{base}-{}", ["a", "b"][k]));
-                self.line("[[frame]]");
-                self.line(&format!("name = {}", quoted(last(&path))));
-                self.line(&format!("parent = {}", quoted(&parent)));
-                self.placement(placement);
-                self.line("");
-                ends.push(path);
-            }
-            let path = self.unique("/", &base);
-            self.line(&format!("# {}", place(&closure.at)));
-            self.line("[[closure]]");
-            self.line(&format!("name = {}", quoted(last(&path))));
-            let (kind, axis) = match closure.kind {
-                LoopKind::Point => ("point", None),
-                LoopKind::Hinge(axis) => ("hinge", Some(axis)),
-                LoopKind::Weld => ("weld", None),
-            };
-            self.line(&format!("kind = \"{kind}\""));
-            self.line(&format!("between = [{}, {}]", quoted(&ends[0]), quoted(&ends[1])));
-            if let Some(axis) = axis {
-                self.line(&format!("axis = {}", list(&axis)));
-            }
-            self.line("");
-        }
     }
 
     fn gears(&mut self) {

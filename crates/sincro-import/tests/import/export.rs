@@ -235,3 +235,42 @@ fn a_one_sided_stop_of_a_fixed_tendon_is_no_spring_of_mjcf() {
     assert!(exported.notes.iter().any(|(path, words)| path.ends_with("stop") && words.contains("softness")));
     folder.import("r.xml", &exported.text).unwrap_or_else(|found| panic!("{found}\n{}", exported.text));
 }
+
+/// A bushing with the stiffness over mass of one time constant is a soft weld of MJCF; another is noted.
+#[test]
+fn bushings_of_one_time_constant_come_back_from_mjcf() {
+    let folder = Folder::new();
+    let text = r#"<mujoco><worldbody><body name="box" pos="0 0 1" quat="0.8 0.6 0 0"><freejoint/>
+      <geom type="box" size="0.1 0.2 0.3" mass="2"/></body></worldbody>
+      <equality><weld name="seat" body2="box" relpose="0.1 0 1 0.6 0 0.8 0" solref="0.05 0.7"/></equality></mujoco>"#;
+    let own = folder.open(&folder.import("box.xml", text).unwrap()).scene;
+    let exported = export(&own, "own", Format::Mjcf).unwrap();
+    assert!(exported.notes.iter().any(|(path, words)| path == "/seat" && words.contains("at the start only")));
+    let back = folder.import("again.xml", &exported.text).unwrap_or_else(|found| panic!("{found}\n{}", exported.text));
+    let back = folder.open(&back).scene;
+    let ([a], [b]) = (own.model.bushings(), back.model.bushings()) else { panic!("{}", exported.text) };
+    for k in 0..6 {
+        assert!((a.stiffness[k] - b.stiffness[k]).abs() < 1e-8 * a.stiffness[k], "{k}: {a:?} {b:?}");
+        assert!((a.damping[k] - b.damping[k]).abs() < 1e-8 * a.damping[k], "{k}: {a:?} {b:?}");
+    }
+    let of = |own: &sincro_scene::scene::Scene| {
+        let mut scratch = Scratch::new(&own.model);
+        let x = &own.initial;
+        sincro_dynamics::kinematics::motions(&own.model, &x.q, &x.v, &x.v, &mut scratch);
+        own.model.bushings()[0].motion(|link| (scratch.twist(link), scratch.link_poses()[link])).deflection
+    };
+    for (a, b) in of(&own).iter().zip(of(&back)) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+    for format in [Format::Urdf, Format::Sdf] {
+        let notes = export(&own, "own", format).map_or_else(|_| Vec::new(), |exported| exported.notes);
+        assert!(notes.is_empty() || notes.iter().any(|(path, words)| path == "/seat" && words.contains("not written")));
+    }
+    folder.file("own/scene.toml", format!("{SCENE}\n[[bushing]]\nname = \"mount\"\nbetween = [\"/\", \"/base/turn/arm\"]\nstiffness = [1.0, 2.0, 30.0]\n"));
+    folder.file("own/experiment.toml", "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n");
+    let own =
+        sincro_scene::open::open(&folder.path().join("own"), &[], sincro_scene::fmu::Loaders::default(), true).unwrap();
+    let exported = export(&own.scene, "own", Format::Mjcf).unwrap();
+    assert!(!exported.text.contains("<weld") && !exported.text.contains("<connect"), "{}", exported.text);
+    assert!(exported.notes.iter().any(|(path, words)| path == "/mount" && words.contains("not written")));
+}

@@ -3,6 +3,7 @@
 use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::Motion;
 use sincro_dynamics::state::State;
 
 use crate::folder::{Folder, dropped, entry};
@@ -287,4 +288,53 @@ fn cameras_look_where_mujocos_do() {
     assert!(imported.scene().contains("field_of_view_deg = 45.0\nresolution = [64, 48]"), "{}", imported.scene());
     let wrong = text.replace("fovy=\"60\"", "fovy=\"200\"");
     assert!(folder.import("wrong.xml", &wrong).unwrap_err().to_string().contains("`fovy` is 200"));
+}
+
+/// A body of 2 kg that a weld holds 0.1 m off its place, and a mocap body that carries another.
+const WELDS: &str = r#"<mujoco><worldbody>
+  <body name="box" pos="0 0 1"><freejoint name="f"/><geom type="box" size="0.1 0.2 0.3" mass="2"/></body>
+  <body name="arm" pos="1 0 0"><joint name="j" axis="0 1 0"/><inertial pos="0.5 0 0" mass="3" diaginertia="0.1 0.2 0.3"/>
+    <body name="hand" pos="0.5 0 0"/></body>
+  <body name="target" mocap="true" pos="1.5 0 0"/>
+</worldbody><equality>
+  <weld name="seat" body1="world" body2="box" relpose="0.1 0 1 1 0 0 0"/>
+  <weld name="grasp" body1="target" body2="hand" solref="0.01 2" solimp="0.9 0.98 0.001"/>
+  <connect name="idle" body1="target" body2="world" anchor="0.2 0 0"/>
+</equality></mujoco>"#;
+
+#[test]
+fn open_welds_and_those_to_mocap_bodies_are_bushings() {
+    let folder = Folder::new();
+    let imported = folder.import("welds.xml", WELDS).unwrap_or_else(|found| panic!("{found}"));
+    let scene = folder.open(&imported).scene;
+    let model = &scene.model;
+    assert!(model.constraints().loop_joints.is_empty(), "{}", imported.scene());
+    assert_eq!(model.names().bushings, ["/seat", "/grasp"]);
+    let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-9 * b.abs(), "{a} {b}");
+    let [seat, grasp] = model.bushings() else { panic!() };
+    // m/((1 − d) (T ζ)²) and 2 m/((1 − d) T) of 2 kg, and of the harmonic mean of its moments; T = 0.02 s, ζ = 1,
+    // d = 0.95
+    let moment = 3.0 / [0.16 + 0.36, 0.04 + 0.36, 0.04 + 0.16].iter().map(|x| 12.0 / (2.0 * x)).sum::<f64>();
+    for (found, mass) in [(0, 2.0), (2, 2.0), (3, moment), (5, moment)] {
+        close(seat.stiffness[found], mass / (0.05 * 4e-4));
+        close(seat.damping[found], 2.0 * mass / (0.05 * 0.02));
+    }
+    let mut scratch = Scratch::new(model);
+    sincro_dynamics::kinematics::motions(model, &scene.initial.q, &scene.initial.v, &scene.initial.v, &mut scratch);
+    let poses = scratch.link_poses();
+    let at = seat.motion(|link| (Motion::zero(), poses[link]));
+    close(at.deflection[0], -0.1);
+    // the hand is 0.5 m from the hinge, of which the arm has 0.2 + 3·0.5² kg·m²: it moves along one axis of three
+    let inertia = 0.95;
+    close(grasp.stiffness[2], 3.0 * inertia / 0.25 / (0.02 * 4e-4));
+    close(grasp.damping[4], 2.0 * 3.0 * inertia / (0.02 * 0.01));
+    let words = &entry(&imported, "weld[seat]").words;
+    assert!(
+        words.contains("open at the start by 1.000e-1") && words.contains("for 2.0000 kg and 0.0531 kg·m²"),
+        "{words}"
+    );
+    assert!(entry(&imported, "weld[grasp]").words.contains("to a mocap body"));
+    assert!(entry(&imported, "body[target]").words.contains("where a client may move it"));
+    assert_eq!(dropped(&imported), ["mujoco/equality/connect[idle]"]);
+    assert!(imported.warnings.iter().any(|w| w.to_string().contains("`idle` is left out: it moves nothing")));
 }

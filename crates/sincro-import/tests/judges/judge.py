@@ -147,7 +147,8 @@ def joints_of_mujoco(model, head):
 
 
 def without_soft_constraints(folder):
-    """Takes stops of tendons, and tendons that stand for equalities, out of a scene: they are soft constraints there."""
+    """Takes stops of tendons, and tendons and bushings that stand for equalities, out of a scene: they are soft
+    constraints there."""
     with open(os.path.join(folder, "import-report.json")) as text:
         elements = json.load(text)["elements"]
     held = {str(e["line"]) for e in elements if e["words"].startswith("a stiff [[tendon]]")}
@@ -156,6 +157,8 @@ def without_soft_constraints(folder):
         blocks = text.read().split("\n\n")
     kept = []
     for block in blocks:
+        if "[[bushing]]" in block:
+            continue
         if "[[tendon]]" in block:
             if block.lstrip().split("\n")[0].rsplit(":", 1)[-1] in held:
                 continue
