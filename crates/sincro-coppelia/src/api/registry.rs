@@ -469,8 +469,22 @@ impl ObjectRegistry {
     /// nothing below it that the model moves.
     #[must_use]
     pub(crate) fn is_loose(&self, handle: Handle) -> bool {
-        let is_point = |entry: &Entry| entry.is_runtime || matches!(entry.kind, Kind::Vision(_) | Kind::Frame);
+        let is_point = |entry: &Entry| {
+            entry.is_runtime
+                || matches!(entry.kind, Kind::Vision(_))
+                || entry.kind == Kind::Frame && !self.is_end_of_spring(entry)
+        };
         self.tree(handle).into_iter().all(|h| self.entry(h).is_ok_and(is_point))
+    }
+
+    /// Returns true if a spring between points, a tendon or a bushing ends where a frame of the scene stands: the model
+    /// changes with it.
+    fn is_end_of_spring(&self, entry: &Entry) -> bool {
+        let model = &self.scene().model;
+        let is_here = |link: Option<usize>, p: Vec3<f64>| link == entry.frame.link && p == entry.frame.pose.pos;
+        let mut lines = model.spring_dampers().iter().flat_map(|element| element.segments()).flat_map(|s| &s.ends);
+        let mut bushings = model.bushings().iter().flat_map(|bushing| &bushing.ends);
+        lines.any(|end| is_here(end.link, end.position)) || bushings.any(|end| is_here(end.link, end.pose.pos))
     }
 
     /// All joints that have one coordinate.
