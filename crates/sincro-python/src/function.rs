@@ -179,9 +179,13 @@ impl Controller for FunctionController {
     }
 }
 
-/// Commands that Python holds while it steps a run: the strongest source.
+/// Commands that Python holds while it steps a run, the strongest source, and changes of the structure that it has
+/// made and the run has not adopted.
 #[derive(Clone, Debug)]
-pub struct Held(pub Vec<Option<f64>>);
+pub struct Held {
+    pub commands: Vec<Option<f64>>,
+    pub made: Vec<Restructured>,
+}
 
 impl Controller for Held {
     fn name(&self) -> &str {
@@ -189,11 +193,15 @@ impl Controller for Held {
     }
 
     fn latch(&self, commands: &mut Commands<'_>) {
-        for (command, held) in self.0.iter().enumerate() {
+        for (command, held) in self.commands.iter().enumerate() {
             if let Some(value) = held {
                 commands.set(command, *value);
             }
         }
+    }
+
+    fn take_restructured(&mut self) -> Vec<Restructured> {
+        std::mem::take(&mut self.made)
     }
 
     fn fork(&self) -> Forked {

@@ -4,10 +4,14 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
+use sincro_dynamics::spatial::Pose;
 use sincro_dynamics::world::MethodKind;
 use sincro_scene::diagram::ControlDiagram;
+use sincro_scene::draft::SceneDraft;
 use sincro_scene::record::Recorder;
+use sincro_scene::scene::frame_of;
 use sincro_sim::Loaded;
+use sincro_sim::restructure::{Edit, restructure};
 use sincro_sim::results::Status;
 use sincro_sim::run::{Followed, LockStep, method_for};
 use sincro_sim::trace::Trace;
@@ -111,7 +115,7 @@ impl Live {
         let (method, _) = method_for(&with_functions);
         let mut lockstep = LockStep::new(&with_functions, method, false);
         let n_commands = loaded.scene.commands.len();
-        lockstep.attach(Box::new(Held(vec![None; n_commands])));
+        lockstep.attach(Box::new(Held { commands: vec![None; n_commands], made: Vec::new() }));
         let trace = lockstep.trace();
         let mut live = Self {
             loaded: loaded.clone(),
@@ -179,7 +183,7 @@ impl Live {
     /// Commands that are held from now on.
     pub fn held(&mut self) -> &mut [Option<f64>] {
         let (held, _) = self.lockstep.controller::<Held>().expect("it was attached when the run began");
-        &mut held.0
+        &mut held.commands
     }
 
     /// Hash of all states so far.
@@ -213,6 +217,33 @@ impl Live {
         state.q = q.unwrap_or(state.q);
         state.v = v.unwrap_or(state.v);
         self.lockstep.set_state(state, &[]);
+    }
+
+    /// Puts what is fixed in the world at another place there, `place` taking its present pose `[m]`; all that joins it
+    /// goes on from there.
+    pub fn move_fixed(&mut self, path: &str, place: impl FnOnce(&Pose<f64>) -> Pose<f64>) -> Result<(), LiveError> {
+        if let Some(status) = &self.ended {
+            return Err(LiveError::Stopped(status.clone()));
+        }
+        let scene = self.lockstep.scene().clone();
+        let Some(k) = scene.objects.iter().position(|object| object.path == path) else {
+            return Err(LiveError::Argument(format!("there is no object `{path}`")));
+        };
+        let here = frame_of(&scene, k);
+        if here.link.is_some() {
+            let words = format!("`{path}` moves with joints: set their coordinates, `set_state`");
+            return Err(LiveError::Argument(words));
+        }
+        let Some(mut draft) = SceneDraft::new(&scene) else {
+            return Err(LiveError::Argument("the scene was not read from a file".into()));
+        };
+        let x_wp = scene.objects[k].parent.map_or_else(Pose::identity, |parent| frame_of(&scene, parent).pose);
+        draft.set_pose(path, &x_wp.inverse().compose(&place(&here.pose)));
+        let to = draft.compile(scene.objects.len()).map_err(LiveError::Names)?;
+        let (held, world) = self.lockstep.controller::<Held>().expect("it was attached when the run began");
+        let edit = Edit { from: &scene, copies: &BTreeMap::new(), conserves_momentum: false };
+        held.made.push(restructure(world, to, &edit));
+        self.lockstep.follow_structure().map_err(|halt| self.end(halt))
     }
 
     /// The present moment, to go back to.

@@ -10,6 +10,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sincro::Override;
+use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use sincro_scene::record::{Probe, Recorder, catalogue};
 use sincro_sim::Loaded;
 
@@ -325,6 +326,30 @@ impl Model {
         self.with_live(py, |live| {
             live.place(q, v);
             Ok(())
+        })
+    }
+
+    /// Puts a body or frame that is fixed in the world at another place there while the run is under way: position
+    /// (3,) [m], orientation as a quaternion w, x, y, z (4,); what is left out stays. What a bushing joins to it
+    /// follows, as what a weld joins to a mocap body of MuJoCo.
+    #[pyo3(signature = (path, position=None, quaternion_wxyz=None))]
+    fn set_pose(
+        &self,
+        py: Python<'_>,
+        path: String,
+        position: Option<&Bound<'_, PyAny>>,
+        quaternion_wxyz: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let position = position.map(|p| numbers::vector(py, "position", p, 3)).transpose()?;
+        let wxyz = quaternion_wxyz.map(|q| numbers::vector(py, "quaternion_wxyz", q, 4)).transpose()?;
+        if wxyz.as_ref().is_some_and(|q| q.iter().all(|x| *x == 0.0)) {
+            return Err(errors::argument(py, "`quaternion_wxyz` is zero, which is no orientation"));
+        }
+        self.with_live(py, move |live| {
+            live.move_fixed(&path, |here| Pose {
+                pos: position.map_or(here.pos, |p| Vec3([p[0], p[1], p[2]])),
+                rot: wxyz.map_or(here.rot, |q| Quat::from_slice(&q).normalized().matrix()),
+            })
         })
     }
 

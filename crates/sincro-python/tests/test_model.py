@@ -297,3 +297,29 @@ def test_robots_are_imported(tmp_path):
     with pytest.raises(sincro.SceneError) as caught:
         sincro.load(robot)
     assert caught.value.diagnostics[0]["line"] == 1
+
+
+def test_a_fixed_body_is_moved_and_takes_along_what_a_bushing_joins_to_it(tmp_path):
+    (tmp_path / "scene.toml").write_text(
+        """gravity = [0.0, 0.0, 0.0]
+frame = [{ name = "target", position = [0.0, 0.0, 1.0] }]
+body = [{ name = "hand", parent = "/free", mass = 2.0, inertia = { xx = 0.1, yy = 0.1, zz = 0.1 } }]
+joint = [{ name = "free", kind = "free", initial = { position = [0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0] } }]
+bushing = [{ name = "grasp", between = ["/target", "/free/hand"], stiffness = 200.0, damping = 40.0, rotational_stiffness = 20.0, rotational_damping = 4.0 }]
+"""
+    )
+    (tmp_path / "experiment.toml").write_text('title = "mocap"\nduration = 5.0\nstep = 0.01\nrecord = ["/free/hand.position.x"]\n')
+    model = sincro.load(tmp_path)
+    model.step(steps=50)
+    assert abs(model["/free/hand.position.x"]) < 1e-12
+    turned = [np.cos(0.2), 0.0, 0.0, np.sin(0.2)]
+    model.set_pose("/target", position=[0.3, 0.0, 1.0], quaternion_wxyz=turned)
+    # critically damped: x = 0.3 (1 − (1 + ω t) exp(−ω t)), ω = 10 rad/s
+    model.step(steps=20)
+    np.testing.assert_allclose(model["/free/hand.position.x"], 0.3 * (1 - 3 * np.exp(-2.0)), rtol=1e-5)
+    model.step(steps=200)
+    np.testing.assert_allclose(model.observe(["/free/hand.position.x", "/grasp.rotation.z"]), [0.3, 0.0], atol=1e-5)
+    with pytest.raises(sincro.ArgumentError, match="moves with joints"):
+        model.set_pose("/free/hand", position=[0.0, 0.0, 0.0])
+    with pytest.raises(sincro.ArgumentError, match="no object"):
+        model.set_pose("/nowhere", position=[0.0, 0.0, 0.0])

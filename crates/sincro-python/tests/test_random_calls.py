@@ -39,6 +39,7 @@ anything = st.one_of(arrays, names, st.just(object()), st.just(Ellipsis), st.bin
 CALLABLE = {
     "step": (arrays, st.integers(-1, 5)),
     "set_state": (arrays, arrays),
+    "set_pose": (names, arrays, arrays),
     "observe": (st.lists(names, max_size=3),),
     "__getitem__": (names,),
     "mass_matrix": (arrays,),
