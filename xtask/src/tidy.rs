@@ -18,6 +18,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
     ("sincro-motion", &[]),
+    ("sincro-vision", &["sincro-math"]),
     (
         "sincro-dynamics",
         &[
@@ -34,7 +35,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-compile", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene"]),
     ("sincro-sim", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-compile"]),
     ("sincro-analysis", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
-    ("sincro-coppelia", &["sincro-math", "sincro-motion", "sincro-dynamics", "sincro-scene", "sincro-sim"]),
+    (
+        "sincro-coppelia",
+        &["sincro-math", "sincro-motion", "sincro-vision", "sincro-dynamics", "sincro-scene", "sincro-sim"],
+    ),
     (
         "sincro-lua",
         &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim", "sincro-coppelia"],
@@ -106,7 +110,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 10] = [
+const THINKING: [&str; 11] = [
     "sincro-math",
     "sincro-complementarity",
     "sincro-geometry",
@@ -115,6 +119,7 @@ const THINKING: [&str; 10] = [
     "sincro-camera",
     "sincro-aero",
     "sincro-motion",
+    "sincro-vision",
     "sincro-dynamics",
     "sincro-blocks",
 ];

@@ -155,6 +155,7 @@ impl Scripts {
         }
         if phase == Phase::Sensing {
             (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_dynamics(step, true)))?;
+            (0..n).try_for_each(|k| self.with_machine(k, Machine::call_vision))?;
         }
         let is_in_step = matches!(phase, Phase::Actuation | Phase::Sensing);
         let called = (0..n).try_for_each(|k| {

@@ -26,6 +26,7 @@ mod machine;
 mod power;
 mod sandbox;
 mod shared;
+mod vision;
 
 pub use guard::abort_running_scripts;
 use sincro_sim::ScriptEngine;

@@ -23,7 +23,7 @@ use crate::guard::Guard;
 use crate::lexer::{self, Word};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
-use crate::{api, callback, contact, convert, fault, files, power};
+use crate::{api, callback, contact, convert, fault, files, power, vision};
 
 /// Values of `sim_call_type`; any numbers will do, scripts compare names.
 pub(crate) const CALL_TYPES: [(&str, i64); 10] = [
@@ -47,8 +47,8 @@ pub(crate) const TEXT: &str = "sincro.text";
 
 /// Callbacks of CoppeliaSim that are not called here, and why.
 const NOT_CALLED: [(&str, &str); 3] = [
-    ("sysCall_trigger", "sensors trigger nothing"),
-    ("sysCall_vision", "pictures are read by functions (sim.getVisionSensorImg)"),
+    ("sysCall_trigger", "it is for scripts on vision sensors, whose sysCall_vision triggers"),
+    ("sysCall_vision", "it is for scripts on vision sensors"),
     ("sysCall_nonSimulation", "it is for customization scripts, while `sincro serve` is stopped"),
 ];
 
@@ -84,6 +84,7 @@ struct Entries {
     dynamics: Option<Function>,
     joint: Option<Function>,
     contact: Option<Function>,
+    vision: Option<Function>,
     before_main: Option<Function>,
 }
 
@@ -337,13 +338,18 @@ impl Machine {
             dynamics: self.entry(&["sysCall_dyn", "sysCall_dynCallback"])?,
             joint: self.entry(&["sysCall_joint", "sysCall_jointCallback"])?,
             contact: self.entry(&["sysCall_contact", "sysCall_contactCallback"])?,
+            vision: self.entry(&["sysCall_vision"])?,
             before_main: self
                 .entry(&["sysCall_beforeMainScript"])?
                 .filter(|_| self.script().kind == Kind::Customization),
         };
         for (name, why) in NOT_CALLED {
             // those of a session are
-            let is_called = name == "sysCall_nonSimulation" && phase == Phase::Open;
+            let is_called = match name {
+                "sysCall_nonSimulation" => phase == Phase::Open,
+                "sysCall_vision" | "sysCall_trigger" => vision::is_sensor(&self.shared, self.shared.object(self.index)),
+                _ => false,
+            };
             if !is_called && self.entry(&[name])?.is_some() {
                 self.shared.say(self.index, format!("{name} is not called: {why}"));
             }
@@ -461,6 +467,16 @@ impl Machine {
     pub fn call_contact(&mut self, bodies: [Handle; 2]) -> Result<bool, ScriptError> {
         let Some(function) = self.entries.contact.clone() else { return Ok(false) };
         self.within(|m| contact::ask(&m.lua, &m.shared, m.index, &function, bodies))
+    }
+
+    /// Calls `sysCall_vision` of a script on a vision sensor that each step handles.
+    pub fn call_vision(&mut self) -> Result<(), ScriptError> {
+        let Some(function) = self.entries.vision.clone() else { return Ok(()) };
+        let sensor = self.shared.object(self.index);
+        if !vision::is_handled_by_step(&self.shared, sensor) {
+            return Ok(());
+        }
+        self.within(|m| vision::filter(&m.lua, &m.shared, sensor, &function))
     }
 
     /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what

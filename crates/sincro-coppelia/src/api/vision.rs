@@ -8,6 +8,7 @@
 use sincro_dynamics::kinematics;
 use sincro_dynamics::scratch::Scratch;
 
+use super::filters::Filtered;
 use super::registry::{Handle, Kind, ObjectRegistry};
 use super::senses::handle_of;
 use super::{ApiError, Entity, SimApi};
@@ -38,6 +39,14 @@ struct SensorSlot {
     image: Option<Image>,
     /// Entity that a client or script has it show; all by default.
     entity: Entity,
+    filtered: Filtered,
+}
+
+impl SensorSlot {
+    /// Forgets the picture and what was made of it.
+    fn forget(&mut self) {
+        (self.shows, self.image, self.filtered) = (ImageState::Nothing, None, Filtered::default());
+    }
 }
 
 /// State of the image of a sensor.
@@ -79,7 +88,8 @@ impl Vision {
     /// Adds a sensor; its index.
     pub fn add(&mut self, sensor: VisionSensor, is_runtime: bool) -> usize {
         let shows = ImageState::Nothing;
-        let slot = SensorSlot { sensor, is_runtime, is_removed: false, shows, image: None, entity: Entity::All };
+        let (entity, filtered) = (Entity::All, Filtered::default());
+        let slot = SensorSlot { sensor, is_runtime, is_removed: false, shows, image: None, entity, filtered };
         match self.slots.iter().position(|slot| slot.is_removed) {
             Some(k) => {
                 self.slots[k] = slot;
@@ -93,7 +103,8 @@ impl Vision {
     }
 
     pub fn remove(&mut self, k: usize) {
-        (self.slots[k].is_removed, self.slots[k].image) = (true, None);
+        self.slots[k].is_removed = true;
+        self.slots[k].forget();
     }
 
     /// All that are not handled explicitly are handled.
@@ -101,6 +112,7 @@ impl Vision {
         let mut is_used = false;
         for slot in self.slots.iter_mut().filter(|slot| !slot.sensor.is_explicit && !slot.sensor.is_external) {
             (slot.shows, is_used) = (ImageState::Handled, true);
+            slot.filtered.begin();
         }
         if is_used {
             self.q.clear();
@@ -126,9 +138,7 @@ impl Vision {
 
     /// Forgets all pictures.
     pub fn forget(&mut self) {
-        for slot in &mut self.slots {
-            (slot.shows, slot.image) = (ImageState::Nothing, None);
-        }
+        self.slots.iter_mut().for_each(SensorSlot::forget);
     }
 
     /// Sensors of the scene are as they were `before` a run.
@@ -202,6 +212,17 @@ impl ObjectRegistry {
         Ok(self.vision.slots[self.vision_index(handle)?].entity.number())
     }
 
+    /// Work image of a vision sensor, and what its script has made of its picture.
+    pub(super) fn filtered(&mut self, handle: Handle) -> Result<&mut Filtered, ApiError> {
+        let k = self.vision_index(handle)?;
+        Ok(&mut self.vision.slots[k].filtered)
+    }
+
+    /// Those of all vision sensors.
+    pub(super) fn all_filtered(&self) -> impl Iterator<Item = &Filtered> {
+        self.vision.slots.iter().map(|slot| &slot.filtered)
+    }
+
     /// Changes a vision sensor; its picture is forgotten if that has another size or another lens.
     ///
     /// # Errors
@@ -219,7 +240,7 @@ impl ObjectRegistry {
         self.vision.check_stored_size(&sensor.optics, Some(k))?;
         let slot = &mut self.vision.slots[k];
         if slot.sensor.optics != sensor.optics {
-            (slot.shows, slot.image) = (ImageState::Nothing, None);
+            slot.forget();
         }
         slot.sensor = sensor;
         Ok(())
@@ -250,7 +271,7 @@ impl ObjectRegistry {
         };
         for (k, slot) in self.vision.slots.iter_mut().enumerate() {
             if one.is_none_or(|one| one == k) && (which != Sensors::NotExplicit || !slot.sensor.is_explicit) {
-                (slot.shows, slot.image) = (ImageState::Nothing, None);
+                slot.forget();
             }
         }
         Ok(())
@@ -287,6 +308,7 @@ impl SimApi<'_> {
                 if !sensor.is_external && (sensor.is_explicit || which != Sensors::All) {
                     self.draw(handle, k, &q);
                     self.registry.vision.slots[k].shows = ImageState::Drawn;
+                    self.registry.vision.slots[k].filtered.begin();
                 }
             }
         }
@@ -337,7 +359,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// `handle` is no object, or is no vision sensor.
-    pub fn read_vision(&mut self, handle: Handle) -> Result<Option<[f64; 15]>, ApiError> {
+    pub(super) fn vision_statistics(&mut self, handle: Handle) -> Result<Option<[f64; 15]>, ApiError> {
         let k = self.registry.vision_index(handle)?;
         if self.registry.vision.slots[k].shows == ImageState::Nothing {
             return Ok(None);

@@ -11,6 +11,7 @@ mod modules;
 mod moves;
 mod scripts;
 mod threads;
+mod vision;
 
 use std::sync::Arc;
 
@@ -66,6 +67,7 @@ pub(crate) fn offer(
     cascade::offer(&context)?;
     threads::offer(&context, waits)?;
     moves::offer(&context, waits)?;
+    vision::offer(&context)?;
     callbacks::offer(&context)?;
     absent(&context)?;
     lua.globals().set("sim", &context.sim)?;

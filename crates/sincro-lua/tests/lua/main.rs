@@ -21,4 +21,5 @@ mod senses;
 mod structure;
 mod styles;
 mod touching;
+mod vision;
 mod world;

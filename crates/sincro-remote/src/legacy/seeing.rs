@@ -49,12 +49,13 @@ pub(super) fn depths(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     Ok(data)
 }
 
-/// State (1: triggered, which nothing does here), number of packets, their lengths, their numbers.
+/// State (1: triggered by the sensor's script), number of packets, their lengths, their numbers.
 pub(super) fn read(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    let packet = sim.read_vision(call.handle()?)?;
-    let packet = packet.ok_or_else(|| ApiError::new("the vision sensor has not been handled since the run began"))?;
-    let mut data = vec![0];
-    data.extend(ints([1, packet.len() as i32])?);
-    data.extend(reals(packet)?);
+    let reading = sim.read_vision(call.handle()?)?;
+    let reading = reading.ok_or_else(|| ApiError::new("the vision sensor has not been handled since the run began"))?;
+    let lengths = reading.packets.iter().map(|packet| packet.len() as i32);
+    let mut data = vec![u8::from(reading.is_triggered)];
+    data.extend(ints(std::iter::once(reading.packets.len() as i32).chain(lengths))?);
+    data.extend(reals(reading.packets.into_iter().flatten())?);
     Ok(data)
 }

@@ -13,7 +13,7 @@ use crate::hub::{ClientId, Hub};
 use crate::limits;
 
 /// Modules of the official program that are asked for and not offered.
-const MODULES: &str = "the modules sim, simIK and simUI are offered";
+const MODULES: &str = "the modules sim, simIK, simUI and simVision are offered";
 /// Longest real wait of one call.
 const MAX_WAIT: f64 = 3_600.0;
 
@@ -321,6 +321,7 @@ pub(crate) fn info(module: &str) -> Result<Value, ApiError> {
     static SIM: OnceLock<Value> = OnceLock::new();
     static IK: OnceLock<Value> = OnceLock::new();
     static UI: OnceLock<Value> = OnceLock::new();
+    static VISION: OnceLock<Value> = OnceLock::new();
     if !is_offered(module) {
         return Err(ApiError(format!("there is no module {module}: {MODULES}")));
     }
@@ -330,6 +331,10 @@ pub(crate) fn info(module: &str) -> Result<Value, ApiError> {
     }
     if module.starts_with("simUI") {
         return Ok(UI.get_or_init(|| members(functions::ui_functions().map(|f| f.name), std::iter::empty())).clone());
+    }
+    if module.starts_with("simVision") {
+        let of_vision = || members(functions::vision_functions().map(|f| f.name), std::iter::empty());
+        return Ok(VISION.get_or_init(of_vision).clone());
     }
     Ok(SIM.get_or_init(|| members(all(), constants::constants())).clone())
 }
@@ -343,10 +348,10 @@ fn members<'a>(names: impl Iterator<Item = &'a str>, constants: impl Iterator<It
     Value::Map(functions.chain(constants).collect())
 }
 
-/// Returns true if a module is here: `sim`, `simIK` and `simUI`, with or without a version.
+/// Returns true if a module is here: `sim`, `simIK`, `simUI` and `simVision`, with or without a version.
 pub(crate) fn is_offered(module: &str) -> bool {
     let (name, version) = module.split_once('-').unwrap_or((module, "1"));
-    matches!(name, "sim" | "simIK" | "simUI") && version.parse() == Ok(1)
+    matches!(name, "sim" | "simIK" | "simUI" | "simVision") && version.parse() == Ok(1)
 }
 
 /// `require`

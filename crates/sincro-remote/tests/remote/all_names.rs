@@ -98,6 +98,37 @@ fn every_name_of_sim_ik_answers_any_arguments_and_what_is_absent_says_why() {
 }
 
 #[test]
+fn every_name_of_sim_vision_answers_any_arguments() {
+    let server = serve();
+    let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("vision"));
+    let info = client.call("zmqRemoteApi.info", &[Value::from("simVision")]).unwrap().remove(0);
+    let Value::Map(members) = &info else { panic!("{info:?}") };
+    let (eye, ball) = (client.object("/eye"), client.object("/ball"));
+    let numbers = |x: f64, n: usize| [vec![eye.clone()], vec![Value::Real(x); n]].concat();
+    let three = || Value::reals([0.5, 1e300, -1.0]);
+    let lists = vec![eye.clone(), three(), three(), Value::Bool(false), Value::Bool(true), Value::Bool(true)];
+    let two = vec![eye.clone(), Value::reals([3.0, 2.0]), Value::Bool(true), Value::Bool(true)];
+    for with_image in [false, true] {
+        for (name, _) in members {
+            for args in [numbers(0.5, 12), numbers(f64::NAN, 12), numbers(2.0, 2), lists.clone(), two.clone()]
+                .into_iter()
+                .chain(arguments(&eye, &ball))
+            {
+                if with_image {
+                    client.call("simVision.sensorImgToWorkImg", std::slice::from_ref(&eye)).unwrap();
+                }
+                let answer = client.exchange(&format!("simVision.{name}"), &args);
+                let reason =
+                    field(&answer, "err").and_then(Value::as_text).unwrap_or("it was done, and no more is said");
+                assert!(reason.len() > 15 && !reason.contains('\n'), "{name}: {reason}");
+            }
+        }
+    }
+    let why = client.call("simVision.rotateWorkImg", std::slice::from_ref(&eye)).unwrap_err();
+    assert!(why.starts_with("simVision.rotateWorkImg is not offered: work images are not resampled"), "{why}");
+}
+
+#[test]
 fn every_command_number_answers_any_data() {
     let server = serve();
     let mut client = Legacy::connect(server.ports().legacy[0]);

@@ -30,7 +30,7 @@ fn of_scripts() -> (BTreeSet<String>, BTreeSet<String>) {
                     print((type(_G[old]) == 'function' and 'both ' or 'new ') .. name)
                 end
             end
-            for _, module in ipairs { 'simIK', 'simUI', 'simRemoteApi', 'messagePack' } do
+            for _, module in ipairs { 'simIK', 'simUI', 'simVision', 'simRemoteApi', 'messagePack' } do
                 for name, value in pairs(require(module)) do
                     if type(value) == 'function' then print('new ' .. module .. '.' .. name) end
                 end
@@ -49,6 +49,13 @@ fn of_scripts() -> (BTreeSet<String>, BTreeSet<String>) {
         }
     }
     (new, old)
+}
+
+/// Functions that are refused, each with the reason.
+fn refused() -> Vec<(String, &'static str)> {
+    let of_vision = functions::absent_vision_functions().map(|(name, why)| (format!("simVision.{name}"), why));
+    let of_sim = functions::absent().map(|name| (name.to_owned(), functions::why_absent(name).unwrap()));
+    of_sim.chain(of_vision).collect()
 }
 
 /// A row of the table: legacy, ZeroMQ, old and new Lua.
@@ -72,14 +79,15 @@ fn rows() -> BTreeMap<String, Row> {
     sincro_remote::zmq::present_names().into_iter().for_each(|name| mark(name.to_owned(), 1));
     functions::ik_functions().for_each(|f| mark(format!("simIK.{}", f.name), 1));
     functions::ui_functions().for_each(|f| mark(format!("simUI.{}", f.name), 1));
-    let absent: BTreeSet<&str> = functions::absent().collect();
+    functions::vision_functions().for_each(|f| mark(format!("simVision.{}", f.name), 1));
+    let absent: BTreeSet<String> = refused().into_iter().map(|(name, _)| name).collect();
     let older: BTreeSet<String> = functions::old_names()
         .map(|(old, _)| old.to_owned())
         .chain(functions::old_ik_names().map(|(old, _)| format!("simIK.{old}")))
         .collect();
     let (new, old) = of_scripts();
     for (names, column) in [(old, 2), (new, 3)] {
-        for name in names.into_iter().filter(|name| !absent.contains(&**name) && !older.contains(name)) {
+        for name in names.into_iter().filter(|name| !absent.contains(name) && !older.contains(name)) {
             mark(name, column);
         }
     }
@@ -111,7 +119,7 @@ fn page() -> String {
         writeln!(out, "| {} | {api} |", count(folder, ending)).unwrap();
     }
     let all = |column: usize| rows.values().filter(|row| row.offered[column]).count();
-    let refused: BTreeSet<&str> = functions::absent().collect();
+    let refused = refused();
     let n_older = functions::old_names().count() + functions::old_ik_names().count();
     write!(
         out,
@@ -138,17 +146,17 @@ fn page() -> String {
         .unwrap();
     }
     out += "\n## Refused\n\nBy every API that has them, with the reason in the error (legacy: return code 8 and `simxGetLastErrors`).\n\n| reason | functions |\n|---|---|\n";
-    let mut reasons: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for name in refused {
-        reasons.entry(functions::why_absent(name).unwrap()).or_default().push(name);
+    let mut reasons: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for (name, why) in &refused {
+        reasons.entry(why).or_default().insert(name);
     }
     for (name, why) in sincro_remote::legacy::functions() {
         if let Some(why) = why {
-            reasons.entry(why).or_default().push(name);
+            reasons.entry(why).or_default().insert(name);
         }
     }
     for (why, names) in reasons {
-        writeln!(out, "| {why} | {} |", names.join(", ")).unwrap();
+        writeln!(out, "| {why} | {} |", names.into_iter().collect::<Vec<_>>().join(", ")).unwrap();
     }
     out
 }

@@ -13,6 +13,7 @@ mod control;
 mod distances;
 mod drawings;
 mod fields;
+mod filters;
 mod graphs;
 pub mod ik;
 mod ik_groups;
@@ -62,7 +63,7 @@ pub type Outcome = Result<Vec<Value>, ApiError>;
 
 /// Function of the API that is called by name, as scripts and remote clients do; adapters list them with [`functions`].
 pub struct Function {
-    /// Present name, without its module `sim.`, `simIK.` or `simUI.`.
+    /// Present name, without its module `sim.`, `simIK.`, `simUI.` or `simVision.`.
     pub name: &'static str,
     /// Signature, as call tips show it: `float position=sim.getJointPosition(int jointHandle)`.
     pub tip: &'static str,
@@ -140,6 +141,17 @@ pub fn ui_functions() -> impl Iterator<Item = &'static Function> {
     ui::FUNCTIONS.iter().chain(ui::SHOWN).chain(ui::KEPT)
 }
 
+/// Functions of the module `simVision` (filters on the pictures of vision sensors), each once; their names are without
+/// `simVision.`.
+pub fn vision_functions() -> impl Iterator<Item = &'static Function> {
+    filters::FUNCTIONS.iter()
+}
+
+/// Functions of `simVision` that are not offered, without `simVision.`, each with the reason.
+pub fn absent_vision_functions() -> impl Iterator<Item = (&'static str, &'static str)> {
+    filters::ABSENT.iter().copied()
+}
+
 /// Older names of functions of `simIK`, each with its present name, both without `simIK.`.
 pub fn old_ik_names() -> impl Iterator<Item = (&'static str, &'static str)> {
     ik::OLD.iter().copied()
@@ -151,8 +163,8 @@ fn ik_function(name: &str) -> Option<&'static Function> {
     ik::FUNCTIONS.iter().find(|f| f.name == present)
 }
 
-/// Finds a function by its present or an older name, with or without `sim.`; those of `simIK` and `simUI` only with
-/// their module. None if it is not offered.
+/// Finds a function by its present or an older name, with or without `sim.`; those of `simIK`, `simUI` and `simVision`
+/// only with their module. None if it is not offered.
 #[must_use]
 pub fn function(name: &str) -> Option<&'static Function> {
     static BY_NAME: OnceLock<BTreeMap<&'static str, &'static Function>> = OnceLock::new();
@@ -162,6 +174,9 @@ pub fn function(name: &str) -> Option<&'static Function> {
     }
     if let Some(name) = name.strip_prefix("simUI.") {
         return ui_functions().find(|f| f.name == name);
+    }
+    if let Some(name) = name.strip_prefix("simVision.") {
+        return vision_functions().find(|f| f.name == name);
     }
     let bare = name.strip_prefix("sim.").unwrap_or(name);
     by_name.get(bare).or_else(|| by_name.get(&*present_name(name))).copied()
@@ -178,6 +193,11 @@ pub fn function(name: &str) -> Option<&'static Function> {
 pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
     let function = function(name).ok_or_else(|| {
         let present = present_name(name);
+        let of_vision =
+            || name.strip_prefix("simVision.").and_then(|name| filters::ABSENT.iter().find(|f| f.0 == name));
+        if let Some((_, why)) = of_vision() {
+            return ApiError(format!("{name} is not offered: {why}"));
+        }
         if let Some(why) = why_absent(&present) {
             return ApiError(format!("sim.{present} is not offered: {why}"));
         }
@@ -191,7 +211,7 @@ pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
 
 /// The module that a name belongs to.
 fn module_of(name: &str) -> &'static str {
-    ["simIK", "simUI"]
+    ["simIK", "simUI", "simVision"]
         .into_iter()
         .find(|module| name.strip_prefix(module).is_some_and(|rest| rest.starts_with('.')))
         .unwrap_or("sim")

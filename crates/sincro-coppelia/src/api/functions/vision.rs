@@ -4,7 +4,7 @@ use super::ik_groups::{is_group, parts};
 use super::{Function, Outcome, done, handle, one};
 use crate::api::constants::HANDLE_FLAGS;
 use crate::api::vision::{Sensors, with_angle};
-use crate::api::{ApiError, Arguments, Handle, SimApi, Value};
+use crate::api::{ApiError, Arguments, Handle, SimApi, Value, VisionReading};
 use sincro_scene::camera::{Layer, Lens, Optics, Part};
 use sincro_scene::scene::VisionSensor;
 
@@ -172,11 +172,14 @@ fn depth(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     Ok(vec![Value::Bytes(packed(image.depths(part, in_metres))), pixels(image.resolution())])
 }
 
-/// Nothing triggers a sensor by itself: 0, or −1 if it has not been handled.
+/// The trigger, which nothing but the sensor's script sets, and the packets; −1 if it has not been handled.
 fn read(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     Ok(match sim.read_vision(own)? {
-        Some(packet) => vec![Value::Int(0), Value::reals(packet)],
+        Some(VisionReading { is_triggered, packets }) => {
+            let packets = packets.into_iter().map(Value::reals);
+            std::iter::once(Value::Int(i64::from(is_triggered))).chain(packets).collect()
+        }
         None => vec![Value::Int(-1)],
     })
 }
@@ -192,11 +195,10 @@ fn sensors(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Sensors, ApiError> {
 fn handle_sensors(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let which = sensors(sim, a)?;
     sim.handle_vision(which)?;
-    let mut results = vec![Value::Int(0)];
-    if let Sensors::One(own) = which {
-        results.extend(sim.read_vision(own)?.map(Value::reals));
+    match which {
+        Sensors::One(_) => read(sim, a),
+        _ => one(0_i64),
     }
-    Ok(results)
 }
 
 fn reset(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {

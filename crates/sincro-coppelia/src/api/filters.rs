@@ -1,0 +1,206 @@
+//! Work images of vision sensors, on which filters work, and what a script makes of a picture: a trigger and packets of
+//! numbers. The filters are those of `sincro-vision`.
+
+use sincro_vision::{DepthLens, WorkImage};
+
+use super::registry::Handle;
+use super::{ApiError, SimApi};
+use sincro_scene::camera::{Layer, Lens};
+
+/// Pixels that all work images and their buffers may have together: 4 Mi, which take 100 MB.
+const MAX_WORK_PIXELS: usize = 1 << 22;
+/// Packets that a script may add to the reading of one sensor.
+const MAX_PACKETS: usize = 1_000;
+/// Numbers of all packets of one reading together.
+const MAX_PACKET_LEN: usize = 1 << 22;
+
+/// Work image of a sensor with its two buffers.
+#[derive(Clone, Debug)]
+pub(super) struct WorkImages {
+    pub work: WorkImage,
+    /// Empty until something is put into them.
+    pub buffers: [Option<WorkImage>; 2],
+}
+
+impl WorkImages {
+    fn n_pixels(&self) -> usize {
+        let [columns, rows] = self.work.size();
+        columns * rows * (1 + self.buffers.iter().flatten().count())
+    }
+
+    /// A buffer of the size of the work image, black before something was put into it.
+    pub fn buffer(&mut self, k: usize) -> &mut WorkImage {
+        let size = self.work.size();
+        self.buffers[k].get_or_insert_with(|| WorkImage::black(size))
+    }
+}
+
+/// Result of the filters of one sensor since its last handling.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Filtered {
+    images: Option<WorkImages>,
+    /// Statistics of the picture before the filters.
+    statistics: Option<[f64; 15]>,
+    is_triggered: bool,
+    packets: Vec<Vec<f64>>,
+}
+
+impl Filtered {
+    /// Forgets the reading of the last handling; the work image stays.
+    pub fn begin(&mut self) {
+        (self.statistics, self.is_triggered) = (None, false);
+        self.packets.clear();
+    }
+}
+
+/// Reading of a vision sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VisionReading {
+    /// True if the sensor's script has triggered it.
+    pub is_triggered: bool,
+    /// Statistics of the picture ([`sincro_scene::camera::Image::statistics`]), then what the sensor's script has
+    /// added.
+    pub packets: Vec<Vec<f64>>,
+}
+
+/// Properties of a vision sensor that its script is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VisionInput {
+    /// Numbers of columns and rows.
+    pub resolution: [usize; 2],
+    /// Distances of the near and far planes `[m]`.
+    pub clipping_planes: [f64; 2],
+    /// Angle over the longer side `[rad]`, 0 of a parallel projection.
+    pub view_angle: f64,
+    /// Length of the longer side `[m]`, 0 of a perspective projection.
+    pub view_size: f64,
+}
+
+impl SimApi<'_> {
+    /// Reading of a vision sensor: its trigger, the statistics of its image as it was before filters, dimensionless from
+    /// 0 to 1 (five minima, five maxima and five means of intensity, red, green, blue and depth), and the packets of its
+    /// script. None before its first handling in a run.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no object, or is no vision sensor.
+    pub fn read_vision(&mut self, handle: Handle) -> Result<Option<VisionReading>, ApiError> {
+        let filtered = self.registry.filtered(handle)?;
+        let (statistics, is_triggered, packets) =
+            (filtered.statistics, filtered.is_triggered, filtered.packets.clone());
+        let Some(statistics) = statistics.map_or_else(|| self.vision_statistics(handle), |known| Ok(Some(known)))?
+        else {
+            return Ok(None);
+        };
+        Ok(Some(VisionReading { is_triggered, packets: [vec![statistics.to_vec()], packets].concat() }))
+    }
+
+    /// Prepares a vision sensor for its script, which may change its image: keeps the statistics. Returns what the
+    /// script is told.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no object, or is no vision sensor.
+    pub fn begin_filters(&mut self, handle: Handle) -> Result<VisionInput, ApiError> {
+        let statistics = self.vision_statistics(handle)?;
+        let filtered = self.registry.filtered(handle)?;
+        filtered.begin();
+        filtered.statistics = statistics;
+        let optics = self.registry.vision_sensor(handle)?.optics;
+        Ok(VisionInput {
+            resolution: optics.resolution,
+            clipping_planes: [optics.near, optics.far],
+            view_angle: optics.view_angle(),
+            view_size: optics.view_size(),
+        })
+    }
+
+    /// Sets what the script of a vision sensor has made of its image: the trigger and packets of numbers.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no object or no vision sensor, or there are too many packets or numbers.
+    pub fn set_vision_result(
+        &mut self,
+        handle: Handle,
+        is_triggered: bool,
+        packets: Vec<Vec<f64>>,
+    ) -> Result<(), ApiError> {
+        if packets.len() > MAX_PACKETS || packets.iter().map(Vec::len).sum::<usize>() > MAX_PACKET_LEN {
+            return Err(ApiError(format!(
+                "a reading has up to {MAX_PACKETS} packets of {MAX_PACKET_LEN} numbers together"
+            )));
+        }
+        let filtered = self.registry.filtered(handle)?;
+        (filtered.is_triggered, filtered.packets) = (is_triggered, packets);
+        Ok(())
+    }
+
+    /// Makes the image of a sensor, or its depths, its work image.
+    pub(super) fn load_work_image(&mut self, handle: Handle, is_of_depths: bool) -> Result<(), ApiError> {
+        let size = self.registry.vision_sensor(handle)?.optics.resolution;
+        self.check_work_pixels(handle, size[0] * size[1])?;
+        let image = self.vision_image(handle)?;
+        let work = if is_of_depths {
+            WorkImage::from_intensities(size, image.depths(image.whole(), false))
+        } else {
+            WorkImage::from_rgb(size, image.rgb())
+        };
+        let images = &mut self.registry.filtered(handle)?.images;
+        match images {
+            Some(images) if images.work.size() == size => images.work = work,
+            _ => *images = Some(WorkImages { work, buffers: [None, None] }),
+        }
+        Ok(())
+    }
+
+    fn check_work_pixels(&mut self, handle: Handle, n: usize) -> Result<(), ApiError> {
+        let own = self.registry.filtered(handle)?.images.as_ref().map_or(0, WorkImages::n_pixels);
+        let all: usize = self
+            .registry
+            .all_filtered()
+            .filter_map(|filtered| filtered.images.as_ref())
+            .map(WorkImages::n_pixels)
+            .sum();
+        // two buffers may follow
+        if all - own + 3 * n <= MAX_WORK_PIXELS {
+            return Ok(());
+        }
+        Err(ApiError(format!(
+            "work images and their buffers would have more than {MAX_WORK_PIXELS} pixels: give the sensors a lower \
+             resolution, or release them with simVision.releaseBuffers"
+        )))
+    }
+
+    /// Work image of a sensor with its buffers.
+    pub(super) fn work_images(&mut self, handle: Handle) -> Result<&mut WorkImages, ApiError> {
+        let size = self.registry.vision_sensor(handle)?.optics.resolution;
+        let help = "call simVision.sensorImgToWorkImg or sensorDepthMapToWorkImg before";
+        let images = self.registry.filtered(handle)?.images.as_mut();
+        images
+            .filter(|images| images.work.size() == size)
+            .ok_or_else(|| ApiError(format!("there is no work image: {help}")))
+    }
+
+    /// Frees the work image of a sensor and its buffers.
+    pub(super) fn release_work_images(&mut self, handle: Handle) -> Result<(), ApiError> {
+        self.registry.filtered(handle)?.images = None;
+        Ok(())
+    }
+
+    /// Makes the work image of a sensor its image.
+    pub(super) fn store_work_image(&mut self, handle: Handle) -> Result<(), ApiError> {
+        let bytes = self.work_images(handle)?.work.rgb();
+        let whole = self.vision_image(handle)?.whole();
+        self.write_vision(handle, whole, Layer { is_grey: false, cut_off: None }, &bytes)
+    }
+
+    /// Lens of a sensor whose depths are turned into points.
+    pub(super) fn depth_lens(&self, handle: Handle) -> Result<DepthLens, ApiError> {
+        let optics = self.registry.vision_sensor(handle)?.optics;
+        let (height, [columns, rows]) = (optics.half_height(), optics.resolution);
+        let half = [height * columns as f64 / rows as f64, height];
+        let is_perspective = matches!(optics.lens, Lens::Perspective(_));
+        Ok(DepthLens { near: optics.near, far: optics.far, half, is_perspective })
+    }
+}
