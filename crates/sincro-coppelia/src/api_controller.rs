@@ -7,7 +7,7 @@ use crate::api::{self, ApiError, Handle, ObjectRegistry, Request, SimApi, Value}
 use crate::host::{Host, Phase, Scripts, Setting};
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::{Kind, ScriptError};
-use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message, SavedImage};
+use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message, SavedImage, ScriptFailure};
 use sincro_sim::load::Loaded;
 use sincro_sim::proximity::Detection;
 use sincro_sim::restructure::Restructured;
@@ -300,6 +300,10 @@ impl Controller for ApiController {
         let mut all = [printed, logged].concat();
         all.sort_by(|a, b| a.t.total_cmp(&b.t));
         (all, more_prints + more_logs)
+    }
+
+    fn script_failures(&self) -> Vec<ScriptFailure> {
+        self.scripts.as_ref().map_or_else(Vec::new, Scripts::failures)
     }
 
     fn take_images(&mut self) -> Vec<SavedImage> {

@@ -83,7 +83,7 @@ pub(crate) fn of(script: &Script, guard: &Guard, error: &Error) -> ScriptError {
     ScriptError { object: script.path.clone(), at: line.and_then(|line| location(script, line)), message, help }
 }
 
-fn is_of_memory(error: &Error) -> bool {
+pub(crate) fn is_of_memory(error: &Error) -> bool {
     match error {
         Error::MemoryError(_) => true,
         Error::CallbackError { cause, .. } => is_of_memory(cause),

@@ -80,6 +80,8 @@ pub(crate) struct Guard {
     /// read no clock.
     deadline: AtomicU64,
     stop_reason: AtomicU8,
+    /// True if a function of the simulation has refused a number that is not finite in the present call.
+    is_not_finite: AtomicBool,
     /// True once a call was stopped and the script continued: see [`Guard::was_stopped`].
     was_stopped: AtomicBool,
     switches_by_itself: AtomicBool,
@@ -112,6 +114,7 @@ impl Guard {
             time_limit,
             deadline: AtomicU64::new(0),
             stop_reason: AtomicU8::new(StopReason::None as u8),
+            is_not_finite: AtomicBool::new(false),
             was_stopped: AtomicBool::new(false),
             switches_by_itself: AtomicBool::new(true),
             line: AtomicUsize::new(0),
@@ -134,6 +137,12 @@ impl Guard {
         self.left.store(self.budget, Ordering::Relaxed);
         self.slice.store(SLICE, Ordering::Relaxed);
         self.deadline.store(0, Ordering::Relaxed);
+        self.is_not_finite.store(false, Ordering::Relaxed);
+    }
+
+    /// A function of the simulation has refused a number that is not finite.
+    pub fn note_not_finite(&self) {
+        self.is_not_finite.store(true, Ordering::Relaxed);
     }
 
     fn stop_reason(&self) -> StopReason {
@@ -143,6 +152,11 @@ impl Guard {
     /// Returns true if a limit was reached.
     pub fn is_stopped(&self) -> bool {
         self.stop_reason() != StopReason::None
+    }
+
+    /// Returns true if a number that is not finite was refused in the present call.
+    pub fn has_refused_not_finite(&self) -> bool {
+        self.is_not_finite.load(Ordering::Relaxed)
     }
 
     /// Returns true if any call of this Lua state was ever stopped. A coroutine that ended by an error of the hook has

@@ -13,8 +13,7 @@ use sincro_scene::scene::Scene;
 use sincro_scene::script::{Kind, Script, ScriptError, ScriptParser, ScriptedLaw, ScriptedLawSpec};
 use sincro_sim::Loaded;
 use sincro_sim::ScriptEngine;
-use sincro_sim::controller::Controller;
-use sincro_sim::controller::Message;
+use sincro_sim::controller::{Controller, Message, ScriptFailure};
 
 use crate::guard::Guard;
 use crate::law::LuaLaw;
@@ -116,6 +115,10 @@ impl Host for Scripts {
         done
     }
 
+    fn failures(&self) -> Vec<ScriptFailure> {
+        self.shared.failures()
+    }
+
     fn take_messages(&mut self) -> Vec<Message> {
         self.shared.take_messages()
     }
@@ -136,13 +139,18 @@ impl Scripts {
         if phase == Phase::Initialization {
             // child scripts come to life
             (self.is_running, self.scene) = (true, None);
+            self.shared.forget_failures();
         }
         let new = self.follow_scene()?;
         if !is_first {
             // those that are started while the simulation runs, or is stopped
             let first = if self.is_running { Phase::Initialization } else { Phase::Open };
             let is_new = |m: &&mut Machine| new.contains(&m.place());
-            self.machines.iter_mut().filter(is_new).try_for_each(|m| m.call(first))?;
+            let is_running = self.is_running;
+            self.machines.iter_mut().filter(is_new).try_for_each(|m| {
+                let done = m.call(first);
+                if is_running { m.after(done) } else { done }
+            })?;
         }
         let n = self.machines.len();
         self.machines.iter().for_each(Machine::refill);
@@ -228,15 +236,22 @@ impl Scripts {
     ) -> Result<(), ScriptError> {
         let machine = &mut self.machines[k];
         let own = self.shared.script(machine.place());
-        if self.shared.is_present(&own, self.scene.as_ref()) { call(machine) } else { Ok(()) }
+        if machine.is_dead() || !self.shared.is_present(&own, self.scene.as_ref()) {
+            return Ok(());
+        }
+        let done = call(machine);
+        // without a run nothing goes on
+        if self.is_running { machine.after(done) } else { done }
     }
 
     /// Calls `sysCall_beforeMainScript` again and again while a script holds the step back.
     fn wait_for_main(&mut self) -> Result<(), ScriptError> {
         for _ in 0..MAX_HELD {
             let mut holder = None;
-            for (k, machine) in self.machines.iter_mut().enumerate() {
-                if machine.call_before_main()? {
+            for k in 0..self.machines.len() {
+                let mut holds = false;
+                self.with_machine(k, |m| m.call_before_main().map(|answer| holds = answer))?;
+                if holds {
                     holder = Some(k);
                 }
             }
@@ -255,8 +270,13 @@ impl Scripts {
         // a table is there while scripts are called
         let near = self.shared.with_sim(own, |sim| Ok(sim.candidate_pairs())).unwrap_or_default();
         for bodies in near {
-            for machine in self.machines.iter_mut().filter(|m| m.has_contact()) {
-                if machine.call_contact(bodies)? {
+            for k in 0..self.machines.len() {
+                let mut decides = false;
+                let ask = |m: &mut Machine| m.call_contact(bodies).map(|answer| decides = answer);
+                if self.machines[k].has_contact() {
+                    self.with_machine(k, ask)?;
+                }
+                if decides {
                     break;
                 }
             }

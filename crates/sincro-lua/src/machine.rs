@@ -17,10 +17,10 @@ use mlua::chunk::ChunkMode;
 use mlua::{Function, Lua, Thread, Value};
 use sincro_coppelia::api::{self as sim_api, ApiError, Handle};
 use sincro_coppelia::host::Phase;
-use sincro_scene::script::{Kind, Script, ScriptError, Style};
+use sincro_scene::script::{Kind, OnError, Script, ScriptError, Style};
 
 use crate::guard::Guard;
-use crate::lexer::{self, Word};
+use crate::lexer::{self, Sort, Word};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
 use crate::{api, callback, contact, convert, fault, files, power, vision};
@@ -70,6 +70,14 @@ pub(crate) struct Machine {
     is_joint_called: bool,
     /// True if it has failed while there was no run.
     pub has_failed: bool,
+    /// True if it has failed in a run that went on, and is not called any more there.
+    is_dead: bool,
+    /// True if the last error stops the run of any script: a limit, or a number that is not finite.
+    must_stop: bool,
+    /// True if the run goes on after an error.
+    continues: bool,
+    /// True if it is written for V-REP up to 3.4.
+    is_old_api: bool,
     /// True once `sysCall_init` has been called.
     is_initialized: bool,
     /// True if it is one of V-REP up to 3.1.2: the whole text is run in actuation, and not otherwise.
@@ -120,6 +128,12 @@ impl Machine {
         let chunk = compile(&lua, script)?;
         lua.set_named_registry_value(TEXT, &chunk)?;
         let (style, entries) = (script.style, Entries::default());
+        let is_old_api = is_of_old_api(&script.text);
+        let continues = match script.on_error {
+            OnError::Detect => is_old_api,
+            OnError::Stop => false,
+            OnError::Continue => true,
+        };
         Ok(Self {
             lua,
             index,
@@ -132,6 +146,10 @@ impl Machine {
             is_text_pending: false,
             is_joint_called: false,
             has_failed: false,
+            is_dead: false,
+            must_stop: false,
+            continues,
+            is_old_api,
             is_initialized: false,
             is_for_actuation: script.style != Style::New && !script.is_threaded && is_for_actuation(&script.text),
         })
@@ -189,7 +207,47 @@ impl Machine {
     fn within<T>(&mut self, run: impl FnOnce(&mut Self) -> mlua::Result<T>) -> Result<T, ScriptError> {
         self.guard.begin();
         let done = run(self).and_then(|value| self.guard.check().map(|()| value));
-        done.map_err(|error| fault::of(&self.script(), &self.guard, &error))
+        done.map_err(|error| {
+            self.must_stop =
+                self.guard.is_stopped() || self.guard.has_refused_not_finite() || fault::is_of_memory(&error);
+            fault::of(&self.script(), &self.guard, &error)
+        })
+    }
+
+    /// Decides what an error in a call of the run does: the run goes on if the script says so, unless the error
+    /// is one of a limit, or of a number that is not finite.
+    pub fn after(&mut self, done: Result<(), ScriptError>) -> Result<(), ScriptError> {
+        let Err(error) = done else { return Ok(()) };
+        if !self.continues || self.must_stop {
+            return Err(error);
+        }
+        let what_follows = if self.is_old_api {
+            "it is called again in the next step, as in V-REP"
+        } else {
+            "it is not called any more in this run, as in CoppeliaSim"
+        };
+        self.shared.fail(self.index, &error, what_follows);
+        self.is_dead = !self.is_old_api;
+        if self.is_old_api && !self.is_initialized {
+            self.recover()?;
+        }
+        Ok(())
+    }
+
+    /// Returns true if it has failed in this run and is not called any more.
+    pub fn is_dead(&self) -> bool {
+        self.is_dead
+    }
+
+    /// A script of V-REP that has failed in its first call is called in the next step.
+    fn recover(&mut self) -> Result<(), ScriptError> {
+        self.is_initialized = true;
+        if self.style == Style::Detect {
+            let is_new = self.within(|m| m.has_entries())?;
+            self.style = if is_new { Style::New } else { Style::Old };
+        }
+        self.tell_style();
+        self.within(Self::update_entries)
     }
 
     /// A phase of the step, or of the time between runs; threads are resumed by [`Machine::resume`].
@@ -399,7 +457,7 @@ impl Machine {
 
     /// Prepares for the next run of a session: a limit that was reached counts no longer.
     pub fn forget_run(&mut self) {
-        (self.is_joint_called, self.has_failed) = (false, false);
+        (self.is_joint_called, self.has_failed, self.is_dead, self.must_stop) = (false, false, false, false);
         self.resume_script();
     }
 
@@ -494,6 +552,19 @@ fn calls_those_below(text: &str) -> bool {
     let is_call =
         |pair: &[Word]| text[pair[0].at.clone()] == *"simHandleChildScript" && text[pair[1].at.clone()] == *"(";
     words.windows(2).any(is_call)
+}
+
+/// Returns true if a text is written for V-REP up to 3.4: it calls functions such as `simGetObjectHandle`, or asks for
+/// `sim_call_type`, and has nothing of the table `sim` and no functions `sysCall_…`.
+fn is_of_old_api(text: &str) -> bool {
+    let words = lexer::words(text);
+    let word = |word: &Word| &text[word.at.clone()];
+    let is_old = |name: &str| {
+        name.strip_prefix("sim").is_some_and(|rest| rest.starts_with(|c: char| c == '_' || c.is_ascii_uppercase()))
+    };
+    let is_of_table = |pair: &[Word]| word(&pair[0]) == "sim" && word(&pair[1]) == ".";
+    let names = || words.iter().filter(|w| w.sort == Sort::Name).map(word);
+    names().any(is_old) && !names().any(|name| name.starts_with("sysCall_")) && !words.windows(2).any(is_of_table)
 }
 
 /// Returns true if a text is one of V-REP up to 3.1.2, where scripts had no call types.

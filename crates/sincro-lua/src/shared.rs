@@ -1,5 +1,6 @@
 //! Data shared by all scripts of a run: the world while they are called, their messages, and each other.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -9,11 +10,13 @@ use sincro_coppelia::api::{ApiError, Handle, ObjectRegistry, SimApi};
 use sincro_coppelia::host::Setting;
 use sincro_dynamics::world::World;
 use sincro_scene::scene::Scene;
-use sincro_scene::script::{Kind, Script, Style};
-use sincro_sim::controller::Message;
+use sincro_scene::script::{Kind, Script, ScriptError, Style};
+use sincro_sim::controller::{Message, ScriptFailure};
 
 /// Messages of one phase that are kept: one more than a run keeps, so that the run reports that some were dropped.
 const MAX_MESSAGES: usize = 10_001;
+/// Different errors of a script that are told.
+const MAX_ERRORS_TOLD: usize = 100;
 /// Bytes of a message that are kept.
 const MAX_MESSAGE_LEN: usize = 10_000;
 
@@ -34,10 +37,20 @@ pub(crate) struct Shared {
     messages: Mutex<Vec<Message>>,
     /// Scripts in the order in which they were started, with those that have ended.
     scripts: Mutex<Vec<Known>>,
+    /// Errors after which the run went on, by the places of the scripts.
+    failures: Mutex<BTreeMap<usize, Failures>>,
     /// Number of scripts that are calling each other down the tree.
     pub depth: AtomicUsize,
     /// Settings of the run.
     pub setting: Setting,
+}
+
+/// Errors of one script after which the run went on.
+#[derive(Debug)]
+struct Failures {
+    failure: ScriptFailure,
+    /// Texts of the errors that have been told, up to [`MAX_ERRORS_TOLD`].
+    told: BTreeSet<String>,
 }
 
 /// Script that has been started.
@@ -83,7 +96,36 @@ impl Shared {
     /// Before the first call; `nothing` is a world of nothing.
     pub fn new(setting: Setting, nothing: World) -> Self {
         let stage = Mutex::new(Stage { world: nothing, registry: None, t: 0.0 });
-        Self { stage, messages: Mutex::default(), scripts: Mutex::default(), depth: AtomicUsize::new(0), setting }
+        let (messages, scripts, failures) = (Mutex::default(), Mutex::default(), Mutex::default());
+        Self { stage, messages, scripts, failures, depth: AtomicUsize::new(0), setting }
+    }
+
+    /// Counts an error of a script after which the run goes on; one of the same text is told once.
+    pub fn fail(&self, place: usize, error: &ScriptError, what_follows: &str) {
+        let (t, message, object) = (self.t(), error.to_string(), self.script(place).path.clone());
+        let new = || {
+            let failure = ScriptFailure { object, count: 0, first: t, message: message.clone() };
+            Failures { failure, told: BTreeSet::new() }
+        };
+        let is_new = {
+            let mut all = open(&self.failures);
+            let of_script = all.entry(place).or_insert_with(new);
+            of_script.failure.count += 1;
+            of_script.told.len() < MAX_ERRORS_TOLD && of_script.told.insert(message.clone())
+        };
+        if is_new {
+            self.say(place, format!("error: {message}; {what_follows}"));
+        }
+    }
+
+    /// Scripts that have failed since the run began.
+    pub fn failures(&self) -> Vec<ScriptFailure> {
+        open(&self.failures).values().map(|failures| failures.failure.clone()).collect()
+    }
+
+    /// Forgets the errors of the run before.
+    pub fn forget_failures(&self) {
+        open(&self.failures).clear();
     }
 
     /// Adds a script; returns its place, which it keeps: that of an earlier run of a session, if it was there.

@@ -32,6 +32,8 @@ pub struct Script {
     pub kind: Kind,
     /// True if a script of the old style runs as a thread of its own.
     pub is_threaded: bool,
+    /// Effect of an error in a call on the run.
+    pub on_error: OnError,
     /// Upper limit of its memory, in bytes.
     pub max_memory: usize,
     /// Upper limit of the instructions of one call.
@@ -71,6 +73,20 @@ pub enum Style {
     Old,
     /// Callback functions `sysCall_init`, `sysCall_actuation` and so on.
     New,
+}
+
+/// Effect of an error in a call of a script. A limit that is reached, and a number that is not finite, always stop the
+/// run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnError {
+    /// By its text: `Continue` if it is written for V-REP up to 3.4 (names such as `simGetObjectHandle` only), else
+    /// `Stop`.
+    Detect,
+    /// The run stops.
+    Stop,
+    /// The run goes on, and its audit has a finding. A script for V-REP up to 3.4 is called again in the next step,
+    /// as there; one for later versions is not called any more in the run.
+    Continue,
 }
 
 /// Kind of a script; scripts of one object are called in the order of the variants.

@@ -58,6 +58,19 @@ pub struct Message {
     pub text: String,
 }
 
+/// Errors of a script in a run that went on: scripts of V-REP are called again after an error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScriptFailure {
+    /// Path of the object that the script belongs to.
+    pub object: String,
+    /// Number of calls that failed.
+    pub count: u64,
+    /// Simulated time of the first one `[s]`.
+    pub first: f64,
+    /// Error of the first one, with its line.
+    pub message: String,
+}
+
 /// Picture that a script has saved, kept with the results of the run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SavedImage {
@@ -387,6 +400,12 @@ pub trait Controller: Any + Send + fmt::Debug {
     /// Returns the messages so far in the order of time, and the number of those that were too many to keep.
     fn messages(&self) -> (Vec<Message>, usize) {
         (Vec::new(), 0)
+    }
+
+    /// Returns the scripts that have failed since the start in calls after which the run went on, each once; none by
+    /// default.
+    fn script_failures(&self) -> Vec<ScriptFailure> {
+        Vec::new()
     }
 
     /// Takes the pictures that scripts have saved since the start, each name once; none by default.

@@ -12,7 +12,7 @@ use super::scene_objects::handle_of_id;
 use super::{ApiError, SimApi};
 use sincro_scene::diagnostic::{Location, SourceText};
 use sincro_scene::scene::Scene;
-use sincro_scene::script::{Kind, Script, ScriptParser, Style};
+use sincro_scene::script::{Kind, OnError, Script, ScriptParser, Style};
 
 /// Handle of the first script that was added: beyond those of the scripts of a scene.
 const FIRST: i64 = 1_030_000;
@@ -106,6 +106,7 @@ fn script_of(added: &AddedScript, (object, path): (usize, String)) -> Script {
         style: Style::Detect,
         kind: added.kind,
         is_threaded: added.is_threaded,
+        on_error: origin.map_or(OnError::Detect, |s| s.on_error),
         max_memory,
         max_instructions,
         at,

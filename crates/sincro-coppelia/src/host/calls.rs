@@ -6,7 +6,7 @@ use super::{Call, Host, Phase};
 use crate::api::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::scene::Scene;
 use sincro_scene::script::{Kind, Script, ScriptError};
-use sincro_sim::controller::Message;
+use sincro_sim::controller::{Message, ScriptFailure};
 
 /// Messages that are kept of a run: a script that says something at every tick must not fill the memory.
 const MAX_MESSAGES: usize = 10_000;
@@ -73,6 +73,11 @@ impl Scripts {
         let done = self.host.call_function(Call { world, registry, tick, t }, (object, kind), function, arguments);
         self.keep_messages(registry);
         done
+    }
+
+    /// Returns the scripts that have failed in calls after which the run went on.
+    pub(crate) fn failures(&self) -> Vec<ScriptFailure> {
+        self.host.failures()
     }
 
     /// Runs a text in the script on an object, at tick `tick` and time `t` `[s]`.

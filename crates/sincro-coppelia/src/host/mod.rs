@@ -15,7 +15,7 @@ use sincro_dynamics::world::World;
 
 use crate::api::{ApiError, Handle, ObjectRegistry, Value};
 use sincro_scene::script::{Kind, ScriptError};
-use sincro_sim::controller::Message;
+use sincro_sim::controller::{Message, ScriptFailure};
 
 /// Phase of a run in which scripts are called, each with the callback of its name (`sysCall_init`, `sysCall_actuation`
 /// …).
@@ -90,6 +90,9 @@ pub trait Host: Send + fmt::Debug {
     ///
     /// There is no such script, or the text cannot be parsed or failed.
     fn evaluate(&mut self, call: Call<'_>, script: (Handle, Option<Kind>), text: &str) -> Result<Vec<Value>, ApiError>;
+
+    /// Returns the scripts that have failed since the run began in calls after which it went on.
+    fn failures(&self) -> Vec<ScriptFailure>;
 
     /// Takes the messages that scripts have printed since the last call, in their order.
     fn take_messages(&mut self) -> Vec<Message>;

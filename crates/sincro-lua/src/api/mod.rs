@@ -120,6 +120,10 @@ impl ApiContext<'_> {
             let named = |ApiError(message): ApiError| {
                 Error::RuntimeError(format!("{message} (in function '{module}.{}')", function.name))
             };
+            if result.is_err() && given.iter().any(has_not_finite) {
+                // what is no number is never passed over
+                guard.note_not_finite();
+            }
             let values = result.map_err(named)?;
             convert::list_to_lua(lua, &values)
         })
@@ -193,6 +197,16 @@ impl ApiContext<'_> {
         }
         let random: Function = self.lua.globals().get::<Table>("math")?.get("random")?;
         self.add("getRandom", move |_, _: Option<i64>| random.call::<f64>(()))
+    }
+}
+
+/// Returns true if a value is a number that is not finite, or has one in it.
+fn has_not_finite(value: &Value) -> bool {
+    match value {
+        Value::Real(x) => !x.is_finite(),
+        Value::List(list) => list.iter().any(has_not_finite),
+        Value::Map(map) => map.iter().any(|(_, value)| has_not_finite(value)),
+        _ => false,
     }
 }
 

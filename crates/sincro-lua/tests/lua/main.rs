@@ -5,6 +5,7 @@ mod blocks;
 mod callbacks;
 mod coroutines;
 mod customization;
+mod errors;
 mod graphs;
 mod inverse;
 mod language;

@@ -854,6 +854,9 @@ pub(crate) struct ScriptFile {
     /// Whether an old script is a thread: run once, and resumed at every tick where it called simSwitchThread or simWait.
     #[serde(default)]
     pub threaded: bool,
+    /// What an error in a call does: `stop` ends the run; with `continue` it goes on as in V-REP, and its audit fails; `detect`: `continue` for scripts of V-REP up to 3.4.
+    #[serde(default)]
+    pub on_error: OnErrorFile,
     /// What is stored with it, for simGetScriptSimulationParameter.
     #[serde(default)]
     pub parameters: std::collections::BTreeMap<String, ScriptParameterFile>,
@@ -882,6 +885,20 @@ pub(crate) enum ScriptStyleFile {
     Old,
     /// Functions.
     New,
+}
+
+/// What an error in a call of a script does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum OnErrorFile {
+    /// `continue` if it is written for V-REP up to 3.4 (names such as `simGetObjectHandle` only), else `stop`.
+    #[default]
+    Detect,
+    /// The run stops.
+    Stop,
+    /// The run goes on, and its audit fails.
+    Continue,
 }
 
 /// Kinds of scripts.

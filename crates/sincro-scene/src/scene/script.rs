@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::file::{ScriptFile, ScriptKindFile, ScriptParameterFile, ScriptStyleFile};
+use super::file::{OnErrorFile, ScriptFile, ScriptKindFile, ScriptParameterFile, ScriptStyleFile};
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use crate::document::Document;
 use crate::folder::Folder;
-use crate::script::{Kind, Parameter, Script, ScriptParser, Style};
+use crate::script::{Kind, OnError, Parameter, Script, ScriptParser, Style};
 use crate::suggest;
 
 /// The scripts that can be, in the order of the file, each with the place of its object among `objects` as its number;
@@ -125,6 +125,11 @@ fn script(
             ScriptKindFile::Customization => Kind::Customization,
         },
         is_threaded: file.threaded,
+        on_error: match file.on_error {
+            OnErrorFile::Detect => OnError::Detect,
+            OnErrorFile::Stop => OnError::Stop,
+            OnErrorFile::Continue => OnError::Continue,
+        },
         max_memory: (file.max_memory_mib as usize) << 20,
         max_instructions: file.max_instructions,
         at: document.at(pointer),

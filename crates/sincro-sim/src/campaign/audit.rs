@@ -17,7 +17,7 @@ pub fn audit(loaded: &Loaded, run: &Simulated, finer: Option<&Simulated>) -> Aud
         },
     ));
     laws.extend(sources(loaded));
-    for law in laws.iter_mut().filter(|law| !law.holds()) {
+    for law in laws.iter_mut().filter(|law| !law.holds() && law.help.is_empty()) {
         let of_motors = motors_against_loops(law, &loaded.scene);
         law.help = of_motors.unwrap_or_else(|| help(law, &loaded.experiment, run.method));
     }

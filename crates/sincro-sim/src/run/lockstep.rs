@@ -11,7 +11,9 @@ use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
 use super::method_choice::{MethodChanges, MethodChoice};
 use super::world_with_room;
-use crate::controller::{Change, Commands, Controller, Forked, Instant, Message, NotFinite, SavedImage, Source};
+use crate::controller::{
+    Change, Commands, Controller, Forked, Instant, Message, NotFinite, SavedImage, ScriptFailure, Source,
+};
 use crate::diagram_controller::DiagramController;
 use crate::load::Loaded;
 use crate::restructure::{Edit, Renamed, Restructured, restructure};
@@ -513,6 +515,12 @@ impl LockStep {
         }
         all.sort_by(|a, b| a.t.total_cmp(&b.t));
         (all, n_more)
+    }
+
+    /// Returns the scripts of all controllers that have failed in calls after which the run went on.
+    #[must_use]
+    pub fn script_failures(&self) -> Vec<ScriptFailure> {
+        self.controllers.iter().flat_map(|controller| controller.script_failures()).collect()
     }
 
     /// Returns true if a controller has asked to stop the run since the last call, and forgets the requests.

@@ -10,7 +10,8 @@ use super::bounds::Bounds;
 use super::lockstep::{Followed, LockStep};
 use super::method_choice::MethodChanges;
 use super::{RunError, RunOptions, Simulated, method_word};
-use crate::audit::LawAudit;
+use crate::audit::{Finding, LawAudit};
+use crate::controller::ScriptFailure;
 use crate::file::FileError;
 use crate::load::Loaded;
 use crate::replay::{FrameMap, Trajectory};
@@ -212,9 +213,11 @@ impl Recording {
         let (step, n_steps) = (lockstep.step(), lockstep.tick());
         warnings.extend(lockstep.notices());
         warnings.extend(about_method(lockstep.method_changes()));
+        let failures: Vec<Finding> = lockstep.script_failures().into_iter().map(script_errors).collect();
         let world = lockstep.world();
         let (energy, statistics) = (ledger.close(world), world.statistics());
-        let laws = audit.close(world, &experiment, method);
+        let mut laws = audit.close(world, &experiment, method);
+        laws.extend(failures);
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
         warnings.extend(about_constraints(world));
@@ -255,6 +258,19 @@ enum Row {
     First,
     /// After a tick.
     Later,
+}
+
+/// Calls of a script that have failed, of which none should.
+fn script_errors(failure: ScriptFailure) -> Finding {
+    Finding {
+        law: "script-errors".to_owned(),
+        element: failure.object,
+        time: failure.first,
+        value: failure.count as f64,
+        limit: 0.0,
+        unit: String::new(),
+        help: format!("mend the script, or stop at its first error with on_error = \"stop\": {}", failure.message),
+    }
 }
 
 /// Warning about changes of the method.
