@@ -124,7 +124,67 @@ local function follow_path(object, path, what, from, velocity, acceleration)
   return 0
 end
 
-local functions = { followPath = follow_path }
+-- numbers that grow together along a straight line of a length, with a velocity that grows by the acceleration
+local function go_along(name, way, velocity, acceleration, place)
+  if not host.yieldable() then
+    error('sim.' .. name .. ' waits for the simulation: call it in a thread (sysCall_thread)', 3)
+  end
+  if not (velocity > 0) then error('sim.' .. name .. ': the velocity is not positive', 3) end
+  local dt, s = host.sim.getSimulationTimeStep(), 0
+  local v = acceleration > 0 and 0 or velocity
+  local level = host.stepping(true)
+  repeat
+    v = math.min(velocity, v + acceleration * dt)
+    s = math.min(way, s + v * dt)
+    place(way > 0 and s / way or 1)
+    host.switch()
+  until s >= way
+  host.stepping(level)
+  return 0
+end
+
+-- V-REP's joints to positions, all at the same time; a turn of 1 rad counts as 0.1 m
+local function move_to_joint_positions(joints, positions, velocity, acceleration, factor)
+  local sim, from, way = host.sim, {}, 0
+  for k, joint in ipairs(joints) do
+    from[k] = sim.getJointPosition(joint)
+    local turns = sim.getJointType(joint) == sim.joint_revolute_subtype
+    way = math.max(way, math.abs(positions[k] - from[k]) * (turns and (factor or 0.1) or 1))
+  end
+  return go_along('moveToJointPositions', way, velocity or 1, acceleration or 0, function(share)
+    for k, joint in ipairs(joints) do
+      local q = from[k] + share * (positions[k] - from[k])
+      if sim.getJointMode(joint) == sim.jointmode_dynamic then
+        sim.setJointTargetPosition(joint, q)
+      else
+        sim.setJointPosition(joint, q)
+      end
+    end
+  end)
+end
+
+-- V-REP's object to the pose of another one, or of a place on a path; a turn of 1 rad counts as 0.1 m
+local function move_to_object(object, target, what, place, velocity, acceleration)
+  local sim = host.sim
+  local from, to = sim.getObjectPose(object, -1), nil
+  local is_path, at = pcall(host.path.position, target, place or 0)
+  if place and is_path then
+    to = sim.buildPose(at, host.path.orientation(target, place))
+  else
+    to = sim.getObjectPose(target, -1)
+  end
+  what = what or 3
+  if what == 1 then for k = 4, 7 do to[k] = from[k] end end
+  if what == 2 then for k = 1, 3 do to[k] = from[k] end end
+  local straight = math.sqrt((to[1] - from[1]) ^ 2 + (to[2] - from[2]) ^ 2 + (to[3] - from[3]) ^ 2)
+  local _, angle = sim.getRotationAxis(sim.poseToMatrix(from), sim.poseToMatrix(to))
+  local way = math.max(straight, 0.1 * math.abs(angle))
+  return go_along('moveToObject', way, velocity or 1, acceleration or 0, function(share)
+    sim.setObjectPose(object, sim.interpolatePoses(from, to, share), -1)
+  end)
+end
+
+local functions = { followPath = follow_path, moveToJointPositions = move_to_joint_positions, moveToObject = move_to_object }
 for stem, form in pairs(forms) do
   functions[stem .. '_init'] = form.init
   functions[stem .. '_step'] = form.step

@@ -1,5 +1,5 @@
-//! `sysCall_vision` and `sysCall_trigger`: the script of a vision sensor filters its picture and adds packets of numbers
-//! to its reading.
+//! `sysCall_vision` and `sysCall_trigger`: the script of a vision sensor filters its picture and adds packets of
+//! numbers to its reading.
 
 use mlua::{Error, Function, Lua, Table, Value};
 use sincro_coppelia::api::{ApiError, Handle, VisionInput};

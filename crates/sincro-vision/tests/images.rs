@@ -205,7 +205,11 @@ fn points_lie_on_a_wall() {
     let tangent = std::f64::consts::SQRT_2 - 1.0;
     assert!((angles[1].0[0] + 2.0 * tangent).abs() < 1e-12 && angles[1].0[1] == 0.0, "{:?}", angles[1]);
     let scan = wall.points(&lens, [1, 3], Sampling::Scan(1.0));
-    assert!((scan[2].0[1] - 2.0 * sincro_math::elementary::tan(0.5).0).abs() < 1e-12 && scan[2].0[0] == 0.0, "{:?}", scan[2]);
+    assert!(
+        (scan[2].0[1] - 2.0 * sincro_math::elementary::tan(0.5).0).abs() < 1e-12 && scan[2].0[0] == 0.0,
+        "{:?}",
+        scan[2]
+    );
     // nothing is farther than the far distance
     let far = WorkImage::from_intensities([4, 4], std::iter::repeat_n(1.0, 16));
     assert!(far.points(&lens, [2, 2], Sampling::Grid).iter().all(|point| (point.0[3] - 5.0).abs() < 1e-12));

@@ -8,6 +8,9 @@ use sincro_scene::camera::Optics;
 /// View angle of a vision sensor that was orthographic `[rad]`: 60°, as V-REP has it.
 const DEFAULT_ANGLE: f64 = std::f64::consts::FRAC_PI_3;
 
+/// Way in which a vision sensor draws.
+const RENDER_MODE: i64 = 1017;
+
 impl SimApi<'_> {
     /// Pixels of a vision sensor, and whether lines meet in its pictures.
     pub(super) fn set_vision_int(&mut self, handle: Handle, id: i64, value: i64) -> Result<(), ApiError> {
@@ -15,6 +18,15 @@ impl SimApi<'_> {
             return self.set_shown(handle, value);
         }
         let optics = self.registry.vision_sensor(handle)?.optics;
+        if id == RENDER_MODE {
+            if value != 0 {
+                let path = self.registry.entry(handle)?.path.clone();
+                let text =
+                    format!("render mode {value} of `{path}` is not taken: pictures are drawn in one way, by colour");
+                self.log(300, &text);
+            }
+            return Ok(());
+        }
         let side = usize::try_from(value).unwrap_or_default();
         let [columns, rows] = optics.resolution;
         let changed = match id {

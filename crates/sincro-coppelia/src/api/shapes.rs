@@ -8,6 +8,7 @@ use sincro_dynamics::contact::Surface;
 use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::model::Shape;
 use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_math::elementary::sin_cos;
 
 use super::registry::{Handle, Kind, WORLD};
 use super::senses::handle_of;
@@ -217,6 +218,19 @@ impl SimApi<'_> {
         Ok(())
     }
 
+    /// Colour of the first part of an object's shape: red, green, blue from 0 to 1.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no object, or has no shape.
+    pub fn color(&mut self, handle: Handle) -> Result<[f64; 3], ApiError> {
+        let entry = self.registry.entry(handle)?;
+        let (own, path) = (entry.handle, entry.path.clone());
+        let piece = self.registry.senses.pieces().find(|piece| handle_of(piece) == own);
+        let rgb = piece.map(|piece| piece.color.map(|x| f64::from(x) / 255.0));
+        rgb.ok_or_else(|| ApiError(format!("`{path}` has no shape: there is no colour to tell")))
+    }
+
     /// Sets the colour that vision sensors see of an object: red, green, blue (dimensionless); values outside 0 to 1
     /// are clamped.
     ///
@@ -280,11 +294,39 @@ impl SimApi<'_> {
     }
 }
 
+/// Corners of one ring of a hull that stands for a shape with elliptic sections.
+const N_CORNERS: u32 = 32;
+
+/// Ring of corners on an ellipse, `height` and `scale` relative to the lengths of the shape's box.
+fn ring([x, y, z]: [f64; 3], height: f64, scale: f64) -> impl Iterator<Item = [f64; 3]> {
+    (0..N_CORNERS).map(move |k| {
+        let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(k) / f64::from(N_CORNERS));
+        [0.5 * x * scale * cos, 0.5 * y * scale * sin, height * z]
+    })
+}
+
+/// Convex hull of two rings.
+fn between(low: impl Iterator<Item = [f64; 3]>, high: impl Iterator<Item = [f64; 3]>) -> Surface {
+    Surface::Hull(low.chain(high).collect())
+}
+
+/// Convex hull in place of an ellipsoid: rings at equal angles between its poles.
+fn ellipsoid(size: [f64; 3]) -> Surface {
+    const N_RINGS: u32 = 15;
+    let rings = (1..=N_RINGS).flat_map(|k| {
+        let (sin, cos) = sin_cos(std::f64::consts::PI * f64::from(k) / f64::from(N_RINGS + 1));
+        ring(size, -0.5 * cos, sin)
+    });
+    let poles = [-0.5, 0.5].into_iter().flat_map(|height| ring(size, height, 0.0).take(1));
+    Surface::Hull(rings.chain(poles).collect())
+}
+
 /// A primitive shape by its number, with full lengths along x, y and z `[m]`, its frame in the middle of its box.
 ///
 /// # Errors
 ///
-/// There is none of that number, or it cannot have these lengths.
+/// There is none of that number, or it cannot have these lengths. Balls, cylinders and cones that are not round are
+/// convex hulls.
 pub(crate) fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, Surface, Pose<f64>), ApiError> {
     let [x, y, z] = size;
     let used = match kind {
@@ -309,10 +351,13 @@ pub(crate) fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, S
             ("Disc", solid(Shape::Cylinder { radius: 0.5 * x, length: 0.0 }), plain)
         }
         3 => ("Cuboid", solid(Shape::Cuboid { size }), plain),
+        4 if round("ball", 3).is_err() => ("Sphere", ellipsoid(size), plain),
         4 => {
             round("ball", 3)?;
             ("Sphere", solid(Shape::Sphere { radius: 0.5 * x }), plain)
         }
+        5 if round("cylinder", 2).is_err() => ("Cylinder", between(ring(size, -0.5, 1.0), ring(size, 0.5, 1.0)), plain),
+        6 if round("cone", 2).is_err() => ("Cone", between(ring(size, -0.5, 1.0), ring(size, 0.5, 0.0).take(1)), plain),
         5 => {
             round("cylinder", 2)?;
             ("Cylinder", solid(Shape::Cylinder { radius: 0.5 * x, length: z }), plain)

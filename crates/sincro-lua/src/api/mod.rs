@@ -7,6 +7,7 @@
 mod attributes;
 mod callbacks;
 mod cascade;
+mod helpers;
 mod modules;
 mod moves;
 mod scripts;
@@ -69,6 +70,7 @@ pub(crate) fn offer(
     moves::offer(&context, waits)?;
     vision::offer(&context)?;
     callbacks::offer(&context)?;
+    helpers::offer(&context)?;
     absent(&context)?;
     lua.globals().set("sim", &context.sim)?;
     modules::offer(&context)

@@ -1,5 +1,5 @@
-//! Modules beside `sim`: `simIK`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, by `require` and, but
-//! for `dkjson`, as globals; files of the scene that a script is given, by `require`.
+//! Modules beside `sim`: `simIK`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, by
+//! `require` and, but for `dkjson`, as globals; files of the scene that a script is given, by `require`.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};

@@ -292,3 +292,25 @@ fn the_step_solves_groups_that_are_not_explicit_and_motors_of_hybrid_joints_foll
     let code = code.replace("simIK.createGroup(env)", "simIK.createGroup(env, 'arm')");
     assert_eq!(said(&code), ["2\t1", "1", "true\ttrue\ttrue", "5\t0"]);
 }
+
+#[test]
+fn groups_and_elements_are_changed_as_in_v_rep_3() {
+    let code = format!(
+        "function sysCall_init() {SET_UP}
+        group = simIK.createIkGroup(env, 'reach')
+        simIK.addIkElementFromScene(env, group, -1, tip, target, simIK.constraint_position)
+        local h = simGetIkGroupHandle('reach')
+        print(simSetIkGroupProperties(h, sim_ik_damped_least_squares_method, 200, 0.01))
+        print(simSetIkElementProperties(h, tip, sim_ik_x_constraint + sim_ik_y_constraint, {{ 1e-9, 0.1 }}, {{ 0.5, 1 }}))
+        print(simIK.getElementConstraints(env, group, 0), simIK.getElementWeights(env, group, 0)[1], simIK.getElementFlags(env, group, 0))
+        print(simSetIkElementProperties(h, tip, 0), simIK.getElementConstraints(env, group, 0), simIK.getElementFlags(env, group, 0))
+        print(simSetIkElementProperties(h, tip, sim_ik_x_constraint), simIK.getElementFlags(env, group, 0))
+        print(select(2, pcall(simSetIkElementProperties, h, target, 1)))
+        print(select(2, pcall(simSetIkGroupProperties, 7, 1, 1, 1)))
+    end"
+    );
+    let said = said(&code);
+    assert_eq!(said[..5], ["1", "1", "3\t0.5\t1", "1\t3\t0", "1\t1"]);
+    assert!(said[5].contains("the group has no element with that tip"), "{said:?}");
+    assert!(said[6].contains("7 is no handle of a group"), "{said:?}");
+}

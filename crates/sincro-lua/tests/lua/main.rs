@@ -13,6 +13,7 @@ mod limits;
 mod modules;
 mod motion;
 mod names;
+mod old_names;
 mod parity;
 mod paths;
 mod pictures;

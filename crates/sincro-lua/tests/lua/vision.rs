@@ -1,5 +1,6 @@
 //! Scripts of vision sensors: filters on their pictures, packets of their readings.
 
+use sincro_math::elementary::{atan, tan};
 use sincro_sim::load;
 use sincro_sim::results::Status;
 use sincro_testing::{SceneFolder, run, with_scripts};
@@ -99,7 +100,7 @@ fn a_script_finds_blobs_that_others_read() {
     let first = numbers(&messages[0]);
     assert_eq!((first[0], first[1], first[2], first[3]), (0.0, 15.0, 1.0, 6.0), "{messages:?}");
     // 0.2 m of 2 m, where half the width is 4/3 tan 30°: a circle of its share of the pixels, in the left half
-    let half = [4.0 / 3.0, 1.0].map(|ratio| ratio * 30_f64.to_radians().tan());
+    let half = [4.0 / 3.0, 1.0].map(|ratio| ratio * tan(30_f64.to_radians()).0);
     let center = [0.5 - 0.25 / (2.0 * half[0]), 0.5];
     let radius = 0.1 / (1.0_f64 - 0.01).sqrt();
     let share = std::f64::consts::PI * radius * radius / (4.0 * half[0] * half[1]);
@@ -130,7 +131,7 @@ fn a_sensor_is_told_what_it_is_and_may_trigger() {
     let messages = said(eye, arm, "");
     let input = numbers(&messages[0]);
     assert_eq!(input[..5], [1.0, 64.0, 48.0, 0.5, 4.5]);
-    assert!((input[5] - 2.0 * (4.0_f64 / 3.0 * 30_f64.to_radians().tan()).atan()).abs() < 1e-9, "{input:?}");
+    assert!((input[5] - 2.0 * atan(4.0 / 3.0 * tan(30_f64.to_radians()).0).0).abs() < 1e-9, "{input:?}");
     assert_eq!((messages[1].as_str(), messages[2].as_str()), ("triggered 2 8.0", "1 5 7.0 8.0"));
 }
 
@@ -232,4 +233,16 @@ fn every_filter_takes_its_arguments() {
         print('all')
     end";
     assert_eq!(said(eye, "", ""), ["all", "all"]);
+}
+
+#[test]
+fn another_way_to_draw_is_told_and_not_taken() {
+    let eye = "function sysCall_init()
+        sim.setObjectInt32Param(sim.getObject('/eye'), sim.visionintparam_render_mode, 0)
+        sim.setObjectInt32Param(sim.getObject('/eye'), sim.visionintparam_render_mode, 1)
+        print(sim.getObjectInt32Param(sim.getObject('/eye'), sim.visionintparam_render_mode))
+    end";
+    let messages = said(eye, "", "");
+    assert_eq!(messages.len(), 2, "{messages:?}");
+    assert!(messages.iter().any(|text| text.contains("render mode 1 of `/eye` is not taken")), "{messages:?}");
 }

@@ -19,7 +19,7 @@ pub const ELSEWHERE: [&str; 8] = [
 
 /// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops,
 /// couplings, groups, a motion, mesh files.
-pub const NEEDS_MORE: [&str; 26] = [
+pub const NEEDS_MORE: [&str; 28] = [
     "addScript",
     "createScript",
     "setScriptText",
@@ -32,6 +32,8 @@ pub const NEEDS_MORE: [&str; 26] = [
     "getIkGroupHandle",
     "handleIkGroup",
     "checkIkGroup",
+    "setIkGroupProperties",
+    "setIkElementProperties",
     "moveToConfig_step",
     "moveToConfig_cleanup",
     "moveToPose_step",
@@ -173,6 +175,11 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "scaleObject" => vec![shape.clone(), Value::Real(2.0), Value::Real(2.0), Value::Real(2.0)],
         "scaleObjects" => vec![Value::List(vec![shape.clone()]), Value::Real(0.5), Value::Bool(true)],
         "setShapeColor" => vec![shape.clone(), Value::Nil, int(0), three()],
+        "getShapeColor" => vec![shape.clone(), Value::Nil, int(0)],
+        "getObjectColor" => vec![shape.clone(), int(0), int(0)],
+        "getUserParameter" => vec![joint.clone(), text()],
+        "setUserParameter" => vec![joint.clone(), text(), Value::Real(0.5)],
+        "msgBox" => vec![int(0), int(0), text(), text()],
         "setObjectColor" => vec![shape.clone(), int(0), int(0), three()],
         "copyPasteObjects" | "removeObjects" => vec![Value::List(vec![point.clone()])],
         "removeObject" | "removeModel" => vec![point.clone()],

@@ -8,6 +8,11 @@ use crate::api::{Arguments, Phase, Request, SimApi, Value};
 const MODULES: [&str; 3] = ["RemoteApi", "IK", "UI"];
 
 pub(super) const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "msgBox",
+        tip: "int result=sim.msgBox(int dlgType,int buttons,string title,string message)",
+        run: message_box,
+    },
     Function { name: "startSimulation", tip: "int result=sim.startSimulation()", run: |d, _| ask(d, Request::Start) },
     Function { name: "pauseSimulation", tip: "int result=sim.pauseSimulation()", run: |d, _| ask(d, Request::Pause) },
     Function {
@@ -205,4 +210,12 @@ fn module(_: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let index = usize::try_from(a.int(0)?).ok();
     let name = index.and_then(|index| MODULES.get(index));
     Ok(name.map_or_else(|| vec![Value::Nil, Value::Nil], |name| vec![(*name).into(), Value::Int(0)]))
+}
+
+/// Text for the operator, and the answer that lets a script go on: ok, or yes if that is asked for.
+fn message_box(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    const ASKS: [i64; 2] = [1, 2];
+    let (buttons, title, text) = (a.int_or(1, 0)?, a.text(2)?, a.text(3)?);
+    sim.log(450, &format!("{title}: {text}"));
+    one(if ASKS.contains(&buttons) { 2_i64 } else { 3_i64 })
 }

@@ -1,7 +1,7 @@
 //! Functions: groups of inverse kinematics as V-REP 3 has them, by name. Here a script or client makes them by
 //! `simIK.createGroup` with a name.
 
-use super::{Function, Outcome, handle, one};
+use super::{Function, Outcome, function, handle, one};
 use crate::api::{ApiError, Arguments, Handle, SimApi, Value};
 
 /// Added to environment and group: a handle of its own, below those of scripts.
@@ -22,7 +22,59 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "int result,float[] jointValues=sim.checkIkGroup(int ikGroupHandle,int[] jointHandles)",
         run: check,
     },
+    Function {
+        name: "setIkGroupProperties",
+        tip: "int result=sim.setIkGroupProperties(int ikGroupHandle,int resolutionMethod,int maxIterations,float damping)",
+        run: |sim, a| {
+            let (environment, group) = parts(a.int(0)?)?;
+            let given = [environment.into(), group.into(), a.get(1).clone(), a.get(3).clone(), a.get(2).clone()];
+            of_module(sim, "simIK.setGroupCalculation", &given)
+        },
+    },
+    Function {
+        name: "setIkElementProperties",
+        tip: "int result=sim.setIkElementProperties(int ikGroupHandle,int tipDummyHandle,int constraints,float[2] precision=nil,float[2] weight=nil)",
+        run: element_properties,
+    },
 ];
+
+/// Calls a function of `simIK`; 1, as V-REP gives where nothing is wrong.
+fn of_module(sim: &mut SimApi<'_>, name: &str, given: &[Value]) -> Outcome {
+    let of_module = function(name).expect("it is one of the module's functions");
+    (of_module.run)(sim, Arguments(given))?;
+    one(1_i64)
+}
+
+/// Constraints, precision and weights of the element of a group with a tip.
+fn element_properties(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (environment, group) = parts(a.int(0)?)?;
+    let tip = handle(sim, a, 1)?;
+    let mut number = 0;
+    while sim
+        .element(environment, group, number)
+        .map_err(|_| ApiError::new("the group has no element with that tip"))?
+        .tip
+        != tip
+    {
+        number += 1;
+    }
+    let mut set = |name: &str, value: &Value| {
+        of_module(sim, name, &[environment.into(), group.into(), number.into(), value.clone()]).map(drop)
+    };
+    // as in V-REP an element without constraints takes no part
+    let is_enabled = a.int(2)? != 0;
+    if is_enabled {
+        set("simIK.setElementConstraints", a.get(2))?;
+    }
+    set("simIK.setElementFlags", &Value::Int(i64::from(is_enabled)))?;
+    if a.has(3) {
+        set("simIK.setElementPrecision", a.get(3))?;
+    }
+    if a.has(4) {
+        set("simIK.setElementWeights", a.get(4))?;
+    }
+    one(1_i64)
+}
 
 fn find(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let name = a.text(0)?;

@@ -190,6 +190,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "map data=sim.readCustomTableData(int objectHandle,string tagName)",
         run: read_table,
     },
+    Function {
+        name: "setUserParameter",
+        tip: "sim.setUserParameter(int objectHandle,string parameterName,any parameterValue)",
+        run: set_user_parameter,
+    },
+    Function {
+        name: "getUserParameter",
+        tip: "any parameterValue=sim.getUserParameter(int objectHandle,string parameterName)",
+        run: user_parameter,
+    },
     Function { name: "readCustomDataTags", tip: "string[] tags=sim.readCustomDataTags(int objectHandle)", run: tags },
     Function {
         name: "readCustomDataBlockTags",
@@ -547,6 +557,32 @@ fn write_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// An empty table if there is none.
+/// Tag of the custom data under which a user parameter is stored.
+fn user_tag(a: Arguments<'_>) -> Result<Value, ApiError> {
+    Ok(Value::Text(format!("__userParameter__.{}", a.text(1)?)))
+}
+
+/// User parameters are custom data of the object.
+fn set_user_parameter(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let given = [a.get(0).clone(), user_tag(a)?, Value::List(vec![a.get(2).clone()])];
+    write_table(sim, Arguments(&given))
+}
+
+/// The value that was set, else that of the parameter of a script on the object; nil if there is none.
+fn user_parameter(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let own = handle(sim, a, 0)?;
+    let stored = read_table(sim, Arguments(&[a.get(0).clone(), user_tag(a)?]))?;
+    if let Some(Value::List(list)) = stored.first()
+        && let [value] = &list[..]
+    {
+        return one(value.clone());
+    }
+    if sim.registry.script_parameters.contains_key(&(own, a.text(1)?.to_owned())) {
+        return parameter(sim, Arguments(&[own.into(), a.get(1).clone()]));
+    }
+    one(Value::Nil)
+}
+
 fn read_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     stored(sim, a)?.map_or_else(|| one(Value::Map(Vec::new())), |data| one(data.table()?))
 }

@@ -103,6 +103,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |d, a| paint(d, a, (2, 3)),
     },
     Function {
+        name: "getShapeColor",
+        tip: "int result,float[3] rgbData=sim.getShapeColor(int shapeHandle,string colorName=nil,int colorComponent)",
+        run: |d, a| color(d, a, 2),
+    },
+    Function {
+        name: "getObjectColor",
+        tip: "float[3] rgbData=sim.getObjectColor(int objectHandle,int index,int colorComponent)",
+        run: |d, a| color(d, a, 2).map(|mut results| results.split_off(1)),
+    },
+    Function {
         name: "setObjectColor",
         tip: "int result=sim.setObjectColor(int objectHandle,int index,int colorComponent,float[3] rgbData)",
         run: |d, a| paint(d, a, (2, 3)),
@@ -275,6 +285,13 @@ pub(super) fn scale_each(sim: &mut SimApi<'_>, shapes: &[Handle], (factor, too):
 }
 
 /// The ambient or diffuse component is the colour; the others are accepted.
+/// Colour of the first part; of other components than the ambient and diffuse one black, which they have in V-REP.
+fn color(sim: &mut SimApi<'_>, a: Arguments<'_>, component: usize) -> Outcome {
+    let (own, component) = (handle(sim, a, 0)?, a.int_or(component, 0)?);
+    let rgb = sim.color(own)?;
+    Ok(vec![Value::Int(1), Value::reals(if component == 0 { rgb } else { [0.0; 3] })])
+}
+
 fn paint(sim: &mut SimApi<'_>, a: Arguments<'_>, (component, color): (usize, usize)) -> Outcome {
     let own = handle(sim, a, 0)?;
     let (component, color) = (a.int_or(component, 0)?, a.reals(color)?);

@@ -36,6 +36,10 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "displayDialog",
         "int dlgHandle=sim.displayDialog(string title,string mainTxt,int style,bool modal,string initTxt)",
     ),
+    shown("setNavigationMode", "int result=sim.setNavigationMode(int navigationMode)"),
+    shown("setPage", "int result=sim.setPage(int pageIndex)"),
+    shown("refreshDialogs", "int result=sim.refreshDialogs(int refreshDegree)"),
+    shown("announceSceneContentChange", "int result=sim.announceSceneContentChange()"),
     shown("endDialog", "int result=sim.endDialog(int dialogHandle)"),
     shown(
         "addBanner",

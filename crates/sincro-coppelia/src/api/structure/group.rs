@@ -134,7 +134,7 @@ fn pose_of(keys: &Map<String, Value>) -> Pose<f64> {
 }
 
 /// Keys of mass, centre of mass and inertia of a body.
-fn mass_keys(mass: &MassProperties) -> Map<String, Value> {
+pub(super) fn mass_keys(mass: &MassProperties) -> Map<String, Value> {
     let [xx, xy, xz, yy, yz, zz] = mass.inertia;
     let inertia = [("xx", xx), ("xy", xy), ("xz", xz), ("yy", yy), ("yz", yz), ("zz", zz)];
     let inertia = inertia.map(|(key, value)| (key, Value::from(value)));

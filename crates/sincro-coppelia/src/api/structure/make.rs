@@ -2,15 +2,18 @@
 
 use serde_json::{Map, Value};
 use sincro_dynamics::contact::Surface;
-use sincro_dynamics::model::Shape;
-use sincro_dynamics::spatial::Pose;
+use sincro_dynamics::geometry::polyhedron::{convex_hull, mass_properties};
+use sincro_dynamics::model::{MassProperties, Shape};
+use sincro_dynamics::spatial::{Pose, Vec3};
 
+use super::group::mass_keys;
 use super::{Rebuild, free_joint, table};
 use crate::api::registry::{Handle, Kind, WORLD};
 use crate::api::runtime_objects::MAX_CREATED;
 use crate::api::tree::is_force_sensor;
 use crate::api::{ApiError, Reference, SimApi};
 use sincro_scene::draft::pose_keys;
+use sincro_scene::scenery::Piece;
 
 /// Density of what is made without a mass, as in V-REP [kg/m³].
 const DENSITY: f64 = 1000.0;
@@ -164,7 +167,9 @@ impl SimApi<'_> {
         }
         self.check_room(2)?;
         let mut shapes = Vec::new();
-        for (piece, place) in self.registry.senses.parts_of(shape) {
+        let parts = self.registry.senses.parts_of(shape);
+        let hull = hull_mass(&parts, role.mass);
+        for (piece, place) in parts {
             let mut keys = shape_keys(piece.geometry.surface(), &entry.path)?;
             keys.extend(pose_keys(&place));
             let [r, g, b] = piece.color;
@@ -177,10 +182,11 @@ impl SimApi<'_> {
         let place = self.pose(shape, Reference::World)?;
         let name = self.model_name(shape)?;
         let mut keys = table([("name", name.clone().into()), ("shape", Value::Array(shapes))]);
-        match role.mass {
-            Some(mass) => keys.insert("mass".into(), mass.into()),
-            None => keys.insert("density".into(), DENSITY.into()),
-        };
+        match (hull, role.mass) {
+            (Some(hull), _) => keys.extend(mass_keys(&hull)),
+            (None, Some(mass)) => drop(keys.insert("mass".into(), mass.into())),
+            (None, None) => drop(keys.insert("density".into(), DENSITY.into())),
+        }
         if role.is_respondable {
             keys.insert("contact".into(), contact_keys());
         }
@@ -229,6 +235,19 @@ impl SimApi<'_> {
         edit.draft.replace(&path, "body", keys);
         self.rebuild(edit)
     }
+}
+
+/// Mass properties of a body of one mesh or hull, in its frame: those of its convex hull, of the mass that is given or
+/// of water. None for solids, whose mass the model computes itself.
+fn hull_mass(parts: &[(Piece, Pose<f64>)], mass: Option<f64>) -> Option<MassProperties> {
+    let [(piece, place)] = parts else { return None };
+    let (Surface::Hull(points) | Surface::Mesh(points, _)) = piece.geometry.surface() else { return None };
+    let placed: Vec<[f64; 3]> = points.iter().map(|point| place.point(Vec3(*point)).0).collect();
+    let (corners, triangles) = convex_hull(&placed)?;
+    let of_water = mass_properties(&corners, &triangles, DENSITY);
+    let scale = mass.map_or(1.0, |mass| mass / of_water.mass);
+    let inertia = of_water.inertia.map(|x| x * scale);
+    Some(MassProperties { mass: of_water.mass * scale, inertia, ..of_water })
 }
 
 fn contact_keys() -> Value {
