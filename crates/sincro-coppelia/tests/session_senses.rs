@@ -323,7 +323,7 @@ fn what_cannot_be_made_is_refused_in_words() {
         ("createPrimitiveShape", vec![i(9), sizes(1.0, 1.0, 1.0)], "cuboid 3"),
         ("createPrimitiveShape", vec![i(3), sizes(1.0, -1.0, 1.0)], "-1 is no length"),
         ("createPrimitiveShape", vec![i(3), sizes(1.0, f64::NAN, 1.0)], "NaN is no length"),
-        ("createPrimitiveShape", vec![i(4), sizes(1.0, 2.0, 1.0)], "not round"),
+        ("createPrimitiveShape", vec![i(8), sizes(1.0, 2.0, 4.0)], "not round"),
         ("createPrimitiveShape", vec![i(8), sizes(1.0, 1.0, 0.5)], "shorter than it is wide"),
         ("createPureShape", vec![i(0), i(8), sizes(0.1, 0.1, 0.1), r(0.0)], "is not positive"),
         ("createPureShape", vec![i(7), i(16), sizes(0.1, 0.1, 0.1), r(1.0)], "sphere 1"),
