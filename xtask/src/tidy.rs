@@ -19,6 +19,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
     ("sincro-motion", &[]),
     ("sincro-vision", &["sincro-math"]),
+    ("sincro-values", &[]),
     (
         "sincro-dynamics",
         &[
@@ -37,7 +38,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-analysis", &["sincro-math", "sincro-dynamics", "sincro-blocks", "sincro-scene", "sincro-sim"]),
     (
         "sincro-coppelia",
-        &["sincro-math", "sincro-motion", "sincro-vision", "sincro-dynamics", "sincro-scene", "sincro-sim"],
+        &[
+            "sincro-math",
+            "sincro-motion",
+            "sincro-vision",
+            "sincro-values",
+            "sincro-dynamics",
+            "sincro-scene",
+            "sincro-sim",
+        ],
     ),
     (
         "sincro-lua",

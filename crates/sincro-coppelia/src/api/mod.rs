@@ -10,7 +10,6 @@
 
 mod added_scripts;
 mod bodies;
-pub mod cbor;
 mod change;
 mod collections;
 pub mod constants;
@@ -18,7 +17,6 @@ mod contacts;
 pub mod convention;
 mod distances;
 mod drawings;
-mod error;
 mod filters;
 mod find;
 mod flags;
@@ -35,44 +33,35 @@ mod note;
 mod pairs;
 mod parameters;
 mod placing;
-mod ports;
 mod program;
 mod proximity;
-mod radio;
 mod registry;
 mod rotors;
 mod runtime_objects;
 mod scene_objects;
 mod senses;
 mod shapes;
-mod signals;
 mod sim_api;
-mod stored;
 mod structure;
 mod tree;
-mod tubes;
-mod unpack;
-mod value;
 mod vision;
 
 pub use collections::Entity;
 pub(crate) use collections::Item;
 pub use contacts::ContactPoint;
 pub use distances::DistanceResult;
-pub use error::ApiError;
 pub use filters::{VisionInput, VisionReading};
 pub use find::Search;
 pub(crate) use motions::Motion;
 pub use pairs::ContactOverride;
-pub use ports::{LegacyPorts, PortRequest};
 pub(crate) use registry::Request;
 pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry};
-pub use signals::Signals;
 pub use sim_api::{Reference, SimApi};
-pub use stored::check_name;
-pub use value::{Arguments, Value};
 
 pub use sincro_dynamics::spatial::{Pose, Vec3};
+pub use sincro_values::stored::check_name;
+pub use sincro_values::{ApiError, Arguments, LegacyPorts, PortRequest, Signals, Value, cbor};
+use sincro_values::{radio, stored, unpack};
 
 /// State of the simulation of a session, as clients and scripts ask for it; [`ObjectRegistry::phase`] holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

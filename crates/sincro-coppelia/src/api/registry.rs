@@ -24,15 +24,10 @@ use super::joint_modes::StaticMode;
 use super::motions::{JointMotion, Motions};
 use super::note::Notes;
 use super::pairs::{self, Pair};
-use super::ports::{LegacyPorts, PortRequest};
-use super::radio::Radio;
 use super::scene_objects::handle_of_id;
 use super::senses::Senses;
-use super::signals::Signals;
-use super::stored::Stored;
 use super::structure::{Belt, Link, Needed};
-use super::tubes::Tubes;
-use super::value::Value;
+
 use super::vision::Vision;
 use super::{ApiError, Phase};
 use sincro_scene::scene::{Object, Scene};
@@ -40,12 +35,11 @@ use sincro_scene::script::{Kind as ScriptKind, Script, ScriptParser};
 use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
 use sincro_sim::restructure::Restructured;
-
-/// Number by which clients and scripts name an object: 1 for the first object of the scene, then in the order of the
-/// file; runtime objects follow. Negative numbers have meanings of their own (−1 `sim.handle_world`, −2
-/// `sim.handle_all` …). Get one from [`ObjectRegistry::find`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Handle(pub i32);
+pub use sincro_values::Handle;
+use sincro_values::radio::Radio;
+use sincro_values::stored::Stored;
+use sincro_values::tubes::Tubes;
+use sincro_values::{LegacyPorts, PortRequest, Signals, Value};
 
 /// Bytes that clients and scripts may store: string signals, data with objects, named parameters.
 const MAX_BYTES: usize = 256 << 20;

@@ -44,7 +44,7 @@ pub(super) fn seen(sim: &SimApi<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 
     Ok(match sim.proximity(sensor)?.flatten() {
         Some(saw) => {
             let ([x, y, z], [u, v, w]) = (saw.point.0, saw.normal.0);
-            (1, Handle::from(&saw).0, [x, y, z, u, v, w])
+            (1, saw.object as i32 + 1, [x, y, z, u, v, w])
         }
         None => (0, -1, [0.0; 6]),
     })

@@ -43,7 +43,7 @@ fn seen(saw: Option<Detection>) -> Vec<Value> {
         Value::Int(1),
         Value::Real(saw.distance),
         Value::reals(saw.point.0),
-        Value::from(Handle::from(&saw)),
+        Value::from(seen_object(&saw)),
         Value::reals(saw.normal.0),
     ]
 }
@@ -54,11 +54,9 @@ fn nothing(result: i64) -> Vec<Value> {
     vec![Value::Int(result), Value::Real(0.0), zeros(), Value::Int(-1), zeros()]
 }
 
-impl From<&Detection> for Handle {
-    /// The object that was seen.
-    fn from(saw: &Detection) -> Self {
-        Self(saw.object as i32 + 1)
-    }
+/// The object that was seen.
+pub(crate) fn seen_object(saw: &Detection) -> Handle {
+    Handle(saw.object as i32 + 1)
 }
 
 /// One sensor, all, or all but those with explicit handling.

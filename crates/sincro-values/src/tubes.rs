@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::ApiError;
-use super::stored::check_name;
+use crate::ApiError;
+use crate::stored::check_name;
 
 /// Ends that may be open at once.
 const MAX_ENDS: usize = 1_000;
@@ -12,7 +12,7 @@ const MAX_PACKETS: usize = 10_000;
 
 /// All open ends.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tubes {
+pub struct Tubes {
     ends: Vec<Option<End>>,
 }
 
@@ -54,6 +54,11 @@ impl Tubes {
         found.ok_or_else(|| ApiError(format!("there is no open tube {number}")))
     }
 
+    /// Closes an end of a tube.
+    ///
+    /// # Errors
+    ///
+    /// No end has that number.
     pub fn close(&mut self, number: i64) -> Result<(), ApiError> {
         let partner = self.end(number)?.partner;
         self.ends[number as usize] = None;

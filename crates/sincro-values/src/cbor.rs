@@ -1,7 +1,7 @@
 //! Values as CBOR (RFC 8949), for clients and for tables that scripts pack: definite lengths, numbers of 64 bits, no
 //! tags. Whoever reads decides what is taken.
 
-use super::Value;
+use crate::Value;
 
 /// Appends a value to `out` as CBOR (RFC 8949), the binary encoding of the ZeroMQ and WebSocket remote APIs. Lengths
 /// are definite, numbers [`Value::Real`] have 64 bits, whole numbers the shortest form; bytes that are in `out` already

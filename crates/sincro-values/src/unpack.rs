@@ -1,6 +1,6 @@
-//! Tables from bytes: the part of CBOR (RFC 8949) that [`super::cbor`] writes.
+//! Tables from bytes: the part of CBOR (RFC 8949) that [`crate::cbor`] writes.
 
-use super::Value;
+use crate::Value;
 
 /// Lists and maps inside each other beyond which bytes are refused.
 const MAX_DEPTH: usize = 64;
@@ -10,7 +10,7 @@ const MAX_DEPTH: usize = 64;
 /// # Errors
 ///
 /// They are no table that was packed here, or something follows it.
-pub(super) fn read(bytes: &[u8]) -> Result<Value, String> {
+pub fn read(bytes: &[u8]) -> Result<Value, String> {
     let mut reader = Reader { rest: bytes };
     let value = reader.value(0)?;
     if reader.rest.is_empty() { Ok(value) } else { Err(format!("{} bytes follow the packed table", reader.rest.len())) }
@@ -79,8 +79,8 @@ impl<'a> Reader<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cbor::encode;
     use super::*;
+    use crate::cbor::encode;
 
     #[test]
     fn what_is_packed_comes_back() {

@@ -1,14 +1,14 @@
 //! Data that clients and scripts store with objects, the scene and the application: bytes, texts and packed values
 //! under tags, which all functions share.
 
-use super::{ApiError, Value, cbor, unpack};
+use crate::{ApiError, Value, cbor, unpack};
 
 /// Bytes of the longest name: of a signal, a tag, a tube, a parameter.
 const MAX_NAME: usize = 1_024;
 
 /// Form of stored data: what the function that wrote them was given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
+pub enum Form {
     /// Plain bytes.
     Bytes,
     /// Text.
@@ -19,7 +19,7 @@ pub(crate) enum Form {
 
 /// Data under a tag.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Stored {
+pub struct Stored {
     /// Form of the bytes.
     pub form: Form,
     /// The bytes; of a text, its UTF-8.
@@ -29,7 +29,7 @@ pub(crate) struct Stored {
 impl Stored {
     /// The form in which a value is stored.
     #[must_use]
-    pub(crate) fn from_value(value: &Value) -> Self {
+    pub fn from_value(value: &Value) -> Self {
         match value {
             Value::Bytes(bytes) => Self { form: Form::Bytes, bytes: bytes.clone() },
             Value::Text(text) => Self { form: Form::Text, bytes: text.clone().into_bytes() },
@@ -46,7 +46,7 @@ impl Stored {
     /// # Errors
     ///
     /// The bytes are not of their form.
-    pub(crate) fn value(&self) -> Result<Value, ApiError> {
+    pub fn value(&self) -> Result<Value, ApiError> {
         match self.form {
             Form::Bytes => Ok(Value::Bytes(self.bytes.clone())),
             Form::Text => self.text().map(Value::Text),
@@ -59,7 +59,7 @@ impl Stored {
     /// # Errors
     ///
     /// They are none.
-    pub(crate) fn text(&self) -> Result<String, ApiError> {
+    pub fn text(&self) -> Result<String, ApiError> {
         let wrong = || ApiError::new("these data are no text: read them as a buffer");
         if self.form == Form::Packed {
             return Err(wrong());
@@ -72,7 +72,7 @@ impl Stored {
     /// # Errors
     ///
     /// They are none.
-    pub(crate) fn table(&self) -> Result<Value, ApiError> {
+    pub fn table(&self) -> Result<Value, ApiError> {
         match self.unpacked()? {
             table @ (Value::List(_) | Value::Map(_) | Value::Numbered(_)) => Ok(table),
             other => Err(ApiError(format!("these data are {}, no table: read them as that", other.word()))),

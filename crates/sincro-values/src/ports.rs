@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::ApiError;
+use crate::ApiError;
 
 /// Ports that scripts may have opened beside those of the command line.
 const MAX_SCRIPT_PORTS: usize = 8;

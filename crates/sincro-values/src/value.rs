@@ -1,6 +1,6 @@
 //! Values as they pass between the simulator and scripts or clients: what Lua tables, CBOR and JSON have in common.
 
-use super::{ApiError, Handle};
+use crate::{ApiError, Handle};
 
 /// Value of any type, as functions called by name take and return it: what Lua tables, CBOR and JSON have in common.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -165,14 +165,14 @@ impl From<&str> for Value {
 /// check their types, and their error messages count from 1.
 ///
 /// ```
-/// use sincro_coppelia::api::{Arguments, Value};
+/// use sincro_values::{Arguments, Value};
 ///
 /// let given = [Value::from(3_i64), Value::reals([0.0, 0.5, 1.0])];
 /// let arguments = Arguments(&given);
 /// assert_eq!((arguments.int(0)?, arguments.reals::<3>(1)?), (3, [0.0, 0.5, 1.0]));
 /// assert_eq!(arguments.int_or(2, -1)?, -1);
 /// assert!(arguments.text(0).unwrap_err().0.contains("argument 1 is a whole number"));
-/// # Ok::<(), sincro_coppelia::api::ApiError>(())
+/// # Ok::<(), sincro_values::ApiError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a>(pub &'a [Value]);

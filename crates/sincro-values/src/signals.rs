@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::ApiError;
-use super::stored::check_name;
-use super::value::Value;
+use crate::ApiError;
+use crate::Value;
+use crate::stored::check_name;
 
 /// Names of one kind that may exist at once.
 const MAX_NAMES: usize = 10_000;
@@ -15,13 +15,13 @@ const MAX_BYTES: usize = 64 << 20;
 /// The registry holds one for each type.
 ///
 /// ```
-/// use sincro_coppelia::api::Signals;
+/// use sincro_values::Signals;
 ///
 /// let mut floats = Signals::default();
 /// floats.set("height", 0.25, false)?;
 /// assert_eq!(floats.get("height"), Some(&0.25));
 /// assert_eq!((floats.clear("height"), floats.get("height")), (1, None));
-/// # Ok::<(), sincro_coppelia::api::ApiError>(())
+/// # Ok::<(), sincro_values::ApiError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Signals<T> {
@@ -82,12 +82,12 @@ impl<T> Signals<T> {
 
     /// Bytes of all names.
     #[must_use]
-    pub(crate) fn names_size(&self) -> usize {
+    pub fn names_size(&self) -> usize {
         self.by_name.keys().map(String::len).sum()
     }
 
     /// Forgets what the last run made.
-    pub(super) fn forget_run(&mut self) {
+    pub fn forget_run(&mut self) {
         self.by_name.retain(|_, held| !held.of_run);
     }
 }
@@ -95,7 +95,7 @@ impl<T> Signals<T> {
 impl Signals<Vec<u8>> {
     /// Bytes of all of them.
     #[must_use]
-    pub(crate) fn total(&self) -> usize {
+    pub fn total(&self) -> usize {
         self.by_name.values().map(|held| held.value.len()).sum()
     }
 

@@ -3,14 +3,14 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use super::{ApiError, Handle};
+use crate::{ApiError, Handle};
 
 /// Packets that wait at most; the oldest are dropped.
 const MAX_PACKETS: usize = 1_000;
 
 /// Place and range of an antenna: who is within receives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Antenna {
+pub struct Antenna {
     /// Position in the world `[m]`.
     pub position: [f64; 3],
     /// Range `[m]`.
@@ -19,7 +19,8 @@ pub(crate) struct Antenna {
 
 /// Receivers of a packet.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Receivers {
+pub enum Receivers {
+    /// Everybody.
     All,
     /// One, or those below the sender.
     These(BTreeSet<Handle>),
@@ -27,7 +28,7 @@ pub(crate) enum Receivers {
 
 /// Data on their way.
 #[derive(Clone, Debug)]
-pub(crate) struct Packet {
+pub struct Packet {
     /// Object of the script that sent it; none: a client.
     pub sender: Option<Handle>,
     /// Who may receive it.
@@ -50,7 +51,7 @@ pub(crate) struct Packet {
 
 /// Request of a receiver.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wanted<'a> {
+pub struct Wanted<'a> {
     /// Object of the script that asks; none: a client.
     pub own: Option<Handle>,
     /// Number; none: any.
@@ -65,14 +66,14 @@ pub(crate) struct Wanted<'a> {
 
 /// All data on their way.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Radio {
+pub struct Radio {
     packets: VecDeque<Packet>,
 }
 
 impl Radio {
     /// Sends a packet.
     pub fn send(&mut self, packet: Packet) -> Result<(), ApiError> {
-        super::stored::check_name("wireless packet", &packet.name)?;
+        crate::stored::check_name("wireless packet", &packet.name)?;
         self.packets.retain(|other| other.until >= packet.sent);
         if self.packets.len() == MAX_PACKETS {
             self.packets.pop_front();

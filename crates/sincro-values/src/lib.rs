@@ -1,0 +1,26 @@
+//! Data that clients and scripts exchange by the API of V-REP and CoppeliaSim.
+//!
+//! | file | has |
+//! |---|---|
+//! | `handle.rs`, `value.rs`, `error.rs` | [`Handle`], [`Value`] and [`Arguments`], [`ApiError`]: what functions take and give |
+//! | `cbor.rs`, `unpack.rs` | values as bytes and back |
+//! | `stored.rs` | data under tags |
+//! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
+//! | `ports.rs` | TCP ports that scripts ask for |
+
+pub mod cbor;
+mod error;
+mod handle;
+mod ports;
+pub mod radio;
+mod signals;
+pub mod stored;
+pub mod tubes;
+pub mod unpack;
+mod value;
+
+pub use error::ApiError;
+pub use handle::Handle;
+pub use ports::{LegacyPorts, PortRequest};
+pub use signals::Signals;
+pub use value::{Arguments, Value};
