@@ -315,8 +315,8 @@ fn redundant_contacts_without_slip_have_one_motion() {
 }
 
 /// A wheel that stands on a corner which sticks and turns about it, so that its other corner slides: the share of the
-/// load between the corners decides what friction the first one needs. Of the four motions (x, y, z, and the turn, whose
-/// arm is `arm`), the wheel is pushed along x and y.
+/// load between the corners decides what friction the first one needs. It has four motions, x, y, z and the turn, and
+/// is pushed along x and y.
 fn pivoting_wheel(push: [f64; 2]) -> (Vec<f64>, Vec<f64>, Vec<UnilateralConstraint<f64>>) {
     let (mass, moment, arm) = (2.0, 0.03, 0.05);
     // normal, then two tangents of each corner
@@ -343,7 +343,7 @@ fn pivoting_wheel(push: [f64; 2]) -> (Vec<f64>, Vec<f64>, Vec<UnilateralConstrai
 
 #[test]
 fn the_load_shifts_before_friction_that_holds_alone_is_beyond_its_limit() {
-    // (push in units of weight, load of the first corner); each push within what some share can hold
+    // pushes in units of weight, each within what some share can hold
     let weight = 2.0 * 9.81;
     for push in [[0.0, 0.3], [0.41, 0.4], [0.45, 0.45], [-0.5, 0.5], [0.3, -0.1]] {
         let (a, b, mut blocks) = pivoting_wheel(push.map(|x: f64| x * weight));
