@@ -47,11 +47,7 @@ struct Creeping<R> {
 impl<R: Real> Creeping<R> {
     /// Force along the direction beyond the limit.
     fn beyond(&self, lambda: &[R]) -> R {
-        self.along(lambda) - self.limit(lambda)
-    }
-
-    fn along(&self, lambda: &[R]) -> R {
-        let mut sum = R::zero();
+        let mut sum = -self.limit(lambda);
         for k in 0..self.dim {
             sum += self.direction[k] * lambda[self.row + k];
         }
@@ -80,8 +76,9 @@ pub(crate) struct LoadShare<R> {
     creeping: Vec<Creeping<R>>,
     /// Multipliers before anything is added.
     elastic: Vec<R>,
-    /// Multipliers of equally stiff constraints without creep.
+    /// Multipliers of equally stiff constraints without creep, and those of the least shift from them.
     equal: Vec<R>,
+    shifted: Vec<R>,
 }
 
 impl<R: Real> LoadShare<R> {
@@ -103,18 +100,19 @@ impl<R: Real> LoadShare<R> {
         for updates in 0..MAX_CREEPING {
             self.assemble((m, n, redundant), active_set, blocks);
             self.solve_parts(redundant);
-            let is_determined = self.system.rank == self.parts.len();
-            if !is_determined && updates > 0 {
-                self.shift_load((m, redundant), blocks, lambda);
-                return;
-            }
             lambda.copy_from_slice(&self.elastic);
             self.add_parts(m, lambda);
+            if self.system.rank < self.parts.len() {
+                if updates > 0 && self.find_creeping(blocks, lambda) {
+                    self.shift_load((m, redundant), blocks, lambda);
+                }
+                return;
+            }
             if updates == 0 {
                 self.equal.clear();
                 self.equal.extend_from_slice(lambda);
             }
-            if !is_determined || !self.find_creeping(blocks, lambda) {
+            if !self.find_creeping(blocks, lambda) {
                 return;
             }
         }
@@ -137,23 +135,26 @@ impl<R: Real> LoadShare<R> {
     }
 
     /// Shifts the load to the share nearest to that of equal stiffness in which the friction that is listed as creeping
-    /// is at its limit; where there is none, the share of equal stiffness stays.
+    /// is at its limit; where there is none, λ stays as it is.
     fn shift_load(&mut self, (m, redundant): (usize, usize), blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
+        let mut shifted = core::mem::take(&mut self.shifted);
         for _ in 0..MAX_SHIFTS {
-            let is_effective = self.assemble_shift((m, redundant));
-            if is_effective {
-                self.solve_parts(redundant);
+            if !self.assemble_shift((m, redundant)) {
+                break;
             }
-            lambda.copy_from_slice(&self.equal);
-            if !is_effective || self.system.rank < self.parts.len() {
-                return;
+            self.solve_parts(redundant);
+            if self.system.rank < self.parts.len() {
+                break;
             }
-            self.add_parts(m, lambda);
-            if !self.find_creeping(blocks, lambda) {
-                return;
+            shifted.clear();
+            shifted.extend_from_slice(&self.equal);
+            self.add_parts(m, &mut shifted);
+            if !self.find_creeping(blocks, &shifted) {
+                lambda.copy_from_slice(&shifted);
+                break;
             }
         }
-        lambda.copy_from_slice(&self.equal);
+        self.shifted = shifted;
     }
 
     /// Fills the linear system of the least shift, with one multiplier of each friction at its limit; returns false if
@@ -171,9 +172,10 @@ impl<R: Real> LoadShare<R> {
             let (mut effect, mut terms) = (0.0, 0.0);
             for j in 0..redundant {
                 let size = self.system.get(j, j).lane(0).max(f64::MIN_POSITIVE);
-                let (along, limit) = (creeping.along(kernel(j)).lane(0), creeping.limit(kernel(j)).lane(0));
-                effect += (along - limit) * (along - limit) / size;
-                terms += (along.abs() + limit.abs()) * (along.abs() + limit.abs()) / size;
+                let (beyond, limit) = (creeping.beyond(kernel(j)).lane(0), creeping.limit(kernel(j)).lane(0));
+                effect += beyond * beyond / size;
+                let of_terms = (beyond + limit).abs() + limit.abs();
+                terms += of_terms * of_terms / size;
             }
             if effect <= NO_EFFECT * terms {
                 return false;
