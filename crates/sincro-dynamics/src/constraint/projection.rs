@@ -50,6 +50,12 @@ impl Constraints<f64> {
         work
     }
 
+    /// Size of the work of the impulses that the last projection removed rates by `[J]`.
+    pub fn rate_work(&self) -> f64 {
+        // the mean of the rates before and after, of which the latter are zero
+        self.lambda.iter().zip(&self.b).map(|(impulse, rate)| 0.5 * impulse * rate).sum::<f64>().abs()
+    }
+
     /// Largest residual and largest rate of the rows, for joint rates `v`.
     pub fn worst(&self, v: &[f64]) -> (f64, f64) {
         let distance = self.residual.iter().fold(0.0_f64, |a, x| a.max(x.abs()));

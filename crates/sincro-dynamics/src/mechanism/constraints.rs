@@ -59,6 +59,8 @@ pub(crate) struct Projected {
     /// Work of the forces of contacts that have closed since the last projection over the distances that this one
     /// removed `[J]`.
     pub closing_work: f64,
+    /// Size of the work of the impulses that removed the rates of closed constraints `[J]`.
+    pub rate_work: f64,
     /// True if velocities were changed; the scratch then has the impulses of locked drives as reactions.
     pub has_impulses: bool,
 }
@@ -322,6 +324,7 @@ impl Mechanism<f64> {
         let mut change = core::mem::take(&mut self.constraint_change);
         let c = self.constraints.as_deref_mut().expect("prepared");
         c.project(&self.model, &mut self.scratch, Some(&y[layout.velocities()]), &mut change);
+        projected.rate_work = c.rate_work();
         for (v, change) in y[layout.velocities()].iter_mut().zip(&change) {
             *v += *change;
         }

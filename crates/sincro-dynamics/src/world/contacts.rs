@@ -70,16 +70,19 @@ impl World {
         self.add_motor_impulses(Self::is_unlimited);
     }
 
-    /// Projects onto the constraints after a sub-step, rates of sticking contacts included.
-    pub(super) fn project(&mut self) {
-        if self.is_constrained() {
-            self.mechanism.mark_locked();
-            let projected = self.mechanism.project(&mut self.y, ProjectedRows::Sticking);
-            self.statistics.closing_work += projected.closing_work;
-            if projected.has_impulses && self.layout().tracks_totals() {
-                self.add_motor_impulses(|world, drive| world.mechanism.drives[drive] == 0.0);
-            }
+    /// Projects onto the constraints after a sub-step, rates of sticking contacts included. Returns the work of the
+    /// impulses that remove these rates `[J]`.
+    pub(super) fn project(&mut self) -> f64 {
+        if !self.is_constrained() {
+            return 0.0;
         }
+        self.mechanism.mark_locked();
+        let projected = self.mechanism.project(&mut self.y, ProjectedRows::Sticking);
+        self.statistics.event_work += projected.closing_work;
+        if projected.has_impulses && self.layout().tracks_totals() {
+            self.add_motor_impulses(|world, drive| world.mechanism.drives[drive] == 0.0);
+        }
+        projected.rate_work
     }
 
     /// Adds work and impulses of the motors chosen, whose velocities an impulse has left as they are, to the totals.

@@ -127,6 +127,16 @@ impl World {
         control.map_or(0.0, |control| EVENT_ACCURACY * control.accuracy) / fastest
     }
 
+    /// Sum of the sizes of the powers of all saturated drives `[W]`.
+    fn saturated_power(&self) -> f64 {
+        let of_drive = |i: usize| {
+            let drive = &self.mechanism.model.params.drives[i];
+            self.mechanism.limit(drive).map_or(0.0, |limit| (limit * self.velocity(drive.dof)).abs())
+        };
+        let saturated = (0..self.target_velocities.len()).filter(|i| self.mechanism.drives[*i] != 0.0);
+        saturated.map(of_drive).sum()
+    }
+
     /// Value of a zero crossing that is as good as zero.
     fn crossing_resolution(&self, crossing: Crossing) -> f64 {
         match crossing {
@@ -211,7 +221,9 @@ impl World {
             self.jumps[i] |= self.mechanism.drives[i] == 0.0;
         }
         // under the modes of the sub-step: a contact that slid until now need not slip on when a drive has locked
-        self.project();
+        let of_rates = self.project();
+        let width = resolution.max(self.time_resolution(control));
+        self.statistics.event_work += of_rates + width * self.saturated_power();
         if reached {
             self.apply_impulse();
         }

@@ -152,9 +152,10 @@ pub struct StepStatistics {
     pub fallback_steps: u64,
     /// Number of times that the modes of drives could not be decided within the iteration limit.
     pub undecided_modes: u64,
-    /// Work of the contact forces over the distances at which contacts counted as closed `[J]`, which projection
-    /// removes: an uncertainty of the energy balance that no finer step reduces.
-    pub closing_work: f64,
+    /// Work that events leave open `[J]`, an uncertainty of the energy balance that no finer step reduces: of contact
+    /// forces over the distances at which contacts counted as closed, of impulses that remove the rates at which they
+    /// counted as at rest, of limited drives within the width to which the instants are located.
+    pub event_work: f64,
 }
 
 /// Simulated world: a mechanism, its state and an integration method, advanced by [`World::step`]. Made by

@@ -195,7 +195,7 @@ impl StepStatistics {
             fallback_ticks: self.fallback_ticks - before.fallback_ticks,
             fallback_steps: self.fallback_steps - before.fallback_steps,
             undecided_modes: self.undecided_modes - before.undecided_modes,
-            closing_work: self.closing_work - before.closing_work,
+            event_work: self.event_work - before.event_work,
         }
     }
 }

@@ -75,6 +75,6 @@ impl Limits {
 /// `scale` is the largest energy that entered. Beyond a third of that energy no digit of the energies is known,
 /// whatever the bar.
 pub(crate) fn energy_limit(bar: f64, scale: f64, statistics: &StepStatistics) -> f64 {
-    let uncertain = (BARS * (bar + statistics.closing_work)).min(scale / 3.0);
+    let uncertain = (BARS * (bar + statistics.event_work)).min(scale / 3.0);
     uncertain + ROUNDING * scale * (statistics.steps.max(1) as f64).sqrt()
 }
