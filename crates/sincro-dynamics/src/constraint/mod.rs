@@ -46,7 +46,9 @@ mod time_stepping;
 pub(crate) mod warm_start;
 
 pub(crate) use sincro_complementarity::HeldLaw;
-use sincro_complementarity::{ContactProblem, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable};
+use sincro_complementarity::{
+    ContactProblem, HELD_RATE, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable,
+};
 use sincro_math::{Real, dot};
 
 pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
@@ -156,6 +158,8 @@ pub(crate) struct Constraints<R> {
     /// Conditioning of the loops in the last evaluation: smallest pivot of G with rows scaled to their sizes, about the
     /// square of the smallest singular value; 1 with contacts.
     pub conditioning: f64,
+    /// True while limited drives at their kink are rows beside loops: prescribed, their accelerations contradict them.
+    pub couples_drives: bool,
     /// Size of each bilateral row that is used ([`rank`]), squared.
     pub row_sizes: Vec<f64>,
     /// Squares of these rows in the metric of the mass matrix where they were selected.
@@ -219,6 +223,7 @@ impl<R: Real> Constraints<R> {
             before: Vec::new(),
             kept: Vec::new(),
             conditioning: 1.0,
+            couples_drives: false,
             row_sizes: Vec::new(),
             row_squares: Vec::new(),
             is_independent: vec![true; set.n_bilateral()],
@@ -396,6 +401,17 @@ impl<R: Real> Constraints<R> {
         self.lambda.copy_from_slice(&self.held.lambda);
         self.solver.find_rates(&problem, &self.lambda);
         self.violation = Some(law);
+    }
+
+    /// Returns true if the multipliers last found leave rates of bilateral rows, beyond rounding.
+    pub fn leaves_loop_rates(&self) -> bool {
+        let m = self.rows.len();
+        if self.is_swept || self.b.len() < m {
+            return false;
+        }
+        let largest = self.b.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
+        let rate = |i: usize| self.b[i] + dot(&self.a[i * m..(i + 1) * m], &self.lambda);
+        (0..self.n_free.min(m)).any(|i| rate(i).lane(0).abs() > HELD_RATE * largest)
     }
 
     /// Returns true if the problem last solved has another solution, with other accelerations.

@@ -10,9 +10,20 @@ impl Mechanism<f64> {
         self.constraints.as_ref().is_some_and(|c| WarmStart::has_closed(&c.memory))
     }
 
-    /// Returns true if limited drives at their kink are constraints of one problem with contacts: where any are closed.
+    /// Returns true if limited drives at their kink are constraints of one problem with contacts: where any are closed,
+    /// and where prescribed accelerations of locked drives contradict loops.
     pub(crate) fn couples_drives(&self) -> bool {
-        !self.drives.is_empty() && self.has_closed()
+        !self.drives.is_empty() && (self.has_closed() || self.constraints.as_ref().is_some_and(|c| c.couples_drives))
+    }
+
+    /// Sets whether limited drives at their kink are constraints of one problem with loops.
+    pub(crate) fn couple_drives_with_loops(&mut self, are_coupled: bool) {
+        self.constraints.iter_mut().for_each(|c| c.couples_drives = are_coupled);
+    }
+
+    /// Returns true if the last evaluation left accelerations across loops and gears: prescribed ones contradict them.
+    pub(crate) fn contradicts_loops(&self) -> bool {
+        self.constraints.as_ref().is_some_and(|c| c.leaves_loop_rates())
     }
 
     /// Returns true if limited drives are constraints of one problem at velocity level: with closed contacts, or with

@@ -20,11 +20,16 @@ impl World {
         (h, after_event): (f64, bool),
         system: &mut dyn CoupledSystem<f64>,
     ) -> bool {
-        let is_coupled = self.mechanism.couples_drives() && self.has_limited_drives();
+        self.mechanism.couple_drives_with_loops(false);
+        let mut is_coupled = self.mechanism.couples_drives() && self.has_limited_drives();
+        if !is_coupled {
+            self.resolve_actuator_modes(t, h, system);
+            is_coupled = self.contradict_loops(t, system);
+            self.mechanism.couple_drives_with_loops(is_coupled);
+        }
         let unchanged = if is_coupled {
             self.collect_kinks()
         } else {
-            self.resolve_actuator_modes(t, h, system);
             // decided among themselves
             self.kinks.clear();
             true
@@ -37,6 +42,17 @@ impl World {
         let is_solved = after.not_converged == before.not_converged;
         self.discard_failures(&before);
         is_solved
+    }
+
+    /// Returns true if the limited drives that are locked, as prescribed accelerations, contradict loops: their forces
+    /// would open these, where as constraints beside the loops the weaker ones give way.
+    fn contradict_loops(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
+        let is_locked = self.kinks.iter().any(|kink| kink.saturation == 0.0);
+        if !is_locked || self.model().params.constraints.n_bilateral() == 0 {
+            return false;
+        }
+        self.evaluate_slope(t, system);
+        self.mechanism.contradicts_loops()
     }
 
     /// Goes back from the modes just decided to those of the last sub-step if they keep all laws and give other

@@ -1,4 +1,5 @@
-//! Limited motors together with joint limits, impacts and friction: robots that start on a floor, arms that touch it.
+//! Limited motors alone, in closed loops, and together with joint limits, impacts and friction: arms, robots that start
+//! on a floor, arms that touch it.
 //!
 //! The number of draws is that of the environment variable `SINCRO_DRAWS` (default 16).
 
@@ -333,20 +334,118 @@ fn arm(r: &mut Draw) -> String {
     scene
 }
 
+/// Number of random draws.
+fn draws() -> usize {
+    std::env::var("SINCRO_DRAWS").ok().and_then(|n| n.parse().ok()).unwrap_or(16)
+}
+
+/// Demands of a run of draw `k` that it keeps all laws, without a step at velocity level.
+fn keeps_the_laws(k: usize, scene: &str, duration: f64) {
+    let done = campaign(scene, duration).main;
+    let statistics = done.simulated.statistics;
+    assert_eq!(done.simulated.status, Status::Completed, "draw {k}\n{scene}");
+    assert!(done.audit.ok, "draw {k}: {:?}\n{scene}", done.audit.findings);
+    let fallback = statistics.fallback_ticks + statistics.fallback_steps;
+    // motors and contacts are one problem, whose modes are always decided
+    assert_eq!((fallback, statistics.undecided_modes), (0, 0), "draw {k}: {statistics:?}\n{scene}");
+}
+
+/// Adds a revolute joint, mostly (by `share`) with a velocity motor of limit 1e-3 to 1e6 N·m, sometimes with friction.
+fn limited_joint(
+    r: &mut Draw,
+    scene: &mut String,
+    [name, parent]: [&str; 2],
+    axis: [f64; 3],
+    at: [f64; 3],
+    share: f64,
+) {
+    let _ = write!(scene, "\n[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\naxis = {axis:?}\nposition = {at:?}\n");
+    if !parent.is_empty() {
+        let _ = writeln!(scene, "parent = \"{parent}\"");
+    }
+    if r.unit() < share {
+        let (limit, command) = (r.decade(-3.0, 6.0), r.one_of(&[0.0, 1.0, 1.0]) * r.between(-2.0, 2.0));
+        let _ = writeln!(scene, "motor = {{ mode = \"velocity\", max_torque = {limit:e}, command = {command:e} }}");
+    }
+    if r.unit() < 0.33 {
+        let _ = writeln!(scene, "friction = {:e}", r.decade(-3.0, 1.0));
+    }
+}
+
+/// An arm of two to eight links under gravity, a limited motor in each joint.
+fn hanging_arm(r: &mut Draw) -> String {
+    let (links, is_planar) = (2 + (7.0 * r.unit()) as usize, r.unit() < 0.5);
+    let (mut scene, mut parent) = (String::new(), String::new());
+    for k in 0..links {
+        let is_across = is_planar || r.unit() < 0.3;
+        let axis =
+            if is_across { [0.0, 1.0, 0.0] } else { [r.between(-1.0, 1.0), r.between(-1.0, 1.0), r.between(0.1, 1.0)] };
+        let at = [0.0, 0.0, if k == 0 { 0.0 } else { -0.4 }];
+        limited_joint(r, &mut scene, [&format!("j{k}"), &parent], axis, at, 1.0);
+        let _ = writeln!(scene, "initial = {{ position = {:e} }}", r.between(-2.0, 2.0));
+        let _ = write!(parent, "/j{k}");
+        let mass = r.between(0.4, 2.0);
+        let _ = write!(
+            scene,
+            "\n[[body]]\nname = \"b\"\nparent = \"{parent}\"\nmass = {mass:e}\ncenter_of_mass = [0.0, 0.0, -0.2]\ninertia = {{ xx = {across:e}, yy = {across:e}, zz = {:e} }}\n",
+            0.004 * mass,
+            across = 0.02 * mass,
+        );
+    }
+    scene
+}
+
+/// A planar loop of three to six moving links in a plane turned at random, limited motors in most joints: often more of
+/// them than it has degrees of freedom.
+fn closed_loop(r: &mut Draw) -> String {
+    let n = 3 + (4.0 * r.unit()) as usize;
+    let q: [f64; 4] = std::array::from_fn(|_| r.between(-1.0, 1.0));
+    let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut scene = format!("[[frame]]\nname = \"base\"\nquaternion_wxyz = {:?}\n", q.map(|x| x / size));
+    // corners near an arc
+    let corner = |k: usize, r: &mut Draw| {
+        let angle = 3.0 * k as f64 / n as f64;
+        [1.0 - libm::cos(angle) + r.between(-0.1, 0.1), 0.0, libm::sin(angle) + r.between(-0.1, 0.1)]
+    };
+    let corners: Vec<[f64; 3]> = (0..=n).map(|k| corner(k, r)).collect();
+    let (mut parent, mut at) = ("/base".to_owned(), corners[0]);
+    for k in 0..n {
+        limited_joint(r, &mut scene, [&format!("j{k}"), &parent], [0.0, 1.0, 0.0], at, 0.75);
+        let _ = write!(parent, "/j{k}");
+        at = std::array::from_fn(|i| corners[k + 1][i] - corners[k][i]);
+        let mass = r.between(0.4, 2.0);
+        let moment = mass * at.iter().map(|x| x * x).sum::<f64>() / 12.0;
+        let _ = write!(
+            scene,
+            "\n[[body]]\nname = \"b\"\nparent = \"{parent}\"\nmass = {mass:e}\ncenter_of_mass = {:?}\ninertia = {{ xx = {moment:e}, yy = {moment:e}, zz = {moment:e} }}\n",
+            at.map(|x| 0.5 * x)
+        );
+    }
+    let kind = r.one_of(&["kind = \"point\"", "kind = \"hinge\"\naxis = [0, 1, 0]"]);
+    let _ = write!(
+        scene,
+        "\n[[frame]]\nname = \"end\"\nparent = \"{parent}\"\nposition = {at:?}\n\n[[frame]]\nname = \"pin\"\nparent = \"/base\"\nposition = {:?}\n\n[[closure]]\nname = \"pin\"\n{kind}\nbetween = [\"{parent}/end\", \"/base/pin\"]\n",
+        corners[n]
+    );
+    scene
+}
+
+#[test]
+fn arms_with_a_limited_motor_in_each_joint_keep_the_laws() {
+    let mut r = Draw(3);
+    (0..draws()).for_each(|k| keeps_the_laws(k, &hanging_arm(&mut r), 0.5));
+}
+
+#[test]
+fn closed_loops_with_more_motors_than_they_have_freedoms_stay_closed() {
+    let mut r = Draw(1);
+    (0..draws()).for_each(|k| keeps_the_laws(k, &closed_loop(&mut r), 0.5));
+}
+
 #[test]
 fn arms_that_touch_the_floor_keep_the_laws() {
-    let draws = std::env::var("SINCRO_DRAWS").ok().and_then(|n| n.parse().ok()).unwrap_or(16);
     let mut r = Draw(20);
-    for k in 0..draws {
-        let scene = arm(&mut r);
-        let done = campaign(&scene, 1.5);
-        let (run, audit) = (&done.main.simulated, &done.main.audit);
-        assert_eq!(run.status, Status::Completed, "draw {k}\n{scene}");
-        let statistics = &run.statistics;
-        assert!(audit.ok, "draw {k}: {:?}\n{scene}", audit.findings);
-        let fallback = statistics.fallback_ticks + statistics.fallback_steps;
-        assert_eq!((fallback, statistics.undecided_modes), (0, 0), "draw {k}: {statistics:?}\n{scene}");
-    }
+    (0..draws()).for_each(|k| keeps_the_laws(k, &arm(&mut r), 1.5));
 }
 
 /// A robot on two or four wheels with motors of any limit.
@@ -379,17 +478,8 @@ fn robot_on_wheels(r: &mut Draw) -> String {
 
 #[test]
 fn robots_on_wheels_keep_the_laws() {
-    let draws = std::env::var("SINCRO_DRAWS").ok().and_then(|n| n.parse().ok()).unwrap_or(16);
     let mut r = Draw(11);
-    for k in 0..draws {
-        let scene = robot_on_wheels(&mut r);
-        let done = campaign(&scene, 1.0).main;
-        let statistics = done.simulated.statistics;
-        assert!(done.audit.ok, "draw {k}: {:?}\n{scene}", done.audit.findings);
-        // motors and contacts are one problem, whose modes are always decided
-        let fallback = statistics.fallback_ticks + statistics.fallback_steps;
-        assert_eq!((fallback, statistics.undecided_modes), (0, 0), "draw {k}: {statistics:?}\n{scene}");
-    }
+    (0..draws()).for_each(|k| keeps_the_laws(k, &robot_on_wheels(&mut r), 1.0));
 }
 
 /// A robot on two wheels and a castor, all commanded to spin up at once: in the first step the motors and the rims of
