@@ -4,6 +4,7 @@ use mlua::{Error, Function, Lua, MultiValue, Table, Value};
 use sincro_coppelia::api::{ApiError, SimApi};
 use sincro_dynamics::joint::JointKind;
 
+use crate::guard::Guard;
 use crate::shared::Shared;
 
 /// `sim.jointfloatparam_upper_limit`: the limit of a motor's velocity, infinite if it has none.
@@ -64,7 +65,15 @@ pub(crate) fn joint(
             velocity.map_or(Ok(()), |velocity| sim.set_target_velocity(own, velocity))?;
             force.map_or(Ok(()), |force| sim.set_target_force(own, force, true))
         })
-        .map_err(told)
+        .map_err(|error| noted(lua, [velocity, force], told(error)))
+}
+
+/// Notes an error by which numbers were refused, if one of them is not finite.
+pub(crate) fn noted(lua: &Lua, numbers: [Option<f64>; 2], error: Error) -> Error {
+    if let (Some(guard), true) = (Guard::of(lua), numbers.iter().flatten().any(|x| !x.is_finite())) {
+        guard.note_not_finite(&error);
+    }
+    error
 }
 
 fn table_of(lua: &Lua, seen: &Seen, step: f64, is_first: bool) -> mlua::Result<Table> {

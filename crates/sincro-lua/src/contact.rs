@@ -4,6 +4,7 @@
 use mlua::{Error, Function, Lua, Table, Value};
 use sincro_coppelia::api::{ContactOverride, Handle};
 
+use crate::callback::noted;
 use crate::shared::Shared;
 
 /// Physics engine that scripts are given: the number that `sim.getInt32Param(8)` gives.
@@ -30,7 +31,9 @@ pub(crate) fn ask(
     let (friction, restitution) = coefficients(&given)?;
     let answer = ContactOverride { passes, friction, restitution };
     let own = shared.object(index);
-    shared.with_sim(own, |sim| sim.override_contact(bodies, answer)).map_err(|error| wrong(error.0))?;
+    shared
+        .with_sim(own, |sim| sim.override_contact(bodies, answer))
+        .map_err(|error| noted(lua, [friction, restitution], wrong(error.0)))?;
     Ok(true)
 }
 

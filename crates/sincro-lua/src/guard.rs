@@ -13,13 +13,13 @@
 //! `coroutine.resume` of the sandbox fail when they are entered or left, so that no script can catch it and continue.
 
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use mlua::{HookTriggers, Lua, VmState};
 
-use crate::library;
 use crate::sandbox::CHUNK;
+use crate::{fault, library};
 
 /// Instructions between two looks at the count.
 pub(crate) const EVERY: u32 = 1000;
@@ -80,8 +80,8 @@ pub(crate) struct Guard {
     /// read no clock.
     deadline: AtomicU64,
     stop_reason: AtomicU8,
-    /// True if a function of the simulation has refused a number that is not finite in the present call.
-    is_not_finite: AtomicBool,
+    /// Message of the last refusal of a number that is not finite in the present call.
+    not_finite: Mutex<Option<String>>,
     /// True once a call was stopped and the script continued: see [`Guard::was_stopped`].
     was_stopped: AtomicBool,
     switches_by_itself: AtomicBool,
@@ -114,7 +114,7 @@ impl Guard {
             time_limit,
             deadline: AtomicU64::new(0),
             stop_reason: AtomicU8::new(StopReason::None as u8),
-            is_not_finite: AtomicBool::new(false),
+            not_finite: Mutex::default(),
             was_stopped: AtomicBool::new(false),
             switches_by_itself: AtomicBool::new(true),
             line: AtomicUsize::new(0),
@@ -137,12 +137,16 @@ impl Guard {
         self.left.store(self.budget, Ordering::Relaxed);
         self.slice.store(SLICE, Ordering::Relaxed);
         self.deadline.store(0, Ordering::Relaxed);
-        self.is_not_finite.store(false, Ordering::Relaxed);
+        *self.not_finite() = None;
     }
 
-    /// A function of the simulation has refused a number that is not finite.
-    pub fn note_not_finite(&self) {
-        self.is_not_finite.store(true, Ordering::Relaxed);
+    /// A number that is not finite has been refused with an error.
+    pub fn note_not_finite(&self, error: &mlua::Error) {
+        *self.not_finite() = Some(fault::words(error).0);
+    }
+
+    fn not_finite(&self) -> MutexGuard<'_, Option<String>> {
+        self.not_finite.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn stop_reason(&self) -> StopReason {
@@ -154,9 +158,10 @@ impl Guard {
         self.stop_reason() != StopReason::None
     }
 
-    /// Returns true if a number that is not finite was refused in the present call.
-    pub fn has_refused_not_finite(&self) -> bool {
-        self.is_not_finite.load(Ordering::Relaxed)
+    /// Returns true if an error is the refusal of a number that is not finite, perhaps caught and raised again; one that
+    /// the script has dealt with does not count.
+    pub fn is_not_finite(&self, error: &mlua::Error) -> bool {
+        self.not_finite().as_ref().is_some_and(|refusal| fault::words(error).0.contains(refusal))
     }
 
     /// Returns true if any call of this Lua state was ever stopped. A coroutine that ended by an error of the hook has

@@ -208,8 +208,7 @@ impl Machine {
         self.guard.begin();
         let done = run(self).and_then(|value| self.guard.check().map(|()| value));
         done.map_err(|error| {
-            self.must_stop =
-                self.guard.is_stopped() || self.guard.has_refused_not_finite() || fault::is_of_memory(&error);
+            self.must_stop = self.guard.is_stopped() || self.guard.is_not_finite(&error) || fault::is_of_memory(&error);
             fault::of(&self.script(), &self.guard, &error)
         })
     }

@@ -102,7 +102,7 @@ impl Shared {
 
     /// Counts an error of a script after which the run goes on; one of the same text is told once.
     pub fn fail(&self, place: usize, error: &ScriptError, what_follows: &str) {
-        let (t, message, object) = (self.t(), error.to_string(), self.script(place).path.clone());
+        let (t, message, object) = (self.t(), cut(error.to_string()), self.script(place).path.clone());
         let new = || {
             let failure = ScriptFailure { object, count: 0, first: t, message: message.clone() };
             Failures { failure, told: BTreeSet::new() }
@@ -310,8 +310,7 @@ impl Shared {
         let t = self.t();
         let mut messages = open(&self.messages);
         if messages.len() < MAX_MESSAGES {
-            let end = text.floor_char_boundary(MAX_MESSAGE_LEN);
-            messages.push(Message { t, object: self.script(script).path.clone(), text: text[..end].to_owned() });
+            messages.push(Message { t, object: self.script(script).path.clone(), text: cut(text) });
         }
     }
 
@@ -319,6 +318,15 @@ impl Shared {
     pub fn take_messages(&self) -> Vec<Message> {
         std::mem::take(&mut *open(&self.messages))
     }
+}
+
+/// A message, its end beyond [`MAX_MESSAGE_LEN`] left out.
+fn cut(mut text: String) -> String {
+    if text.len() > MAX_MESSAGE_LEN {
+        text.truncate(text.floor_char_boundary(MAX_MESSAGE_LEN));
+        text.shrink_to_fit();
+    }
+    text
 }
 
 /// The object of a script.

@@ -122,11 +122,13 @@ impl ApiContext<'_> {
             let named = |ApiError(message): ApiError| {
                 Error::RuntimeError(format!("{message} (in function '{module}.{}')", function.name))
             };
-            if result.is_err() && given.iter().any(has_not_finite) {
-                // what is no number is never passed over
-                guard.note_not_finite();
-            }
-            let values = result.map_err(named)?;
+            let values = result.map_err(|error| {
+                let error = named(error);
+                if given.iter().any(has_not_finite) {
+                    guard.note_not_finite(&error);
+                }
+                error
+            })?;
             convert::list_to_lua(lua, &values)
         })
     }

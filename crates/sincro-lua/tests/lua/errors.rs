@@ -3,7 +3,7 @@
 use sincro_sim::results::Status;
 use sincro_sim::run::Simulated;
 
-use super::world::{run, stop, with_script};
+use super::world::{EXPERIMENT, PENDULUM, open, run, stop, with_script};
 
 /// An old script that fails in every second actuation, in two ways.
 const FAILS: &str = "
@@ -127,4 +127,33 @@ fn a_number_that_is_not_finite_stops_the_run_of_any_script() {
         "",
     );
     assert!(matches!(&run.status, Status::Stopped { .. }), "{:?}", run.status);
+}
+
+#[test]
+fn a_number_that_is_not_finite_from_a_callback_stops_the_run() {
+    for answer in ["{ velocity = 0/0 }", "{ velocity = 1, force = 1/0 }"] {
+        let scene = format!("{PENDULUM}\n[[script]]\nobject = \"/hinge\"\nfile = \"a.lua\"\non_error = \"continue\"\n");
+        let code = format!("function sysCall_joint() return {answer} end");
+        let files = [("scene.toml", &*scene), ("experiment.toml", EXPERIMENT), ("a.lua", &*code)];
+        let run = run(&open(&files).unwrap_or_else(|problems| panic!("{problems}")));
+        assert!(matches!(&run.status, Status::Stopped { .. }), "{answer}: {:?}", run.status);
+    }
+}
+
+#[test]
+fn a_refusal_of_a_number_that_is_caught_is_over() {
+    let refuse = "local ok, why = pcall(sim.setJointTargetVelocity, sim.getObject('/hinge'), 0/0)";
+    let run_of = |then: &str| {
+        simulated(&format!("function sysCall_actuation() {refuse} {then} end"), "on_error = \"continue\"").status
+    };
+    assert_eq!(run_of("local x = missing + 1"), Status::Completed);
+    assert!(matches!(run_of("error(why)"), Status::Stopped { .. }), "raised again");
+}
+
+#[test]
+fn long_errors_are_cut() {
+    let run = simulated("function sysCall_actuation() error(('x'):rep(100000)) end", "on_error = \"continue\"");
+    assert_eq!(run.status, Status::Completed);
+    let (_, _, help) = finding(&run).unwrap();
+    assert!(help.len() < 11_000, "{}", help.len());
 }
