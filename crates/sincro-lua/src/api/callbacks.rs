@@ -38,13 +38,11 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         let function =
             find(&other, &name).ok_or_else(|| fail(format!("the script of `{path}` has no function `{name}`")))?;
         if depth.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= MAX_DEPTH {
-            depth.store(0, std::sync::atomic::Ordering::Relaxed);
+            depth.fetch_sub(1, std::sync::atomic::Ordering::Relaxed);
             return Err(fail(format!("more than {MAX_DEPTH} scripts call each other")));
         }
         let result = pass(lua, &other, &function, arguments);
-        let _ = depth.fetch_update(std::sync::atomic::Ordering::Relaxed, std::sync::atomic::Ordering::Relaxed, |n| {
-            n.checked_sub(1)
-        });
+        depth.fetch_sub(1, std::sync::atomic::Ordering::Relaxed);
         result.map_err(|error| fail(format!("`{name}` of the script of `{path}`: {}", crate::fault::words(&error).0)))
     })?;
     let (shared, index, own) = (context.shared.clone(), context.index, context.own);

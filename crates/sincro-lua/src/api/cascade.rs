@@ -135,11 +135,11 @@ fn call(
     };
     let Some(function) = function else { return Ok(MultiValue::new()) };
     if shared.depth.fetch_add(1, Ordering::Relaxed) >= MAX_DEPTH {
-        shared.depth.store(0, Ordering::Relaxed);
+        shared.depth.fetch_sub(1, Ordering::Relaxed);
         return Err(fail(format!("more than {MAX_DEPTH} scripts call each other")));
     }
     let result = pass(lua, &other, &function, arguments.clone());
-    shared.depth.store(shared.depth.load(Ordering::Relaxed).saturating_sub(1), Ordering::Relaxed);
+    shared.depth.fetch_sub(1, Ordering::Relaxed);
     shared.set_execution_count(place, shared.execution_count(place).saturating_add(1));
     result.map_err(|error| fail(crate::fault::words(&error).0))
 }

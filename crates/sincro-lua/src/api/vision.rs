@@ -14,16 +14,36 @@ use crate::vision;
 /// Scripts that may be handling sensors at once: one may handle that of another.
 const MAX_DEPTH: usize = 8;
 
+// `sim.handle_all`, `sim.handle_all_except_explicit`, `sim.handle_self`
+const ALL: i64 = -2;
+const ALL_EXCEPT_EXPLICIT: i64 = -3;
+const SELF: i64 = -4;
+
+/// A whole number, whether Lua has it as one or as a float.
+fn whole(value: &mlua::Value) -> Option<i64> {
+    value.as_integer().or_else(|| value.as_number().filter(|x| x.fract() == 0.0).map(|x| x as i64))
+}
+
 pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let handle: Function = context.sim.get("handleVisionSensor")?;
     let read: Function = context.sim.get("readVisionSensor")?;
     let (shared, own) = (context.shared.clone(), context.own);
     context.add("handleVisionSensor", move |lua, arguments: MultiValue| {
-        let given = arguments.front().and_then(mlua::Value::as_integer).unwrap_or_default();
         let results: MultiValue = handle.call(arguments.clone())?;
-        let which = if given == -4 { own } else { Handle(i32::try_from(given).unwrap_or_default()) };
-        if which.0 > 0 && filter(lua, &shared, which)? {
-            return read.call(which.0);
+        match arguments.front().and_then(whole).unwrap_or_default() {
+            which @ (ALL | ALL_EXCEPT_EXPLICIT) => {
+                for sensor in shared.objects().into_iter().filter(|object| vision::is_sensor(&shared, *object)) {
+                    if which == ALL || vision::is_handled_by_step(&shared, sensor) {
+                        filter(lua, &shared, sensor)?;
+                    }
+                }
+            }
+            given => {
+                let which = if given == SELF { own } else { Handle(i32::try_from(given).unwrap_or_default()) };
+                if which.0 > 0 && filter(lua, &shared, which)? {
+                    return read.call(which.0);
+                }
+            }
         }
         Ok(results)
     })
@@ -35,7 +55,7 @@ fn filter(lua: &Lua, shared: &Shared, sensor: Handle) -> mlua::Result<bool> {
     let Some(other) = place.and_then(|place| shared.state(place)) else { return Ok(false) };
     let Some(function) = find(&other, "sysCall_vision") else { return Ok(false) };
     if shared.depth.fetch_add(1, Ordering::Relaxed) >= MAX_DEPTH {
-        shared.depth.store(0, Ordering::Relaxed);
+        shared.depth.fetch_sub(1, Ordering::Relaxed);
         return Err(Error::RuntimeError(format!(
             "more than {MAX_DEPTH} sensors are handled within each other: sysCall_vision must not handle its own sensor"
         )));
@@ -47,7 +67,7 @@ fn filter(lua: &Lua, shared: &Shared, sensor: Handle) -> mlua::Result<bool> {
         }
         _ => run(),
     };
-    shared.depth.store(shared.depth.load(Ordering::Relaxed).saturating_sub(1), Ordering::Relaxed);
+    shared.depth.fetch_sub(1, Ordering::Relaxed);
     done.map(|()| true)
 }
 
