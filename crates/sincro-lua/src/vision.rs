@@ -2,7 +2,7 @@
 //! numbers to its reading.
 
 use mlua::{Error, Function, Lua, Table, Value};
-use sincro_coppelia::api::{ApiError, Handle, VisionInput};
+use sincro_coppelia::api::{ApiError, Handle, VisionInput, check_packets};
 
 use crate::api::function_of;
 use crate::shared::Shared;
@@ -58,7 +58,8 @@ fn is_true(result: &Table) -> mlua::Result<bool> {
     Ok(!matches!(result.get("trigger")?, Value::Nil | Value::Boolean(false)))
 }
 
-/// The packets: texts of packed floats, one after the other.
+/// The packets: texts of packed floats, one after the other. They are counted before they are copied: a text may be in
+/// the list many times.
 fn packets_of(result: &Table) -> mlua::Result<Vec<Vec<f64>>> {
     let wrong = |what: &str| Error::RuntimeError(format!("{what} (in function 'sysCall_vision')"));
     let list = match result.get("packedPackets")? {
@@ -66,7 +67,7 @@ fn packets_of(result: &Table) -> mlua::Result<Vec<Vec<f64>>> {
         Value::Table(list) => list,
         other => return Err(wrong(&format!("packedPackets is a {}, expected a list", other.type_name()))),
     };
-    let mut packets = Vec::new();
+    let (mut packets, mut n_numbers) = (Vec::new(), 0);
     for value in list.sequence_values::<Value>() {
         let value = value?;
         let Value::String(text) = value else {
@@ -80,6 +81,8 @@ fn packets_of(result: &Table) -> mlua::Result<Vec<Vec<f64>>> {
                 bytes.len()
             )));
         }
+        n_numbers += bytes.len() / 4;
+        check_packets(packets.len() + 1, n_numbers).map_err(told)?;
         let float = |four: &[u8]| f64::from(f32::from_le_bytes([four[0], four[1], four[2], four[3]]));
         packets.push(bytes.chunks_exact(4).map(float).collect());
     }

@@ -63,6 +63,15 @@ fn heat(intensity: f64) -> [f64; 3] {
     [0, 1, 2].map(|c| COLORS[k][c] * (1.0 - share) + COLORS[k + 1][c] * share)
 }
 
+/// Result of [`WorkImage::segment_colors`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Segmentation {
+    /// False if there are more colours than were allowed: nothing has changed.
+    pub is_complete: bool,
+    /// Comparisons of two colours that were made.
+    pub n_comparisons: u64,
+}
+
 impl WorkImage {
     /// Blackens the pixels that do not have a colour within `tolerance` of each component, or, without `keeps`, those
     /// that have it; returns an image of what was removed.
@@ -84,24 +93,26 @@ impl WorkImage {
     }
 
     /// Replaces each colour by the first one met before that is less than `distance` away in the space of red, green
-    /// and blue. At most `max_colors` colours are compared: false if there are more, and the image is as it was.
+    /// and blue. At most `max_colors` colours are compared: if there are more, the image is as it was.
     #[must_use]
-    pub fn segment_colors(&mut self, distance: f64, max_colors: usize) -> bool {
-        let mut known: Vec<[f64; 3]> = Vec::new();
+    pub fn segment_colors(&mut self, distance: f64, max_colors: usize) -> Segmentation {
+        let (mut known, mut n_comparisons) = (Vec::<[f64; 3]>::new(), 0);
         let mut pixels = self.pixels.clone();
         for pixel in &mut pixels {
-            let is_near = |color: &&[f64; 3]| {
+            let is_near = |color: &[f64; 3]| {
                 let square: f64 = (0..3).map(|c| (color[c] - pixel[c]) * (color[c] - pixel[c])).sum();
                 square < distance * distance
             };
-            match known.iter().find(is_near) {
-                Some(color) => *pixel = *color,
-                None if known.len() == max_colors => return false,
+            let found = known.iter().position(is_near);
+            n_comparisons += found.map_or(known.len(), |k| k + 1) as u64;
+            match found {
+                Some(k) => *pixel = known[k],
+                None if known.len() == max_colors => return Segmentation { is_complete: false, n_comparisons },
                 None => known.push(*pixel),
             }
         }
         self.pixels = pixels;
-        true
+        Segmentation { is_complete: true, n_comparisons }
     }
 
     /// Takes intensities from 0 to 1 to those from `start` to `end`, as grey or as colours from black over blue and

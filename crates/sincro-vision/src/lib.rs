@@ -26,7 +26,7 @@ mod points;
 pub use binary::Moments;
 pub use blobs::Blob;
 pub use changes::ChangedPixel;
-pub use color::ColorSpace;
+pub use color::{ColorSpace, Segmentation};
 pub use convolution::gaussian;
 pub use points::{DepthLens, Sampling};
 

@@ -14,6 +14,11 @@ const MAX_PACKETS: usize = 1_000;
 /// Numbers of all packets of one reading together.
 const MAX_PACKET_LEN: usize = 1 << 22;
 
+/// Operations on pixels (a weight of a kernel, a comparison of two colours) of one call: about a second.
+pub(super) const MAX_OPERATIONS: u64 = 1 << 30;
+/// Operations on pixels in the time of one instruction of a script, about 10 ns.
+const OPERATIONS_PER_INSTRUCTION: u64 = 8;
+
 /// Work image of a sensor with its two buffers.
 #[derive(Clone, Debug)]
 pub(super) struct WorkImages {
@@ -76,7 +81,43 @@ pub struct VisionInput {
     pub view_size: f64,
 }
 
+/// Refuses packets of a script that are more than one reading has: their number and that of all their numbers.
+///
+/// # Errors
+///
+/// They are too many.
+pub fn check_packets(n_packets: usize, n_numbers: usize) -> Result<(), ApiError> {
+    if n_packets > MAX_PACKETS || n_numbers > MAX_PACKET_LEN {
+        return Err(ApiError(format!(
+            "a reading has up to {MAX_PACKETS} packets of {MAX_PACKET_LEN} numbers together"
+        )));
+    }
+    Ok(())
+}
+
 impl SimApi<'_> {
+    /// Adds operations on pixels to the work of this call, before or after they are done.
+    ///
+    /// # Errors
+    ///
+    /// They are more than one call may take.
+    pub(super) fn count_operations(&mut self, n: u64) -> Result<(), ApiError> {
+        if n > MAX_OPERATIONS {
+            return Err(ApiError(format!(
+                "this takes {n} operations on pixels, and one call has up to {MAX_OPERATIONS}: take fewer passes, or \
+                 give the sensor a lower resolution"
+            )));
+        }
+        self.n_operations = self.n_operations.saturating_add(n);
+        Ok(())
+    }
+
+    /// Work of image filters since this was made, in instructions of a script that take about the same time.
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        self.n_operations.div_ceil(OPERATIONS_PER_INSTRUCTION)
+    }
+
     /// Reading of a vision sensor: its trigger, the statistics of its image as it was before filters, dimensionless
     /// from 0 to 1 (five minima, five maxima and five means of intensity, red, green, blue and depth), and the packets
     /// of its script. None before its first handling in a run.
@@ -126,11 +167,7 @@ impl SimApi<'_> {
         is_triggered: bool,
         packets: Vec<Vec<f64>>,
     ) -> Result<(), ApiError> {
-        if packets.len() > MAX_PACKETS || packets.iter().map(Vec::len).sum::<usize>() > MAX_PACKET_LEN {
-            return Err(ApiError(format!(
-                "a reading has up to {MAX_PACKETS} packets of {MAX_PACKET_LEN} numbers together"
-            )));
-        }
+        check_packets(packets.len(), packets.iter().map(Vec::len).sum())?;
         let filtered = self.registry.filtered(handle)?;
         (filtered.is_triggered, filtered.packets) = (is_triggered, packets);
         Ok(())

@@ -50,7 +50,7 @@ pub use collections::Entity;
 pub(crate) use collections::Item;
 pub use contacts::ContactPoint;
 pub use distances::DistanceResult;
-pub use filters::{VisionInput, VisionReading};
+pub use filters::{VisionInput, VisionReading, check_packets};
 pub use find::Search;
 pub(crate) use motions::Motion;
 pub use pairs::ContactOverride;

@@ -35,6 +35,8 @@ pub struct SimApi<'a> {
     /// Object of the script that calls (`sim.handle_self`); none for a client.
     pub own: Option<Handle>,
     is_located: bool,
+    /// Operations of image filters on pixels.
+    pub(super) n_operations: u64,
 }
 
 /// Reference frame in which a function gives or takes the pose of an object.
@@ -54,7 +56,7 @@ pub enum Reference {
 impl<'a> SimApi<'a> {
     /// Joins a registry with the world of the same scene at the simulation time `t` `[s]`, for one call or phase.
     pub fn new(registry: &'a mut ObjectRegistry, world: &'a mut World, t: f64) -> Self {
-        Self { registry, world, t, own: None, is_located: false }
+        Self { registry, world, t, own: None, is_located: false, n_operations: 0 }
     }
 
     /// Returns true if a run is on, paused or not.

@@ -111,14 +111,18 @@ impl ApiContext<'_> {
                     function.name
                 )));
             }
-            let mut has_restructured = false;
+            let (mut has_restructured, mut work) = (false, 0);
             let result = shared.with_sim(own, |sim| {
                 let before = sim.registry.scene().clone();
                 let result = (function.run)(sim, Arguments(&given));
                 has_restructured = !Arc::ptr_eq(&before, sim.registry.scene());
+                work = sim.work();
                 result
             });
             guard.spend(lua, has_restructured)?;
+            if work > 0 {
+                guard.charge(lua, work)?;
+            }
             let named = |ApiError(message): ApiError| {
                 Error::RuntimeError(format!("{message} (in function '{module}.{}')", function.name))
             };

@@ -201,6 +201,12 @@ fn mistakes_are_told() {
             "simVision.sensorImgToWorkImg(inData.handle) simVision.matrix3x3OnWorkImg(inData.handle, 1e4, 1)",
             "10000 passes",
         ),
+        // 64 MB of texts would be 16 GB of numbers
+        (
+            "local s = ('x'):rep(2^22) local t = {} for k = 1, 999 do t[k] = s end return { packedPackets = t }",
+            "a reading has up to 1000 packets of 4194304 numbers together",
+        ),
+        ("local t = {} for k = 1, 1001 do t[k] = '' end return { packedPackets = t }", "up to 1000 packets"),
     ] {
         let (status, _) = status_of(&format!("function sysCall_vision(inData)\n{eye}\nend"), "", "");
         assert!(matches!(&status, Status::Stopped { reason, .. } if reason.contains(why)), "{why}: {status:?}");
@@ -245,4 +251,54 @@ fn another_way_to_draw_is_told_and_not_taken() {
     let messages = said(eye, "", "");
     assert_eq!(messages.len(), 2, "{messages:?}");
     assert!(messages.iter().any(|text| text.contains("render mode 1 of `/eye` is not taken")), "{messages:?}");
+}
+
+#[test]
+fn filters_are_counted_as_instructions() {
+    let eye = "function sysCall_vision(inData)
+        simVision.sensorImgToWorkImg(inData.handle)
+        for k = 1, 10 do simVision.matrix5x5OnWorkImg(inData.handle, 100, 1) end
+    end";
+    // 64 × 48 pixels, 25 weights, 100 passes: about a million instructions each
+    let scene = SCENE.replace("EXPLICIT", "").replace("\"eye.lua\"", "\"eye.lua\"\nmax_instructions = 5000000");
+    let folder = SceneFolder::of(&scene, EXPERIMENT).with("eye.lua", eye).with("arm.lua", "");
+    let status = run(&load(&folder, &[], with_scripts()).unwrap_or_else(|problems| panic!("{problems}"))).status;
+    assert!(matches!(&status, Status::Stopped { reason, .. } if reason.contains("5000000 instructions")), "{status:?}");
+    let large = "function sysCall_init()
+        local options = { 1180, 1180, 0, 0 }
+        local eye = sim.createVisionSensor(1, options, { 0.1, 5, 1, 0.1, 0, 0, 0, 0, 0, 0, 0 })
+        simVision.sensorImgToWorkImg(eye)
+        print(select(2, pcall(simVision.matrix5x5OnWorkImg, eye, 100, 1)))
+    end";
+    let messages = said("", large, "");
+    assert!(messages[0].contains("takes 3481000000 operations on pixels"), "{messages:?}");
+}
+
+#[test]
+fn sensors_are_handled_by_any_number_and_all_at_once() {
+    let eye = "n = 0
+    function sysCall_vision(inData) n = n + 1 return { packedPackets = { sim.packFloatTable({ n }) } } end";
+    let arm = "function sysCall_actuation()
+        local eye = sim.getObject('/eye')
+        local result, _, count = sim.handleVisionSensor(eye / 1)
+        print(result .. ' ' .. count[1])
+        sim.handleVisionSensor(sim.handle_all_except_explicit)
+        sim.handleVisionSensor(sim.handle_all)
+        print(select(3, sim.readVisionSensor(eye))[1])
+    end";
+    assert_eq!(said(eye, arm, "explicit_handling = true"), ["0 1.0", "2.0", "0 3.0", "4.0"]);
+}
+
+#[test]
+fn sensors_that_handle_each_other_come_to_an_end() {
+    let eye = "depth, deepest = 0, 0
+    function sysCall_vision(inData)
+        depth = depth + 1
+        deepest = math.max(deepest, depth)
+        if n == nil or n < 100 then n = (n or 0) + 1 for k = 1, 2 do pcall(sim.handleVisionSensor, inData.handle) end end
+        depth = depth - 1
+        if depth == 0 then print(deepest) n = 0 end
+    end";
+    // the call of the step, and eight within it
+    assert_eq!(said(eye, "", "")[0], "9");
 }

@@ -7,16 +7,22 @@ use sincro_math::elementary::{atan2, sin_cos};
 use sincro_vision::{ColorSpace, Moments, Sampling, WorkImage, gaussian};
 
 use super::{Function, Outcome, handle};
-use crate::api::filters::WorkImages;
-use crate::api::{ApiError, Arguments, Reference, SimApi, Value, Vec3};
+use crate::api::filters::{MAX_OPERATIONS, WorkImages};
+use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value, Vec3};
 
 /// Added to a handle for points in the world instead of the frame of the sensor.
 const IN_WORLD: i32 = 0x0080_0000;
+/// Operations on a pixel of the search for blobs and the smallest rectangles about them.
+const PER_BLOB_PIXEL: u64 = 64;
+/// Operations on a point that is computed from a depth.
+const PER_POINT: u64 = 64;
 /// Points that one call may give.
 const MAX_POINTS: i64 = 1 << 20;
 /// Times that a kernel is applied in one call.
 const MAX_PASSES: i64 = 100;
-/// Colours that a segmentation may find.
+/// Operations on a pixel of filters without a kernel: the conversion of a colour.
+const PER_PIXEL: u64 = 8;
+/// Colours that a segmentation may find; fewer in large images, whose comparisons one call could not make.
 const MAX_COLORS: usize = 1_024;
 
 /// Functions of `simVision`, named without it.
@@ -110,7 +116,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "sharpenWorkImg",
         tip: "simVision.sharpenWorkImg(int visionSensorHandle)",
-        run: |d, a| edit(d, a, |images| images.work.sharpen()),
+        run: |d, a| filter(d, a, PER_PIXEL + 9, |images| images.work.sharpen()),
     },
     Function {
         name: "uniformImgToWorkImg",
@@ -162,7 +168,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "simVision.edgeDetectionOnWorkImg(int visionSensorHandle,float threshold)",
         run: |d, a| {
             let threshold = a.real(1)?;
-            edit(d, a, |images| images.work.detect_edges(threshold))
+            filter(d, a, PER_PIXEL + 9, |images| images.work.detect_edges(threshold))
         },
     },
     Function {
@@ -257,9 +263,26 @@ fn silent() -> Outcome {
 
 /// Changes the work image of a sensor or its buffers.
 fn edit(sim: &mut SimApi<'_>, a: Arguments<'_>, change: impl FnOnce(&mut WorkImages)) -> Outcome {
+    filter(sim, a, PER_PIXEL, change)
+}
+
+/// Changes the work image of a sensor or its buffers by so many operations on each pixel.
+fn filter(sim: &mut SimApi<'_>, a: Arguments<'_>, per_pixel: u64, change: impl FnOnce(&mut WorkImages)) -> Outcome {
     let own = handle(sim, a, 0)?;
+    count(sim, own, per_pixel)?;
     change(sim.work_images(own)?);
     silent()
+}
+
+/// Counts operations on each pixel of a work image, before they are done.
+fn count(sim: &mut SimApi<'_>, own: Handle, per_pixel: u64) -> Result<(), ApiError> {
+    let n = n_pixels(sim, own)? as u64;
+    sim.count_operations(n.saturating_mul(per_pixel))
+}
+
+fn n_pixels(sim: &mut SimApi<'_>, own: Handle) -> Result<usize, ApiError> {
+    let [columns, rows] = sim.work_images(own)?.work.size();
+    Ok(columns * rows)
 }
 
 /// Changes the work image or the first buffer.
@@ -279,6 +302,7 @@ fn keep_removed(images: &mut WorkImages, removed: WorkImage, to_buffer: bool) {
 fn load(sim: &mut SimApi<'_>, a: Arguments<'_>, is_of_depths: bool) -> Outcome {
     let own = handle(sim, a, 0)?;
     sim.load_work_image(own, is_of_depths)?;
+    count(sim, own, PER_PIXEL)?;
     silent()
 }
 
@@ -286,6 +310,7 @@ fn load(sim: &mut SimApi<'_>, a: Arguments<'_>, is_of_depths: bool) -> Outcome {
 fn store(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     a.bool_or(1, true)?;
+    count(sim, own, PER_PIXEL)?;
     sim.store_work_image(own)?;
     silent()
 }
@@ -302,11 +327,14 @@ fn space(a: Arguments<'_>, k: usize) -> Result<ColorSpace, ApiError> {
 
 fn segment(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (own, distance) = (handle(sim, a, 0)?, a.real(1)?);
-    if sim.work_images(own)?.work.segment_colors(distance, MAX_COLORS) {
+    let max_colors = MAX_COLORS.min(MAX_OPERATIONS as usize / n_pixels(sim, own)?.max(1));
+    let done = sim.work_images(own)?.work.segment_colors(distance, max_colors);
+    sim.count_operations(done.n_comparisons)?;
+    if done.is_complete {
         return silent();
     }
     Err(ApiError(format!(
-        "there are more than {MAX_COLORS} colours at a distance of {distance}: take a larger distance"
+        "there are more than {max_colors} colours at a distance of {distance}: take a larger distance"
     )))
 }
 
@@ -337,6 +365,7 @@ fn binary(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     }
     let [threshold, proportion, proportion_tol, x, x_tol, y, y_tol, angle, angle_tol, roundness] = numbers;
     let (may_trigger, color) = (a.bool_or(11, false)?, overlay(a, 12)?);
+    count(sim, own, PER_PIXEL)?;
     let work = &mut sim.work_images(own)?.work;
     let found = work.binarize(threshold);
     if let Some(color) = color.filter(|_| found.proportion > 0.0) {
@@ -372,6 +401,7 @@ fn blobs(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     let (threshold, min_size, is_colored) = (a.real(1)?, a.real(2)?, a.bool_or(3, false)?);
     let color = overlay(a, 4)?;
+    count(sim, own, PER_BLOB_PIXEL)?;
     let work = &mut sim.work_images(own)?.work;
     let found = if is_colored { work.colored_blobs(threshold, min_size) } else { work.blobs(threshold, min_size) };
     if let Some(color) = color {
@@ -392,7 +422,8 @@ fn convolve<const N: usize>(sim: &mut SimApi<'_>, a: Arguments<'_>, side: usize)
         return Err(ApiError(format!("{passes} passes: expected 0 to {MAX_PASSES}")));
     }
     let kernel: Vec<f64> = kernel.into_iter().map(|weight| weight * factor).collect();
-    edit(sim, a, |images| (0..passes).for_each(|_| images.work.convolve(&kernel)))
+    let per_pixel = passes as u64 * kernel.len() as u64;
+    filter(sim, a, per_pixel, |images| (0..passes).for_each(|_| images.work.convolve(&kernel)))
 }
 
 /// Numbers of columns and rows, then x, y, z and distance of each point; with the colours of the first buffer, three
@@ -411,6 +442,7 @@ fn points(sim: &mut SimApi<'_>, a: Arguments<'_>, sampling: Sampling) -> Outcome
     let raw = a.handle(0)?;
     let pose = if raw > 0 && raw & IN_WORLD != 0 { Some(sim.pose(own, Reference::World)?) } else { None };
     let lens = sim.depth_lens(own)?;
+    sim.count_operations((counts[0] * counts[1]) as u64 * PER_POINT)?;
     let images = sim.work_images(own)?;
     let found = images.work.points(&lens, counts.map(|n| n as usize), sampling);
     let numbers = found.iter().flat_map(|([x, y, z, distance], _)| {
@@ -431,6 +463,7 @@ fn points(sim: &mut SimApi<'_>, a: Arguments<'_>, sampling: Sampling) -> Outcome
 /// For each pixel that has changed since the last call 1 (brighter) or −1, its column and its row.
 fn changes(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (own, threshold) = (handle(sim, a, 0)?, a.real(1)?);
+    count(sim, own, PER_PIXEL)?;
     let images = sim.work_images(own)?;
     images.buffer(1);
     let WorkImages { work, buffers: [_, Some(before)] } = images else { return silent() };
