@@ -124,14 +124,17 @@ local function follow_path(object, path, what, from, velocity, acceleration)
   return 0
 end
 
--- numbers that grow together along a straight line of a length, with a velocity that grows by the acceleration
+-- numbers that grow together along a straight line of a length, with a velocity that grows by the
+-- acceleration: at once without one
 local function go_along(name, way, velocity, acceleration, place)
   if not host.yieldable() then
     error('sim.' .. name .. ' waits for the simulation: call it in a thread (sysCall_thread)', 3)
   end
   if not (velocity > 0) then error('sim.' .. name .. ': the velocity is not positive', 3) end
+  acceleration = math.abs(acceleration or math.huge)
+  if not (acceleration > 0) then error('sim.' .. name .. ': the acceleration is 0: leave it out for a constant velocity', 3) end
   local dt, s = host.sim.getSimulationTimeStep(), 0
-  local v = acceleration > 0 and 0 or velocity
+  local v = acceleration < math.huge and 0 or velocity
   local level = host.stepping(true)
   repeat
     v = math.min(velocity, v + acceleration * dt)
@@ -151,7 +154,7 @@ local function move_to_joint_positions(joints, positions, velocity, acceleration
     local turns = sim.getJointType(joint) == sim.joint_revolute_subtype
     way = math.max(way, math.abs(positions[k] - from[k]) * (turns and (factor or 0.1) or 1))
   end
-  return go_along('moveToJointPositions', way, velocity or 1, acceleration or 0, function(share)
+  return go_along('moveToJointPositions', way, velocity or 1, acceleration, function(share)
     for k, joint in ipairs(joints) do
       local q = from[k] + share * (positions[k] - from[k])
       if sim.getJointMode(joint) == sim.jointmode_dynamic then
@@ -179,7 +182,7 @@ local function move_to_object(object, target, what, place, velocity, acceleratio
   local straight = math.sqrt((to[1] - from[1]) ^ 2 + (to[2] - from[2]) ^ 2 + (to[3] - from[3]) ^ 2)
   local _, angle = sim.getRotationAxis(sim.poseToMatrix(from), sim.poseToMatrix(to))
   local way = math.max(straight, 0.1 * math.abs(angle))
-  return go_along('moveToObject', way, velocity or 1, acceleration or 0, function(share)
+  return go_along('moveToObject', way, velocity or 1, acceleration, function(share)
     sim.setObjectPose(object, sim.interpolatePoses(from, to, share), -1)
   end)
 end
