@@ -564,3 +564,36 @@ fn the_motor_of_a_kinematic_joint_is_set_for_when_it_is_dynamic() {
     assert_eq!(limit(&mut session), [Value::Real(3.0)]);
     assert_eq!(position(&mut session, "/hinge0"), 0.5);
 }
+
+#[test]
+fn a_frame_takes_along_the_points_of_springs_that_it_carries() {
+    let scene = r#"
+gravity = [0.0, 0.0, 0.0]
+[[frame]]
+name = "target"
+position = [0.0, 0.0, 1.0]
+[[joint]]
+name = "lift"
+kind = "prismatic"
+axis = [0.0, 0.0, 1.0]
+[[body]]
+name = "load"
+parent = "/lift"
+mass = 1.0
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+[[spring_damper]]
+name = "spring"
+between = ["/target", "/lift/load"]
+points = [[0.0, 0.0, 0.5], [0.0, 0.0, 0.0]]
+stiffness = 100.0
+"#;
+    let experiment =
+        "title = \"Frame\"\nscene = \"scene.toml\"\nduration = 1.0\nstep = 0.01\nrecord = [\"/lift.position\"]\n";
+    let mut session = OpenSession::open(SceneFolder::of(scene, experiment), &[], Extensions::default(), None);
+    session.start().unwrap();
+    let there = [Value::Int(-1), Value::reals([0.0, 0.0, 1.1])];
+    call(&mut session, "sim.setObjectPosition", "/target", &there).unwrap();
+    (0..10).for_each(|_| session.step().unwrap());
+    // x = 0.1 (1 − cos ω t), ω = 10 rad/s
+    assert!((position(&mut session, "/lift") - 0.046).abs() < 0.005, "{}", position(&mut session, "/lift"));
+}

@@ -466,19 +466,26 @@ impl ObjectRegistry {
         let is_point = |entry: &Entry| {
             entry.is_runtime
                 || matches!(entry.kind, Kind::Vision(_))
-                || entry.kind == Kind::Frame && !self.is_end_of_spring(entry)
+                || entry.kind == Kind::Frame && !self.carries_spring(entry)
         };
         self.tree(handle).into_iter().all(|h| self.entry(h).is_ok_and(is_point))
     }
 
-    /// Returns true if a spring between points, a tendon or a bushing ends where a frame of the scene stands: the model
-    /// changes with it.
-    fn is_end_of_spring(&self, entry: &Entry) -> bool {
+    /// Returns true if a frame of the scene carries an end of a spring between points, of a tendon or of a bushing: the
+    /// model changes with it.
+    fn carries_spring(&self, entry: &Entry) -> bool {
         let model = &self.scene().model;
-        let is_here = |link: Option<usize>, p: Vec3<f64>| link == entry.frame.link && p == entry.frame.pose.pos;
-        let mut lines = model.spring_dampers().iter().flat_map(|element| element.segments()).flat_map(|s| &s.ends);
-        let mut bushings = model.bushings().iter().flat_map(|bushing| &bushing.ends);
-        lines.any(|end| is_here(end.link, end.position)) || bushings.any(|end| is_here(end.link, end.pose.pos))
+        if model.spring_dampers().is_empty() && model.bushings().is_empty() {
+            return false;
+        }
+        let object = self.scene().objects.iter().find(|object| object.id as i32 + 1 == entry.handle.0);
+        let (Some(object), Some(source)) = (object, &self.scene().source) else { return false };
+        let names = [("spring_damper", "between"), ("bushing", "between"), ("tendon", "through")];
+        names.iter().any(|(kind, key)| {
+            let elements = source.document.get(&format!("/{kind}")).and_then(|list| list.as_array());
+            let ends = elements.into_iter().flatten().filter_map(|element| element.get(key)?.as_array()).flatten();
+            ends.filter_map(|end| end.as_str()).any(|end| end == object.path)
+        })
     }
 
     /// All joints that have one coordinate.
