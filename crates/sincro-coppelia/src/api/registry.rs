@@ -288,6 +288,8 @@ pub struct ObjectRegistry {
     pub(super) respondable_masks: BTreeMap<Handle, i64>,
     /// Numbers of what shapes look like in windows, by object and parameter.
     pub(super) looks: BTreeMap<(Handle, i64), f64>,
+    /// Colours that were set of components that no picture shows, by object and component.
+    pub(super) component_colors: BTreeMap<(Handle, i64), [f64; 3]>,
     /// Links of dummies.
     pub(super) dummy_links: BTreeMap<Handle, Link>,
     /// Static bodies that carry others along.
@@ -380,6 +382,7 @@ impl ObjectRegistry {
             script_restarts: BTreeSet::new(),
             respondable_masks: BTreeMap::new(),
             looks: BTreeMap::new(),
+            component_colors: BTreeMap::new(),
             dummy_links: BTreeMap::new(),
             belts: BTreeMap::new(),
             joint_modes: BTreeMap::new(),
@@ -823,7 +826,7 @@ impl ObjectRegistry {
         (self.changes, self.passing) = (before.changes, before.passing);
         self.belts = before.belts;
         self.dummy_links = before.dummy_links;
-        self.looks = before.looks;
+        (self.looks, self.component_colors) = (before.looks, before.component_colors);
         (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
         (self.has_stepped, self.has_begun) = (false, false);

@@ -72,6 +72,7 @@ impl ObjectRegistry {
         self.parked.remove(&handle);
         self.forget_links(handle);
         self.looks.retain(|(owner, _), _| *owner != handle);
+        self.component_colors.retain(|(owner, _), _| *owner != handle);
         self.flags.forget(handle);
         self.forget_entity(Entity::Object(handle));
         Ok(())

@@ -187,6 +187,7 @@ impl ObjectRegistry {
         self.belts.remove(&handle);
         self.forget_links(handle);
         self.looks.retain(|(owner, _), _| *owner != handle);
+        self.component_colors.retain(|(owner, _), _| *owner != handle);
         self.solids.remove(&handle);
         self.recorded_frames.remove(&handle);
         self.moved_frames.remove(&handle);

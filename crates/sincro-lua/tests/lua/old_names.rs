@@ -33,6 +33,8 @@ fn colors_and_user_parameters_are_told() {
             sim.setShapeColor(box, nil, sim.colorcomponent_ambient_diffuse, { 1, 0, 0.2 })
             local result, rgb = sim.getShapeColor(box, nil, sim.colorcomponent_ambient_diffuse)
             print(result, rgb[1], rgb[2], rgb[3], sim.getObjectColor(box, 0, 0)[1])
+            sim.setShapeColor(box, nil, sim.colorcomponent_emission, { 0.5, 0, 0 })
+            print(sim.getObjectColor(box, 0, sim.colorcomponent_emission)[1], sim.getObjectColor(box, 0, 2)[1])
             print(sim.getUserParameter(box, 'speed'))
             sim.setUserParameter(box, 'speed', 0.5)
             simSetUserParameter(box, 'name', 'front')
@@ -41,8 +43,8 @@ fn colors_and_user_parameters_are_told() {
         end",
     );
     assert_eq!(messages[0], "1\t1.0\t0.0\t0.2\t1.0");
-    assert_eq!(messages[1..3], ["nil", "0.5\tfront"]);
-    let rest = messages[3..].join("; ");
+    assert_eq!(messages[1..4], ["0.5\t0.0", "nil", "0.5\tfront"]);
+    let rest = messages[4..].join("; ");
     assert!(rest.contains("title: text") && rest.contains("3\tfalse") && rest.contains("has no shape"), "{rest}");
 }
 

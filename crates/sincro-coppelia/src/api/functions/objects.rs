@@ -556,7 +556,6 @@ fn write_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     write(sim, a, data)
 }
 
-/// An empty table if there is none.
 /// Tag of the custom data under which a user parameter is stored.
 fn user_tag(a: Arguments<'_>) -> Result<Value, ApiError> {
     Ok(Value::Text(format!("__userParameter__.{}", a.text(1)?)))
@@ -583,6 +582,7 @@ fn user_parameter(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(Value::Nil)
 }
 
+/// An empty table if there is none.
 fn read_table(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     stored(sim, a)?.map_or_else(|| one(Value::Map(Vec::new())), |data| one(data.table()?))
 }

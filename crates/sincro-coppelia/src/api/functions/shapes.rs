@@ -284,19 +284,31 @@ pub(super) fn scale_each(sim: &mut SimApi<'_>, shapes: &[Handle], (factor, too):
     Ok(())
 }
 
-/// The ambient or diffuse component is the colour; the others are accepted.
-/// Colour of the first part; of other components than the ambient and diffuse one black, which they have in V-REP.
-fn color(sim: &mut SimApi<'_>, a: Arguments<'_>, component: usize) -> Outcome {
-    let (own, component) = (handle(sim, a, 0)?, a.int_or(component, 0)?);
-    let rgb = sim.color(own)?;
-    Ok(vec![Value::Int(1), Value::reals(if component == 0 { rgb } else { [0.0; 3] })])
+/// Component of a colour: 0 ambient and diffuse, 1 diffuse, 2 specular, 3 emission, 4 transparency, 5 auxiliary.
+fn component(a: Arguments<'_>, k: usize) -> Result<i64, ApiError> {
+    let component = a.int_or(k, 0)?;
+    if (0..=5).contains(&component) {
+        return Ok(component);
+    }
+    Err(ApiError(format!("{component} is no component of a colour: expected 0 to 5")))
 }
 
-fn paint(sim: &mut SimApi<'_>, a: Arguments<'_>, (component, color): (usize, usize)) -> Outcome {
+/// Colour of the first part, or what was set of another component than the ambient and diffuse one: black before.
+fn color(sim: &mut SimApi<'_>, a: Arguments<'_>, k: usize) -> Outcome {
+    let (own, component) = (handle(sim, a, 0)?, component(a, k)?);
+    let rgb = sim.color(own)?;
+    let set = || sim.registry.component_colors.get(&(own, component)).copied().unwrap_or_default();
+    Ok(vec![Value::Int(1), Value::reals(if component == 0 { rgb } else { set() })])
+}
+
+/// The ambient and diffuse component is the colour; the others are kept.
+fn paint(sim: &mut SimApi<'_>, a: Arguments<'_>, (k, color): (usize, usize)) -> Outcome {
     let own = handle(sim, a, 0)?;
-    let (component, color) = (a.int_or(component, 0)?, a.reals(color)?);
+    let (component, color) = (component(a, k)?, a.reals(color)?);
     if component == 0 {
         sim.paint(own, color)?;
+    } else {
+        sim.registry.component_colors.insert((own, component), color.map(|x: f64| x.clamp(0.0, 1.0)));
     }
     one(1_i64)
 }
