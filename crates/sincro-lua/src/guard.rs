@@ -158,8 +158,8 @@ impl Guard {
         self.stop_reason() != StopReason::None
     }
 
-    /// Returns true if an error is the refusal of a number that is not finite, perhaps caught and raised again; one that
-    /// the script has dealt with does not count.
+    /// Returns true if an error is the refusal of a number that is not finite, perhaps caught and raised again; one
+    /// that the script has dealt with does not count.
     pub fn is_not_finite(&self, error: &mlua::Error) -> bool {
         self.not_finite().as_ref().is_some_and(|refusal| fault::words(error).0.contains(refusal))
     }
