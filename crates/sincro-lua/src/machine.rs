@@ -555,7 +555,7 @@ fn calls_those_below(text: &str) -> bool {
 
 /// Returns true if a text is written for V-REP up to 3.4: it calls functions such as `simGetObjectHandle`, or asks for
 /// `sim_call_type`, and has nothing of the table `sim` and no functions `sysCall_…`.
-fn is_of_old_api(text: &str) -> bool {
+pub(crate) fn is_of_old_api(text: &str) -> bool {
     let words = lexer::words(text);
     let word = |word: &Word| &text[word.at.clone()];
     let is_old = |name: &str| {

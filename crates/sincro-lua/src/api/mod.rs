@@ -14,7 +14,8 @@ mod scripts;
 mod threads;
 mod vision;
 
-use std::sync::Arc;
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, PoisonError};
 
 pub(crate) use callbacks::{find as function_of, hold_variables, set_held_variables};
 
@@ -23,7 +24,7 @@ use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants
 
 use crate::convert;
 use crate::guard::Guard;
-use crate::machine::CALL_TYPES;
+use crate::machine::{CALL_TYPES, is_of_old_api};
 use crate::sandbox::Waits;
 use crate::shared::Shared;
 
@@ -39,6 +40,8 @@ pub(crate) struct ApiContext<'a> {
     guard: &'a Arc<Guard>,
 }
 
+/// Parameters that objects do not have which a script is told of.
+const MAX_LACKING_TOLD: usize = 100;
 /// `sim.handle_self` as a text.
 const SELF: &str = "-4";
 
@@ -169,15 +172,7 @@ impl ApiContext<'_> {
                 Ok(now - before.filter(|before| *before >= 0).unwrap_or(0))
             })?;
         }
-        for name in ["getObjectInt32", "getObjectInt", "getObjectFloat"] {
-            // these names are older than the functions, and their first result says that there is a second
-            let present = if name == "getObjectFloat" { "getObjectFloatParam" } else { "getObjectInt32Param" };
-            let of_session: Function = self.sim.get(present)?;
-            self.add(&format!("{name}Parameter"), move |_, arguments: MultiValue| {
-                let value: LuaValue = of_session.call(arguments)?;
-                Ok((1, value))
-            })?;
-        }
+        self.object_parameters()?;
         if is_of_old_names(&self.shared.script(self.index).text) {
             for name in
                 ["readProximitySensor", "handleProximitySensor", "checkProximitySensor", "checkProximitySensorEx"]
@@ -206,6 +201,46 @@ impl ApiContext<'_> {
         let random: Function = self.lua.globals().get::<Table>("math")?.get("random")?;
         self.add("getRandom", move |_, _: Option<i64>| random.call::<f64>(()))
     }
+}
+
+impl ApiContext<'_> {
+    /// Parameters of objects under their older names: the first result of a getter says that there is a second. To
+    /// scripts of V-REP up to 3.4 a parameter that the object does not have is 0 as a first result, and no error; a
+    /// message tells once.
+    fn object_parameters(&self) -> mlua::Result<()> {
+        let is_old = is_of_old_api(&self.shared.script(self.index).text);
+        let told = Arc::new(Mutex::new(BTreeSet::new()));
+        for (name, is_getter) in ["Int32", "Int", "Float"].iter().flat_map(|name| [(name, true), (name, false)]) {
+            let verb = if is_getter { "get" } else { "set" };
+            let present = if *name == "Float" { "Float" } else { "Int32" };
+            let of_session: Function = self.sim.get(format!("{verb}Object{present}Param"))?;
+            let (shared, index, told) = (self.shared.clone(), self.index, told.clone());
+            self.add(&format!("{verb}Object{name}Parameter"), move |_, arguments: MultiValue| {
+                let mut results = match of_session.call::<MultiValue>(arguments) {
+                    Err(error) if is_old && is_of_no_parameter(&error) => {
+                        let message = crate::fault::words(&error).0;
+                        let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+                        if told.len() < MAX_LACKING_TOLD && told.insert(message.clone()) {
+                            shared.say(index, format!("{message}; the result is 0, as in V-REP"));
+                        }
+                        return Ok(MultiValue::from_iter([LuaValue::Integer(0)]));
+                    }
+                    results => results?,
+                };
+                if is_getter {
+                    results.push_front(LuaValue::Integer(1));
+                }
+                Ok(results)
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns true if an object is refused a parameter because it has none of that number, or is of another kind.
+fn is_of_no_parameter(error: &Error) -> bool {
+    let message = crate::fault::words(error).0;
+    message.contains(" object parameter ") || message.contains("` is no ")
 }
 
 /// Returns true if a value is a number that is not finite, or has one in it.

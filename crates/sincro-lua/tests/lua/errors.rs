@@ -157,3 +157,21 @@ fn long_errors_are_cut() {
     let (_, _, help) = finding(&run).unwrap();
     assert!(help.len() < 11_000, "{}", help.len());
 }
+
+#[test]
+fn parameters_that_an_object_does_not_have_are_no_errors_to_old_scripts() {
+    let code = "if sim_call_type == sim_childscriptcall_initialization then
+        local arm, hinge = simGetObjectHandle('arm'), simGetObjectHandle('hinge')
+        print(simGetObjectIntParameter(hinge, 999), simGetObjectFloatParameter(arm, 2002))
+        print(simSetObjectIntParameter(hinge, 999, 1), simGetObjectIntParameter(hinge, 999))
+        print(simGetObjectIntParameter(hinge, 2000))
+    end";
+    let run = simulated(code, "");
+    assert_eq!((run.status.clone(), finding(&run)), (Status::Completed, None));
+    let texts = texts(&run);
+    let (told, printed): (Vec<&str>, Vec<&str>) = texts.iter().partition(|text| text.ends_with("as in V-REP"));
+    assert_eq!(printed, ["0\t0", "0\t0", "1\t1"], "{texts:?}");
+    assert_eq!(told.len(), 3, "each is told once: {told:?}");
+    let (reason, _) = stop("function sysCall_init() sim.getObjectIntParameter(sim.getObject('/hinge'), 999) end");
+    assert!(reason.contains("parameter 999"), "{reason}");
+}
