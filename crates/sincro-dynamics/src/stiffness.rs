@@ -9,8 +9,9 @@ use crate::actuation::MotorMode;
 use crate::actuation::bushing::BushingMotion;
 use crate::actuation::spring_damper::{Line, PathLength};
 use crate::constraint::implicit_forces::ImplicitForces;
-use crate::model::Model;
+use crate::model::{Attached, Model};
 use crate::recursions::aba::AtRest;
+use crate::recursions::crba::mass_matrix;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::state::State;
@@ -78,15 +79,32 @@ pub fn stiffest(model: &Model<f64>, state: &State<f64>) -> Option<Stiffness> {
     StiffnessProbe::new(model).stiffest(model, state)
 }
 
-/// Inverse inertias J M⁻¹ Jᵀ that each bushing of `model` meets at a state, all else free: along the axes of its first
-/// frame `[1/kg]`, then about them `[1/(kg·m²)]`; zero where it moves nothing.
+/// Mean inverse mass `[1/kg]` and mean inverse moment of inertia `[1/(kg·m²)]` of a frame at coordinates `q` (n_q): a
+/// third of the traces of the translational and the rotational block of J M⁻¹ Jᵀ, J the Jacobian of the frame; of loop
+/// joints, springs and contacts all free. Zero for a frame that does not move; not finite where M is singular.
 #[must_use]
-pub fn inverse_inertias_of_bushings(model: &Model<f64>, state: &State<f64>) -> Vec<[f64; 6]> {
-    let mut probe = StiffnessProbe::new(model);
-    let _fastest = probe.stiffest(model, state);
-    let first = model.spring_dampers.len() + model.elastic_gears.len();
-    let all: Vec<f64> = probe.forces.iter().flat_map(|forces| forces.inverse_inertias().skip(first)).collect();
-    all.chunks_exact(6).map(|six| core::array::from_fn(|k| six[k])).collect()
+pub fn mean_inverse_inertias(model: &Model<f64>, q: &[f64], frame: &Attached<f64>) -> [f64; 2] {
+    let n = model.n_v();
+    let mut scratch = Scratch::new(model);
+    let (mut mass, mut rows) = (vec![0.0; n * n], vec![0.0; 6 * n]);
+    mass_matrix(model, q, &mut scratch, &mut mass);
+    kinematics::jacobian(model, q, frame, &mut scratch, &mut rows);
+    // M = L Lᵀ in place; a diagonal entry of J M⁻¹ Jᵀ is ‖L⁻¹ jᵀ‖² of its row j
+    for i in 0..n {
+        for j in 0..=i {
+            let sum = (0..j).fold(mass[i * n + j], |sum, k| sum - mass[i * n + k] * mass[j * n + k]);
+            mass[i * n + j] = if i == j { sum.sqrt() } else { sum / mass[j * n + j] };
+        }
+    }
+    let mut squares = [0.0; 6];
+    for (row, square) in rows.chunks_exact_mut(n.max(1)).zip(&mut squares) {
+        for i in 0..n {
+            row[i] = (0..i).fold(row[i], |sum, k| sum - mass[i * n + k] * row[k]) / mass[i * n + i];
+            *square += row[i] * row[i];
+        }
+    }
+    let mean = |three: &[f64]| three.iter().sum::<f64>() / 3.0;
+    [mean(&squares[3..]), mean(&squares[..3])]
 }
 
 /// Working memory of [`stiffest`], for many states of one model without allocation.
@@ -220,6 +238,39 @@ fn fastest_root(inertia: f64, damping: f64, stiffness: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::joint::JointKind;
+    use crate::model::{BodySpec, JointSpec, MassProperties, ModelBuilder, NodeId};
+    use crate::spatial::{Pose, Vec3};
+
+    /// 3 kg at 0.5 m from a hinge about y, and a slide that carries 2 kg on it at 1 m.
+    #[test]
+    fn a_frame_on_a_hinge_has_the_inverse_inertias_of_its_lever() {
+        let mut builder = ModelBuilder::new([0.0; 3]);
+        let hinge = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+        let hinge = builder.joint("hinge", NodeId::WORLD, Pose::identity(), hinge);
+        let mass =
+            MassProperties { mass: 3.0, center_of_mass: [0.5, 0.0, 0.0], inertia: [0.1, 0.0, 0.0, 0.2, 0.0, 0.3] };
+        let arm = builder.body("arm", hinge, Pose::identity(), BodySpec { mass });
+        let slide = JointSpec { armature: vec![1.0], ..JointSpec::new(JointKind::Prismatic { axis: [1.0, 0.0, 0.0] }) };
+        let slide = builder.joint("slide", arm, Pose::translation(Vec3([1.0, 0.0, 0.0])), slide);
+        builder.body(
+            "tip",
+            slide,
+            Pose::identity(),
+            BodySpec { mass: MassProperties { mass: 2.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] } },
+        );
+        let (model, _) = builder.build().unwrap();
+        let moment = 0.2 + 3.0 * 0.25 + 2.0;
+        let of = |name: &str| {
+            let info = model.names().frame(name).unwrap();
+            mean_inverse_inertias(&model, &[0.0, 0.0], &Attached { link: info.link, pose: info.pose })
+        };
+        let close = |a: [f64; 2], b: [f64; 2]| assert!((0..2).all(|k| (a[k] - b[k]).abs() < 1e-15), "{a:?} {b:?}");
+        close(of("arm"), [0.0, 1.0 / (3.0 * moment)]);
+        close(of("tip"), [(1.0 / moment + 1.0 / 3.0) / 3.0, 1.0 / (3.0 * moment)]);
+        let world = Attached { link: None, pose: Pose::identity() };
+        close(mean_inverse_inertias(&model, &[0.0, 0.0], &world), [0.0; 2]);
+    }
 
     #[test]
     fn roots_of_an_oscillator_and_of_an_overdamped_one() {

@@ -1,14 +1,18 @@
-//! Inertias that forces along a tendon, or between two frames, meet, to translate soft constraints that are given by
+//! Inertias that forces along a tendon, or between two bodies, meet, to translate soft constraints that are given by
 //! their time constant.
 
 use sincro_dynamics::actuation::ForceLaw;
 use sincro_dynamics::joint::JointKind as ModelKind;
-use sincro_dynamics::model::{BodySpec, BushingSpec, JointSpec, ModelBuilder, NodeId, PathSpec, SpringDamperSpec};
+use sincro_dynamics::model::{Attached, BodySpec, JointSpec, Model, ModelBuilder, NodeId, PathSpec, SpringDamperSpec};
+use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_dynamics::state::State;
-use sincro_dynamics::stiffness::{inverse_inertias_of_bushings, stiffest};
+use sincro_dynamics::stiffness::{mean_inverse_inertias, stiffest};
 
 use crate::policy::properties;
-use crate::robot::{Joint, JointKind, Placement, Robot, TendonPath};
+use crate::robot::{Joint, JointKind, Robot, TendonPath};
+
+/// Inverse mass `[1/kg]`, or inverse moment of inertia, that counts as none; MuJoCo's `mjMINVAL`.
+const LEAST: f64 = 1e-15;
 
 /// A robot as a model under construction.
 struct Built {
@@ -73,32 +77,30 @@ pub(crate) fn tendon_mass(robot: &Robot, path: &TendonPath) -> Option<f64> {
     (mass.is_finite() && mass > 0.0).then_some(mass)
 }
 
-/// Inverse masses J M⁻¹ Jᵀ `[1/kg]` along the axes of the first of two frames, each on a link or in the world, and
-/// inverse moments of inertia about them `[1/(kg·m²)]`, at the reference: zero coordinates of joints
-/// with one degree of freedom, those at the start of others. None if the robot is none that can be simulated, or if
-/// nothing moves.
-pub(crate) fn frame_masses(robot: &Robot, ends: &[(Option<usize>, Placement); 2]) -> Option<[f64; 6]> {
-    let Built { mut builder, links, joints } = built(robot);
-    let nodes = ends.map(|(link, _)| link.map_or(NodeId::WORLD, |link| links[link]));
-    let poses = ends.map(|(_, placement)| placement.pose());
-    builder.bushing("bushing", BushingSpec { ends: nodes, poses, stiffness: [1.0; 6], damping: [0.0; 6] });
-    let (model, _) = builder.build().ok()?;
-    let mut state = State::new(&model);
-    for info in model.names().joints.iter().filter(|info| info.n_q > 1) {
-        let own = joints.iter().position(|node| *node == info.node).and_then(|k| robot.joints[k].initial.as_deref());
-        if let Some(q) = own.filter(|q| q.len() == info.n_q) {
-            state.q[info.q_idx..info.q_idx + info.n_q].copy_from_slice(q);
-        }
+/// Mass `[kg]` and moment of inertia `[kg·m²]` of a soft constraint between points of two links, or of the world, at
+/// zero coordinates, as [`masses_of`]; none if the robot is none that can be simulated.
+pub(crate) fn masses_between(robot: &Robot, points: &[(Option<usize>, [f64; 3]); 2]) -> Option<[f64; 2]> {
+    let Built { mut builder, links, .. } = built(robot);
+    for (k, (link, point)) in points.iter().enumerate() {
+        let carrier = link.map_or(NodeId::WORLD, |link| links[link]);
+        builder.frame(&format!("end{k}"), carrier, Pose::translation(Vec3(*point)));
     }
-    inverse_inertias_of_bushings(&model, &state).first().copied()
+    let (model, _) = builder.build().ok()?;
+    let frame = |k: usize| {
+        let info = model.names().frame(&format!("end{k}"))?;
+        Some(Attached { link: info.link, pose: info.pose })
+    };
+    Some(masses_of(&model, &[frame(0)?, frame(1)?]))
 }
 
-/// Mass `[kg]` and moment of inertia `[kg·m²]` that a soft constraint of MJCF takes for the inverse ones along and
-/// about three axes: those of their means, whatever the axes, zero where nothing moves. None if nothing moves at all.
-pub(crate) fn mean_masses(inverse: [f64; 6]) -> Option<[f64; 2]> {
-    let mean = |three: &[f64]| Some(three.iter().sum::<f64>() / 3.0).filter(|x| *x > 0.0).map_or(0.0, |x| 1.0 / x);
-    let masses = [mean(&inverse[..3]), mean(&inverse[3..])];
-    (masses != [0.0; 2]).then_some(masses)
+/// Mass `[kg]` and moment of inertia `[kg·m²]` that MuJoCo takes for a soft constraint between two bodies with these
+/// centres of mass: the inverse of the sum of their mean inverse ones (its `body_invweight0`), at zero coordinates,
+/// wherever the anchor is. Zero where nothing moves.
+pub(crate) fn masses_of(model: &Model<f64>, centres: &[Attached<f64>; 2]) -> [f64; 2] {
+    let q = State::new(model).q;
+    let each = centres.each_ref().map(|centre| mean_inverse_inertias(model, &q, centre));
+    let inverse = |x: f64| if x.is_finite() && x > LEAST { 1.0 / x } else { 0.0 };
+    [0, 1].map(|k| inverse(each[0][k] + each[1][k]))
 }
 
 /// Kind of a joint in a model; none for a fixed one.

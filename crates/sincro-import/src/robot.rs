@@ -344,6 +344,10 @@ pub(crate) struct Softness {
     pub stiffness: f64,
     /// Damping over mass `[1/s]`.
     pub damping: f64,
+    /// Ratio of the stiffness and damping over moment of inertia to those over mass (dimensionless).
+    pub rotation: f64,
+    /// Bodies whose masses count, as links (none: the world), and the centre of mass in each `[m]`.
+    pub bodies: [(Option<usize>, [f64; 3]); 2],
     /// True if it is to be a bushing even where it is closed at the start, since one end may be moved.
     pub is_moved: bool,
 }

@@ -1,13 +1,14 @@
 //! Tendons of MJCF: springs, dampers and actuators between points, and tendons; soft equalities: bushings.
 
 use sincro_dynamics::actuation::NonlinearLaw;
-use sincro_dynamics::spatial::{Mat3, Pose};
-use sincro_dynamics::stiffness::inverse_inertias_of_bushings;
+use sincro_dynamics::actuation::bushing::Bushing;
+use sincro_dynamics::model::Attached;
+use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
 use super::mjcf::is_site;
 use super::{Tree, escaped, numbers, wxyz};
 use crate::number::plain;
-use crate::path_mass::mean_masses;
+use crate::path_mass::masses_of;
 
 /// Impedance of soft equalities (dimensionless).
 const IMPEDANCE: f64 = 0.95;
@@ -15,13 +16,25 @@ const IMPEDANCE: f64 = 0.95;
 /// Relative difference of stiffnesses over masses that is rounding of printed figures.
 const SAME: f64 = 1e-6;
 
-/// Common ratio of the numbers along three axes to a mass, and about them to a moment of inertia, as far as `masses`
-/// has these; none if they have none.
-fn common(numbers: &[f64; 6], masses: &[f64]) -> Option<f64> {
-    let ratios =
-        || masses.iter().enumerate().flat_map(|(k, mass)| numbers[3 * k..3 * k + 3].iter().map(move |x| x / mass));
-    let most = ratios().fold(0.0, f64::max);
-    ratios().all(|x| (x - most).abs() <= SAME * most).then_some(most)
+/// Ratio to `mass` of numbers along three axes that are the same; none if they differ, or act where no mass moves.
+fn common(numbers: &[f64], mass: f64) -> Option<f64> {
+    let most = numbers.iter().copied().fold(0.0, f64::max);
+    let is_common = numbers.iter().all(|x| most - x <= SAME * most) && (mass > 0.0 || most == 0.0);
+    is_common.then_some(if most == 0.0 { 0.0 } else { most / mass })
+}
+
+/// Stiffness and damping over mass, and the ratio of those over moment of inertia to them, of a bushing that has one
+/// time constant.
+fn time_constants(bushing: &Bushing<f64>, [mass, moment]: [f64; 2]) -> Option<([f64; 2], f64)> {
+    let numbers = [&bushing.stiffness, &bushing.damping];
+    let [along, about] = [(0, mass), (3, moment)].map(|(k, inertia)| numbers.map(|n| common(&n[k..k + 3], inertia)));
+    let ([Some(stiffness), Some(damping)], [Some(turning), Some(turning_damping)]) = (along, about) else {
+        return None;
+    };
+    let ratio = if stiffness > 0.0 { turning / stiffness } else { turning_damping / damping };
+    let is_same = |a: f64, b: f64| (a - b).abs() <= SAME * a.max(b);
+    let has_one = is_same(turning, ratio * stiffness) && is_same(turning_damping, ratio * damping);
+    has_one.then_some(([stiffness, damping], ratio))
 }
 
 /// A site that a tendon runs through, or that is a frame of a bushing.
@@ -84,19 +97,30 @@ impl Tendons {
         Self { sites, of_elements, of_bushings }
     }
 
-    /// Lines of the bushings as soft equalities, whose stiffness and damping are those of the masses that they move at
-    /// the start; notes those that are none.
+    /// Centre of mass of the body that carries a site, as a frame of its link in the model; MuJoCo takes the position of
+    /// a body for that of one without mass.
+    fn centre(&self, tree: &Tree<'_>, site: usize) -> Option<Attached<f64>> {
+        let Some(k) = self.sites[site].link else { return Some(Attached { link: None, pose: Pose::identity() }) };
+        let body = &tree.links[k];
+        let path = &tree.scene.objects[body.object].path;
+        let info = tree.scene.model.names().frame(path)?;
+        let point = body.mass.map_or(body.pose.pos, |mass| Vec3(mass.center_of_mass));
+        Some(Attached { link: info.link, pose: info.pose.compose(&Pose::translation(point)) })
+    }
+
+    /// Lines of the bushings as soft equalities, whose stiffness and damping are those of the masses that MuJoCo gives
+    /// them; notes those that are none.
     pub fn bushings(&self, tree: &mut Tree<'_>) -> String {
         let model = &tree.scene.model;
-        let inverse = inverse_inertias_of_bushings(model, &tree.scene.initial);
         let mut lines = String::new();
         for (k, (element, path)) in model.bushings().iter().zip(&model.names().bushings).enumerate() {
             let is_point = element.stiffness[3..] == [0.0; 3] && element.damping[3..] == [0.0; 3];
-            let rates = mean_masses(inverse[k]).and_then(|masses| {
-                let masses = if is_point { &masses[..1] } else { &masses[..] };
-                Some([common(&element.stiffness, masses)?, common(&element.damping, masses)?])
-            });
-            let Some(rates) = rates else {
+            let centres = self.of_bushings[k].map(|site| self.centre(tree, site));
+            let constants = match centres {
+                [Some(a), Some(b)] => time_constants(element, masses_of(model, &[a, b])),
+                _ => None,
+            };
+            let Some((rates, ratio)) = constants else {
                 tree.note(
                     path,
                     "MJCF has no spring between frames, and its soft welds have one time constant: not written",
@@ -104,17 +128,19 @@ impl Tendons {
                 continue;
             };
             let [stiffness, damping] = rates.map(|x| -(1.0 - IMPEDANCE) * x);
+            // the rotation of a weld has (torquescale/2)² of the stiffness and damping
+            let scale = format!(" torquescale=\"{}\"", plain(2.0 * ratio.sqrt()));
+            let (kind, scale) = if is_point { ("connect", "") } else { ("weld", scale.as_str()) };
             let [one, two] = self.of_bushings[k].map(|site| self.sites[site].name.clone());
             lines += &format!(
-                "    <{} name=\"{}\" site1=\"{one}\" site2=\"{two}\" solref=\"{} {}\" solimp=\"{IMPEDANCE} {IMPEDANCE} 0.001\"/>\n",
-                if is_point { "connect" } else { "weld" },
+                "    <{kind} name=\"{}\" site1=\"{one}\" site2=\"{two}\"{scale} solref=\"{} {}\" solimp=\"{IMPEDANCE} {IMPEDANCE} 0.001\"/>\n",
                 name_of(path),
                 plain(stiffness),
                 plain(damping)
             );
             tree.note(
                 path,
-                "MJCF's stiffness and damping follow the mass that moves: they are these at the start only",
+                "MJCF's stiffness and damping follow the mass that moves: they are these at zero coordinates only",
             );
         }
         lines

@@ -148,6 +148,7 @@ impl<'d> Reader<'d> {
         let joints: Vec<_> = children.iter().filter(|(c, ..)| matches!(c.name(), "joint" | "freejoint")).collect();
         let index = self.chain(element, &joints, (pose, parent.link), link, robot, findings);
         self.bodies.insert(name, index);
+        self.positions.insert(index, own.position);
         if is_mocap {
             self.mocap.insert(index);
         }

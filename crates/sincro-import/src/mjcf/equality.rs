@@ -58,7 +58,7 @@ impl<'d> Reader<'d> {
         let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
         let point = x_wb.inverse().point(x_wa.point(Vec3(anchor.position)));
         let other = if by_sites { Placement::default() } else { Placement::new(point.0, [0.0; 3]) };
-        let softness = self.loop_softness(e, ends)?;
+        let softness = self.loop_softness(e, ends, robot, 1.0)?;
         e.change("a hard ball joint that closes a loop: a [[closure]]");
         let name = e.peek("name").map_or_else(|| format!("connect{}", robot.loops.len() + 1), str::to_owned);
         robot.loops.push(Loop {
@@ -91,14 +91,19 @@ impl<'d> Reader<'d> {
             }
             _ => (Placement::of_pose(&x_wa.inverse().compose(&x_wb).compose(&anchor)), Placement::of_pose(&anchor)),
         };
-        let softness = self.loop_softness(e, ends)?;
-        e.change("a hard weld: a [[closure]]");
+        let torque_scale = self.defaults.number(e, "main", "torquescale")?.unwrap_or(1.0);
+        let softness = self.loop_softness(e, ends, robot, torque_scale)?;
+        let kind = if torque_scale == 0.0 { LoopKind::Point } else { LoopKind::Weld };
+        e.change(match kind {
+            LoopKind::Weld => "a hard weld: a [[closure]]",
+            _ => "with a `torquescale` of 0 it holds no rotation: a hard ball joint, a [[closure]]",
+        });
         let name = e.peek("name").map_or_else(|| format!("weld{}", robot.loops.len() + 1), str::to_owned);
         robot.loops.push(Loop {
             name,
             at: e.location(),
             element: e.id(),
-            kind: LoopKind::Weld,
+            kind,
             softness: Some(softness),
             ends: [(ends[0], first), (ends[1], second)],
         });
@@ -108,13 +113,29 @@ impl<'d> Reader<'d> {
     /// Softness of a loop that holds two links together.
     ///
     /// A constraint with the impedance d accelerates a mass by (1 − d) of what other forces would, plus d of its
-    /// reference acceleration: it is the spring and damper that the time constant gives to a mass m/(1 − d).
-    fn loop_softness(&self, e: Element<'d>, ends: [Option<usize>; 2]) -> Result<Softness, Diagnostic> {
+    /// reference acceleration: it is the spring and damper that the time constant gives to a mass m/(1 − d). The
+    /// residual of a weld in rotation by θ is s sin(θ/2) with the torque scale s, its Jacobian about s/2, and the moment
+    /// of inertia is not scaled: (s/2)² of the stiffness and damping.
+    fn loop_softness(
+        &self,
+        e: Element<'d>,
+        ends: [Option<usize>; 2],
+        robot: &Robot,
+        torque_scale: f64,
+    ) -> Result<Softness, Diagnostic> {
         let impedance = self.defaults.numbers(e, "main", "solimp")?.and_then(|d| d.get(1).copied());
         let apparent = 1.0 / (1.0 - impedance.unwrap_or(IMPEDANCE).clamp(1e-4, 0.9999));
         let (stiffness, damping) = self.softness(e, "solref", apparent)?;
-        let is_moved = ends.iter().flatten().any(|link| self.mocap.contains(link));
-        Ok(Softness { stiffness, damping, is_moved })
+        let carrier = |site: usize| robot.joints.iter().find(|joint| joint.child == site)?.parent;
+        let is_site = |link: usize| self.sites.values().any(|site| *site == link);
+        let bodies = ends.map(|end| end.and_then(|link| if is_site(link) { carrier(link) } else { Some(link) }));
+        let is_moved = bodies.iter().flatten().any(|link| self.mocap.contains(link));
+        let centre = |link: usize| match &robot.links[link].inertial {
+            Some(inertial) if inertial.mass > 0.0 => inertial.center_of_mass,
+            _ => self.positions.get(&link).copied().unwrap_or_default(),
+        };
+        let bodies = bodies.map(|body| (body, body.map_or([0.0; 3], centre)));
+        Ok(Softness { stiffness, damping, rotation: 0.25 * torque_scale * torque_scale, bodies, is_moved })
     }
 
     /// q₁ − q₁₀ = c₀ + c₁·(q₂ − q₂₀)

@@ -70,7 +70,10 @@ struct Reader<'d> {
     sites: BTreeMap<String, usize>,
     /// Joints by name.
     joints: BTreeMap<String, usize>,
-    /// Links and sites of mocap bodies.
+    /// Positions of the bodies of links, as their elements give them: MuJoCo takes the same numbers for the centre of
+    /// mass of a body without mass.
+    positions: BTreeMap<usize, [f64; 3]>,
+    /// Links of mocap bodies.
     mocap: BTreeSet<usize>,
     /// Tendons by name.
     tendons: BTreeMap<String, tendon::KnownTendon>,
@@ -119,6 +122,7 @@ pub(crate) fn read<'d>(
         bodies: BTreeMap::new(),
         sites: BTreeMap::new(),
         joints: BTreeMap::new(),
+        positions: BTreeMap::new(),
         mocap: BTreeSet::new(),
         tendons: BTreeMap::new(),
         references: Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::{Writer, last, place};
 use crate::number::{list, name, number, quoted};
-use crate::path_mass::{frame_masses, mean_masses};
+use crate::path_mass::masses_between;
 use crate::robot::{Loop, LoopKind, Softness};
 use crate::source::ElementStatus;
 
@@ -69,13 +69,17 @@ impl Writer<'_> {
 
     /// Keys of a soft loop as a bushing; none, with the reason noted, if it moves nothing.
     fn bushing(&mut self, closure: &Loop, softness: Softness, open: f64) -> Option<Vec<String>> {
-        let Some(masses) = frame_masses(self.robot, &closure.ends).and_then(mean_masses) else {
+        let at_anchors = closure.ends.map(|(link, placement)| (link, placement.position));
+        let own = masses_between(self.robot, &softness.bodies).unwrap_or_default();
+        // MuJoCo holds rigidly what moves at the anchor alone: the body turns about its centre of mass
+        let anchored = if own[0] > 0.0 { own } else { masses_between(self.robot, &at_anchors).unwrap_or_default() };
+        let ([mass, moment], is_weld) = ([anchored[0], own[1]], closure.kind == LoopKind::Weld);
+        if mass == 0.0 && !(is_weld && moment > 0.0) {
             let words = "it moves nothing";
             self.context.ledger.judge_place(closure.element, ElementStatus::Dropped, words);
             self.written.warnings.push((closure.at.clone(), format!("`{}` is left out: {words}", closure.name)));
             return None;
-        };
-        let ([mass, moment], is_weld) = (masses, closure.kind == LoopKind::Weld);
+        }
         let mut keys = Vec::new();
         let mut add = |key: &str, x: f64| {
             if x > 0.0 {
@@ -86,13 +90,17 @@ impl Writer<'_> {
         add("stiffness", mass * softness.stiffness);
         add("damping", mass * softness.damping);
         if is_weld {
-            add("rotational_stiffness", moment * softness.stiffness);
-            add("rotational_damping", moment * softness.damping);
+            add("rotational_stiffness", softness.rotation * moment * softness.stiffness);
+            add("rotational_damping", softness.rotation * moment * softness.damping);
         }
-        let moments = if is_weld { format!(" and {moment:.4} kg·m²") } else { String::new() };
+        let moments = match softness.rotation.sqrt() {
+            _ if !is_weld => String::new(),
+            half => format!(" and {moment:.4} kg·m², times (`torquescale`/2)² = {}²", number(half)),
+        };
+        let rigid = if own[0] > 0.0 || mass == 0.0 { "" } else { "; its source holds the anchor rigidly" };
         let why = if open > OPEN { format!("open at the start by {open:.3e}") } else { "to a mocap body".to_owned() };
         let words = format!(
-            "soft and {why}: a [[bushing]], with the stiffness and damping of `solref` and `solimp` for {mass:.4} kg{moments}"
+            "soft and {why}: a [[bushing]], with the stiffness and damping of `solref` and `solimp` for {mass:.4} kg{moments}{rigid}"
         );
         self.context.ledger.judge_place(closure.element, ElementStatus::Changed, &words);
         Some(keys)

@@ -297,8 +297,8 @@ const WELDS: &str = r#"<mujoco><worldbody>
     <body name="hand" pos="0.5 0 0"/></body>
   <body name="target" mocap="true" pos="1.5 0 0"/>
 </worldbody><equality>
-  <weld name="seat" body1="world" body2="box" relpose="0.1 0 1 1 0 0 0"/>
-  <weld name="grasp" body1="target" body2="hand" solref="0.01 2" solimp="0.9 0.98 0.001"/>
+  <weld name="seat" body1="world" body2="box" relpose="0.1 0 1 1 0 0 0" solimp="0.95 0.95 0.001"/>
+  <weld name="grasp" body1="target" body2="hand" solref="0.01 2" solimp="0.98 0.98 0.001"/>
   <connect name="idle" body1="target" body2="world" anchor="0.2 0 0"/>
 </equality></mujoco>"#;
 
@@ -312,10 +312,10 @@ fn open_welds_and_those_to_mocap_bodies_are_bushings() {
     assert_eq!(model.names().bushings, ["/seat", "/grasp"]);
     let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-9 * b.abs(), "{a} {b}");
     let [seat, grasp] = model.bushings() else { panic!() };
-    // m/((1 − d) (T ζ)²) and 2 m/((1 − d) T) of 2 kg, and of the harmonic mean of its moments; T = 0.02 s, ζ = 1,
-    // d = 0.95
+    // m/((1 − d) (T ζ)²) and 2 m/((1 − d) T) of 2 kg, and a quarter of them for the harmonic mean of its moments;
+    // T = 0.02 s, ζ = 1, d = 0.95
     let moment = 3.0 / [0.16 + 0.36, 0.04 + 0.36, 0.04 + 0.16].iter().map(|x| 12.0 / (2.0 * x)).sum::<f64>();
-    for (found, mass) in [(0, 2.0), (2, 2.0), (3, moment), (5, moment)] {
+    for (found, mass) in [(0, 2.0), (2, 2.0), (3, 0.25 * moment), (5, 0.25 * moment)] {
         close(seat.stiffness[found], mass / (0.05 * 4e-4));
         close(seat.damping[found], 2.0 * mass / (0.05 * 0.02));
     }
@@ -324,17 +324,67 @@ fn open_welds_and_those_to_mocap_bodies_are_bushings() {
     let poses = scratch.link_poses();
     let at = seat.motion(|link| (Motion::zero(), poses[link]));
     close(at.deflection[0], -0.1);
-    // the hand is 0.5 m from the hinge, of which the arm has 0.2 + 3·0.5² kg·m²: it moves along one axis of three
+    // MuJoCo takes 0.5 m in the parent for the centre of mass of the hand, which has no mass: it is 1 m from the hinge,
+    // of which the arm has 0.2 + 3·0.5² kg·m², and moves along one axis of three
     let inertia = 0.95;
-    close(grasp.stiffness[2], 3.0 * inertia / 0.25 / (0.02 * 4e-4));
-    close(grasp.damping[4], 2.0 * 3.0 * inertia / (0.02 * 0.01));
+    close(grasp.stiffness[2], 3.0 * inertia / (0.02 * 4e-4));
+    close(grasp.damping[4], 0.25 * 2.0 * 3.0 * inertia / (0.02 * 0.01));
     let words = &entry(&imported, "weld[seat]").words;
     assert!(
-        words.contains("open at the start by 1.000e-1") && words.contains("for 2.0000 kg and 0.0531 kg·m²"),
+        words.contains("open at the start by 1.000e-1")
+            && words.contains("for 2.0000 kg and 0.0531 kg·m², times (`torquescale`/2)² = 0.5²"),
         "{words}"
     );
     assert!(entry(&imported, "weld[grasp]").words.contains("to a mocap body"));
     assert!(entry(&imported, "body[target]").words.contains("where a client may move it"));
     assert_eq!(dropped(&imported), ["mujoco/equality/connect[idle]"]);
     assert!(imported.warnings.iter().any(|w| w.to_string().contains("`idle` is left out: it moves nothing")));
+}
+
+/// A body that a soft equality holds at a mocap body, 0.5 m off its centre of mass.
+fn held_off_centre(equality: &str) -> String {
+    format!(
+        r#"<mujoco><worldbody>
+  <body name="box"><freejoint/><inertial pos="0 0 0" mass="2" diaginertia="0.02 0.02 0.02"/><site name="grip" pos="0.5 0 0"/></body>
+  <body name="target" mocap="true" pos="0.5 0 0"><site name="tip"/></body>
+</worldbody><equality><{equality} name="held" site1="tip" site2="grip" solimp="0.95 0.95 0.001"/></equality></mujoco>"#
+    )
+}
+
+/// The figures are those of MuJoCo 4.0.0, load over deflection, after 20 s with a steady force of 1 N, or torque of
+/// 0.01 N·m, at the site; the deflection is known to 1e-8 of it.
+#[test]
+fn soft_equalities_yield_under_a_steady_load_as_in_mujoco() {
+    let measured = [
+        ("connect", 99_999.999_567, 0.0),
+        ("weld", 100_000.000_491, 250.000_000_314),
+        ("weld torquescale=\"2\"", 100_000.0, 1000.0),
+        ("weld torquescale=\"0\"", 100_000.0, 0.0),
+    ];
+    for (equality, force, torque) in measured {
+        let folder = Folder::new();
+        let imported = folder.import("held.xml", &held_off_centre(equality)).unwrap_or_else(|found| panic!("{found}"));
+        let scene = folder.open(&imported).scene;
+        let [held] = scene.model.bushings() else { panic!("{equality}: {}", imported.scene()) };
+        for k in 0..3 {
+            assert!((held.stiffness[k] - force).abs() < 1e-7 * force, "{equality}: {held:?}");
+            assert!((held.stiffness[3 + k] - torque).abs() <= 1e-7 * torque, "{equality}: {held:?}");
+        }
+    }
+}
+
+/// A rim that a wheel turns about its centre of mass: MuJoCo gives it no inverse mass, and holds it rigidly.
+#[test]
+fn an_anchor_on_a_body_that_turns_about_its_centre_of_mass_has_the_mass_there() {
+    let text = r#"<mujoco><worldbody><body name="wheel"><joint axis="0 0 1"/>
+      <inertial pos="0 0 0" mass="2" diaginertia="0.1 0.1 0.1"/></body><body name="target" mocap="true" pos="0.5 0 0"/>
+    </worldbody><equality><connect name="rim" body1="target" body2="wheel"/></equality></mujoco>"#;
+    let folder = Folder::new();
+    let imported = folder.import("wheel.xml", text).unwrap_or_else(|found| panic!("{found}"));
+    let scene = folder.open(&imported).scene;
+    let [rim] = scene.model.bushings() else { panic!("{}", imported.scene()) };
+    // 0.1 kg·m² at 0.5 m, along one axis of three
+    let mass = 3.0 * 0.1 / 0.25;
+    assert!((rim.stiffness[1] - mass / (0.05 * 4e-4)).abs() < 1e-9 * rim.stiffness[1], "{rim:?}");
+    assert!(entry(&imported, "connect[rim]").words.contains("rigidly"), "{}", entry(&imported, "connect[rim]").words);
 }
