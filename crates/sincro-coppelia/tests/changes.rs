@@ -597,3 +597,25 @@ stiffness = 100.0
     // x = 0.1 (1 − cos ω t), ω = 10 rad/s
     assert!((position(&mut session, "/lift") - 0.046).abs() < 0.005, "{}", position(&mut session, "/lift"));
 }
+
+#[test]
+fn a_frame_that_a_bushing_ends_at_takes_a_body_along() {
+    let scene = "gravity = [0.0, 0.0, 0.0]\n[[frame]]\nname = \"target\"\nposition = [0.0, 0.0, 1.0]\n[[joint]]\n\
+        name = \"free\"\nkind = \"free\"\ninitial = { position = [0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0] }\n[[body]]\n\
+        name = \"hand\"\nparent = \"/free\"\nmass = 2.0\ninertia = { xx = 0.1, yy = 0.1, zz = 0.1 }\n[[bushing]]\n\
+        name = \"grasp\"\nbetween = [\"/target\", \"/free/hand\"]\nstiffness = 2e4\ndamping = 400.0\n\
+        rotational_stiffness = 1e3\nrotational_damping = 20.0\n";
+    let experiment = "title = \"Grasp\"\nduration = 10.0\nstep = 0.005\nrecord = [\"/free/hand.position.x\"]\n\
+        error_bar = \"none\"\n";
+    let mut session = OpenSession::open(SceneFolder::of(scene, experiment), &[], Extensions::default(), None);
+    let [target, hand] =
+        ["/target", "/hand"].map(|path| i64::from(session.registry().find(path, Search::default()).unwrap().0));
+    let world = Value::Int(-1);
+    session.start().unwrap();
+    let place = [target.into(), Value::reals([0.3, 0.0, 1.0]), world.clone()];
+    session.call("sim.setObjectPosition", &place).unwrap();
+    // a hundred periods of 1/ω, ω = 100 rad/s, critically damped
+    (0..200).for_each(|_| session.step().unwrap());
+    let found = session.call("sim.getObjectPosition", &[hand.into(), world]).unwrap()[0].as_reals().unwrap();
+    assert!(found.iter().zip([0.3, 0.0, 1.0]).all(|(x, y)| (x - y).abs() < 1e-9), "{found:?}");
+}
