@@ -225,6 +225,11 @@ impl Live {
         if let Some(status) = &self.ended {
             return Err(LiveError::Stopped(status.clone()));
         }
+        if self.has_functions {
+            let words = "`set_pose` builds the model anew, which Python functions do not follow: this model has such \
+                controllers; command it by `step` instead";
+            return Err(LiveError::Argument(words.into()));
+        }
         let scene = self.lockstep.scene().clone();
         let Some(k) = scene.objects.iter().position(|object| object.path == path) else {
             return Err(LiveError::Argument(format!("there is no object `{path}`")));

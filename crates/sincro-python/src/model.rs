@@ -331,7 +331,7 @@ impl Model {
 
     /// Puts a body or frame that is fixed in the world at another place there while the run is under way: position
     /// (3,) [m], orientation as a quaternion w, x, y, z (4,); what is left out stays. What a bushing joins to it
-    /// follows, as what a weld joins to a mocap body of MuJoCo.
+    /// follows, as what a weld joins to a mocap body of MuJoCo. Not for a model with Python functions as controllers.
     #[pyo3(signature = (path, position=None, quaternion_wxyz=None))]
     fn set_pose(
         &self,

@@ -323,3 +323,22 @@ bushing = [{ name = "grasp", between = ["/target", "/free/hand"], stiffness = 20
         model.set_pose("/free/hand", position=[0.0, 0.0, 0.0])
     with pytest.raises(sincro.ArgumentError, match="no object"):
         model.set_pose("/nowhere", position=[0.0, 0.0, 0.0])
+
+
+def test_a_model_with_python_functions_refuses_to_move_what_is_fixed_and_goes_on(tmp_path):
+    (tmp_path / "scene.toml").write_text(
+        """frame = [{ name = "target", position = [0.0, 0.0, 1.0] }]
+joint = [{ name = "hinge", kind = "revolute", axis = [0.0, 1.0, 0.0], motor = { mode = "torque" } }]
+body = [{ name = "arm", parent = "/hinge", mass = 2.0, inertia = { xx = 0.1, yy = 0.1, zz = 0.1 } }]
+"""
+    )
+    (tmp_path / "experiment.toml").write_text('title = "functions"\nduration = 5.0\nstep = 0.01\nrecord = ["/hinge.position"]\n')
+    model, other = sincro.load(tmp_path), sincro.load(tmp_path)
+    for each in (model, other):
+        each.controller(lambda t, y: [0.5], name="push", period=0.1, writes=["/hinge"])
+        each.step(steps=5)
+    with pytest.raises(sincro.ArgumentError, match="Python functions do not follow"):
+        model.set_pose("/target", position=[0.3, 0.0, 1.0])
+    for each in (model, other):
+        each.step(steps=5)
+    assert model.tick == 10 and model.trace_hash == other.trace_hash

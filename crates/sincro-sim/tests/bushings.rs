@@ -1,6 +1,9 @@
 //! Bushings in scene files: what is recorded, set, copied by instances, refused.
 
+use std::sync::atomic::AtomicBool;
+
 use sincro_sim::Loaded;
+use sincro_sim::campaign::run_campaign;
 use sincro_testing::{SceneFolder, run};
 
 const SCENE: &str = r#"gravity = [0.0, 0.0, 0.0]
@@ -73,6 +76,23 @@ fn settings_reach_its_numbers_and_instances_bring_their_own() {
     folder.write("inner.toml", SCENE);
     let found = columns(&folder.load(&[]).unwrap());
     assert!((found[1][0] - 0.2 * 72.0).abs() < 1e-9);
+}
+
+#[test]
+fn swept_numbers_have_their_units() {
+    let units = [
+        ("stiffness", "N/m"),
+        ("damping", "N·s/m"),
+        ("rotational_stiffness", "N·m/rad"),
+        ("rotational_damping", "N·m·s/rad"),
+    ];
+    for (key, unit) in units {
+        let sweep = format!("{EXPERIMENT}[sweep]\nparameter = \"/mount.{key}\"\nvalues = [1.0, 2.0]\n");
+        let folder = SceneFolder::of(SCENE, &sweep);
+        let loaded = folder.load(&[]).unwrap_or_else(|found| panic!("{found}"));
+        let campaign = run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
+        assert_eq!(campaign.sweep.unwrap().0.unit, unit, "{key}");
+    }
 }
 
 /// Replaced text, replacement, and parts of the message.

@@ -302,11 +302,14 @@ fn parameter_unit(scene: &Scene, path: &str) -> &'static str {
     let is_length = scene
         .object(object)
         .is_some_and(|o| matches!(o.kind, ObjectKind::Joint { kind: JointKind::Prismatic { .. }, .. }));
-    let is_length = is_length || scene.model.names().spring_dampers.iter().any(|name| name == object);
+    let names = scene.model.names();
+    let is_length = is_length || names.spring_dampers.iter().chain(&names.bushings).any(|name| name == object);
     let of_joint = |angle: &'static str, length: &'static str| if is_length { length } else { angle };
     match keys.rsplit('.').next().unwrap_or(keys) {
         "stiffness" => of_joint("N·m/rad", "N/m"),
         "damping" => of_joint("N·m·s/rad", "N·s/m"),
+        "rotational_stiffness" => "N·m/rad",
+        "rotational_damping" => "N·m·s/rad",
         "friction" | "max_torque" | "torque" => of_joint("N·m", "N"),
         "rest" => of_joint("rad", "m"),
         "velocity" | "max_velocity" => of_joint("rad/s", "m/s"),
