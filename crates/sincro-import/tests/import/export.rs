@@ -276,8 +276,8 @@ fn bushings_of_one_time_constant_come_back_from_mjcf() {
     assert!(exported.notes.iter().any(|(path, words)| path == "/mount" && words.contains("not written")));
 }
 
-/// MuJoCo 4.0.0 measures 100 000.0 N/m and 5000.0 N·m/rad, load over deflection after 20 s with a steady force of 10 N or
-/// torque of 0.1 N·m, on a weld of these keys to a free body of 2 kg and 0.1 kg·m²; 1250.0 N·m/rad with the torque
+/// MuJoCo 4.0.0 measures 100 000.0 N/m and 5000.0 N·m/rad, load over deflection after 20 s with a steady force of 10 N
+/// or torque of 0.1 N·m, on a weld of these keys to a free body of 2 kg and 0.1 kg·m²; 1250.0 N·m/rad with the torque
 /// scale 1.
 #[test]
 fn bushings_yield_in_mujoco_as_here() {
