@@ -114,8 +114,8 @@ impl<'d> Reader<'d> {
     ///
     /// A constraint with the impedance d accelerates a mass by (1 − d) of what other forces would, plus d of its
     /// reference acceleration: it is the spring and damper that the time constant gives to a mass m/(1 − d). The
-    /// residual of a weld in rotation by θ is s sin(θ/2) with the torque scale s, its Jacobian about s/2, and the moment
-    /// of inertia is not scaled: (s/2)² of the stiffness and damping.
+    /// residual of a weld in rotation by θ is s sin(θ/2) with the torque scale s, its Jacobian about s/2, and the
+    /// moment of inertia is not scaled: (s/2)² of the stiffness and damping.
     fn loop_softness(
         &self,
         e: Element<'d>,
