@@ -8,10 +8,10 @@
 //! torque, not V.
 //!
 //! At the end of a linearly implicit step the torque is τ − h T ω − h (C_φ + h T) ω̇ with the positive semidefinite
-//! T = J⁻ᵀ K_φ J⁻¹. Two terms of the derivative of force and torque are left out, and so are explicit: that of J⁻ᵀ(φ) at
-//! constant K_φ φ, of the order of the elastic torque, zero at φ = 0; and that of the axes, in which f and τ stay
-//! constant while A turns, of the order of force and torque. The matrix of ω̇ is U D Uᵀ, U unit lower triangular: three
-//! rows Uᵀ ω, each with its own coefficient.
+//! T = J⁻ᵀ K_φ J⁻¹. Two terms of the derivative of force and torque are left out, and so are explicit: that of J⁻ᵀ(φ)
+//! at constant K_φ φ, of the order of the elastic torque, zero at φ = 0; and that of the axes, in which f and τ stay
+//! constant while A turns, of the order of force and torque. The matrix of ω̇ is U D Uᵀ, U unit lower triangular:
+//! three rows Uᵀ ω, each with its own coefficient.
 //!
 //! Sources: key `drake`, `LinearBushingRollPitchYaw`; key `iserles2000`, section 2.5, for J.
 //!

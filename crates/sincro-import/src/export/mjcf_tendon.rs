@@ -97,8 +97,8 @@ impl Tendons {
         Self { sites, of_elements, of_bushings }
     }
 
-    /// Centre of mass of the body that carries a site, as a frame of its link in the model; MuJoCo takes the position of
-    /// a body for that of one without mass.
+    /// Centre of mass of the body that carries a site, as a frame of its link in the model; MuJoCo takes the position
+    /// of a body for that of one without mass.
     fn centre(&self, tree: &Tree<'_>, site: usize) -> Option<Attached<f64>> {
         let Some(k) = self.sites[site].link else { return Some(Attached { link: None, pose: Pose::identity() }) };
         let body = &tree.links[k];
