@@ -11,7 +11,7 @@
 const MAX_ITERATIONS: usize = 40;
 
 /// Tolerance of the friction limit, relative to the friction.
-const TOLERANCE: f64 = 1e-13;
+const TOLERANCE: f64 = 1e-10;
 
 /// Amount added to the diagonal of a matrix that may be singular, relative to the largest entry of the problem: a
 /// contact that cannot be moved in a direction needs no exact force there.

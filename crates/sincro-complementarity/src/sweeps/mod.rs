@@ -109,9 +109,30 @@ struct Block {
     values: usize,
     index: usize,
     len: usize,
+    bodies: Bodies,
     b: [f64; 3],
-    lambda: [f64; 3],
     local: Local,
+}
+
+/// Bodies that the rows of a block move, where they are free ones, with six velocities one after the other in z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Bodies {
+    One(usize),
+    Two(usize, usize),
+    /// Any others.
+    Other,
+}
+
+impl Bodies {
+    /// The bodies with velocities at these places.
+    fn at(index: &[u32]) -> Self {
+        let first = |run: &[u32]| run.iter().zip(run[0]..).all(|(i, j)| *i == j).then_some(run[0] as usize);
+        match index.len() {
+            6 => first(index).map_or(Self::Other, Self::One),
+            12 => first(&index[..6]).zip(first(&index[6..])).map_or(Self::Other, |(one, two)| Self::Two(one, two)),
+            _ => Self::Other,
+        }
+    }
 }
 
 impl Block {
@@ -154,6 +175,8 @@ struct IslandRange {
 #[derive(Clone, Debug, Default)]
 pub struct Sweeper {
     blocks: Vec<Block>,
+    /// Force of each block.
+    lambda: Vec<[f64; 3]>,
     values: Vec<f64>,
     /// Places in z of the numbers of each row.
     index: Vec<u32>,
@@ -197,6 +220,7 @@ impl Sweeper {
     /// Begins a problem of a mechanism with `n_v` degrees of freedom.
     pub fn clear(&mut self, n_v: usize) {
         self.blocks.clear();
+        self.lambda.clear();
         self.values.clear();
         self.index.clear();
         self.islands.clear();
@@ -245,7 +269,9 @@ impl Sweeper {
             }
             _ => Local::Contact(ContactLocal::new([dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)])),
         };
-        self.blocks.push(Block { law, row, n, values: first, index, len, b, lambda, local });
+        let bodies = Bodies::at(&self.index[index..]);
+        self.blocks.push(Block { law, row, n, values: first, index, len, bodies, b, local });
+        self.lambda.push(lambda);
     }
 
     /// Ends an island.
@@ -257,14 +283,11 @@ impl Sweeper {
     /// Solves all islands of a step of length `h` `[s]` from the forces given as a start.
     pub fn solve(&mut self, h: f64, report: &mut SolverReport) {
         if self.is_last(h) {
-            for (block, force) in self.blocks.iter_mut().zip(&self.last.forces) {
-                block.lambda = *force;
-            }
+            self.lambda.clone_from(&self.last.forces);
         } else {
             self.keep_problem(h);
             self.solve_islands(h);
-            self.last.forces.clear();
-            self.last.forces.extend(self.blocks.iter().map(|block| block.lambda));
+            self.last.forces.clone_from(&self.lambda);
         }
         let SolverReport { islands, sweeps, unconverged_islands, worst_island, .. } = self.last.report;
         report.islands += islands;
@@ -281,21 +304,21 @@ impl Sweeper {
             && self.blocks.len() == last.blocks.len()
             && self.values.len() == last.values.len()
             && self.islands == last.islands
-            && self.blocks.iter().zip(&last.blocks).all(|(block, (law, row, b, start))| {
-                block.law == *law && block.row == *row && same(&block.b, b) && same(&block.lambda, start)
+            && self.blocks.iter().zip(&self.lambda).zip(&last.blocks).all(|((block, force), (law, row, b, start))| {
+                block.law == *law && block.row == *row && same(&block.b, b) && same(force, start)
             })
             && self.index == last.index
             && same(&self.values, &last.values)
     }
 
     fn keep_problem(&mut self, h: f64) {
-        let Self { last, values, index, islands, blocks, .. } = self;
+        let Self { last, values, index, islands, blocks, lambda, .. } = self;
         last.h = h;
         last.values.clone_from(values);
         last.index.clone_from(index);
         last.islands.clone_from(islands);
         last.blocks.clear();
-        last.blocks.extend(blocks.iter().map(|block| (block.law, block.row, block.b, block.lambda)));
+        last.blocks.extend(blocks.iter().zip(lambda).map(|(block, force)| (block.law, block.row, block.b, *force)));
     }
 
     fn solve_islands(&mut self, h: f64) {
@@ -304,7 +327,7 @@ impl Sweeper {
         for k in 0..self.islands.len() {
             let IslandRange { blocks, z } = self.islands[k];
             let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
-            let (residual, sweeps) = f64::run_hot(Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h });
+            let (residual, sweeps) = Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h }.solve();
             report.islands += 1;
             report.sweeps += sweeps as u64;
             report.unconverged_islands += u64::from(residual > TOLERANCE);
@@ -330,9 +353,9 @@ impl Sweeper {
 
     /// Hands each row with its multiplier to `take`.
     pub fn read(&self, mut take: impl FnMut(usize, f64)) {
-        for block in &self.blocks {
-            for k in 0..block.n {
-                take(block.row + k, block.lambda[k]);
+        for (block, force) in self.blocks.iter().zip(&self.lambda) {
+            for (k, force) in force.iter().enumerate().take(block.n) {
+                take(block.row + k, *force);
             }
         }
     }
@@ -364,9 +387,9 @@ impl Sweeper {
     /// Changes the forces of a block; the velocities along it are those last taken by [`Sweeper::rates`].
     #[inline(always)]
     fn change(&mut self, k: usize, lambda: [f64; 3]) {
-        let block = &mut self.blocks[k];
-        let d = minus(lambda, block.lambda);
-        block.lambda = lambda;
+        let block = &self.blocks[k];
+        let d = minus(lambda, self.lambda[k]);
+        self.lambda[k] = lambda;
         if d == [0.0; 3] {
             return;
         }
@@ -389,14 +412,63 @@ impl Sweeper {
         }
     }
 
+    /// Gives a block the force that solves its own problem. Returns the squares of the change and of the force.
+    #[inline(always)]
+    fn relax(&mut self, k: usize) -> [f64; 2] {
+        let before = self.lambda[k];
+        match self.blocks[k].bodies {
+            Bodies::One(one) if matches!(self.blocks[k].local, Local::Contact(_)) => {
+                self.relax_contact::<6>(k, [one; 2])
+            }
+            Bodies::Two(one, two) if matches!(self.blocks[k].local, Local::Contact(_)) => {
+                self.relax_contact::<12>(k, [one, two]);
+            }
+            _ => {
+                let u = self.rates(k);
+                let lambda = self.own_force(k, u);
+                self.change(k, lambda);
+            }
+        }
+        let (d, lambda) = (minus(self.lambda[k], before), self.lambda[k]);
+        [square(d), square(lambda)]
+    }
+
+    /// The same for a contact of free bodies, whose velocities stand one after the other at these places in z.
+    #[inline(always)]
+    fn relax_contact<const N: usize>(&mut self, k: usize, at: [usize; 2]) {
+        let Block { values, b, law, local, .. } = &mut self.blocks[k];
+        let (Local::Contact(local), Law::Coulomb { friction }) = (local, *law) else { return };
+        let mut u = *b;
+        let y = &self.values[*values..*values + 3 * N];
+        let mut z = [0.0; N];
+        z[..6].copy_from_slice(&self.z[at[0]..at[0] + 6]);
+        if N == 12 {
+            z[6..].copy_from_slice(&self.z[at[1]..at[1] + 6]);
+        }
+        add_dots::<N>(y, &z, &mut u);
+        let lambda = &mut self.lambda[k];
+        let force = local.solve(friction, minus(u, local.times(*lambda)));
+        let d = minus(force, *lambda);
+        if d == [0.0; 3] {
+            return;
+        }
+        *lambda = force;
+        add_rows::<N>(y, d, &mut z);
+        self.z[at[0]..at[0] + 6].copy_from_slice(&z[..6]);
+        if N == 12 {
+            self.z[at[1]..at[1] + 6].copy_from_slice(&z[6..]);
+        }
+    }
+
     /// Force of a block that solves its own problem, for its present rates.
     #[inline(always)]
     fn own_force(&mut self, k: usize, u: [f64; 3]) -> [f64; 3] {
         let limit = self.limit(k);
-        let Block { law, lambda, local, .. } = &mut self.blocks[k];
+        let lambda = self.lambda[k];
+        let Block { law, local, .. } = &mut self.blocks[k];
         match (local, *law) {
             (Local::Contact(local), Law::Coulomb { friction }) => {
-                let own = local.times(*lambda);
+                let own = local.times(lambda);
                 local.solve(friction, minus(u, own))
             }
             (Local::Scalar { inverse }, law) => [law.admitted(lambda[0] - u[0] * *inverse, limit), 0.0, 0.0],
@@ -416,7 +488,7 @@ impl Sweeper {
     fn limit(&self, k: usize) -> f64 {
         match self.blocks[k].law {
             Law::Interval { limit } => limit,
-            Law::Disc { coefficient, normal } => coefficient * self.blocks[normal].lambda[0].max(0.0),
+            Law::Disc { coefficient, normal } => coefficient * self.lambda[normal][0].max(0.0),
             _ => 0.0,
         }
     }
@@ -424,7 +496,7 @@ impl Sweeper {
     /// Natural map of a block's law at its present force and rates.
     #[inline(always)]
     fn natural_map(&self, k: usize, u: [f64; 3]) -> f64 {
-        distance(&self.blocks[k].lambda, &self.projected(k, u).0)
+        distance(&self.lambda[k], &self.projected(k, u).0)
     }
 
     /// P(λ − ρ (u + μ‖u_t‖ n)) of a block, and the derivative of P.
@@ -436,7 +508,7 @@ impl Sweeper {
             Law::Coulomb { friction } => friction * (u[1] * u[1] + u[2] * u[2]).sqrt(),
             _ => 0.0,
         };
-        let [normal, one, two] = block.lambda;
+        let [normal, one, two] = self.lambda[k];
         self.admitted(k, [normal - rho * (u[0] + shift), one - rho * u[1], two - rho * u[2]])
     }
 
@@ -484,12 +556,9 @@ struct Island<'a> {
     rest_rate: f64,
 }
 
-impl Task for Island<'_> {
+impl Island<'_> {
     /// Residual, and number of sweeps.
-    type Output = (f64, usize);
-
-    #[inline(always)]
-    fn run(mut self) -> (f64, usize) {
+    fn solve(mut self) -> (f64, usize) {
         self.find_velocities();
         let Swept { residual: mut best, mut sweeps, .. } = self.sweep(FIRST_SWEEPS + self.blocks.len() / 8);
         if best <= TOLERANCE {
@@ -535,57 +604,61 @@ impl Task for Island<'_> {
         self.restore();
         (best, sweeps)
     }
-}
 
-impl Island<'_> {
     /// The velocities of the present forces.
-    #[inline(always)]
     fn find_velocities(&mut self) {
         self.sweeper.z[self.z.clone()].fill(0.0);
         for k in self.blocks.clone() {
             self.sweeper.rates(k);
-            let lambda = core::mem::take(&mut self.sweeper.blocks[k].lambda);
+            let lambda = core::mem::take(&mut self.sweeper.lambda[k]);
             self.sweeper.change(k, lambda);
         }
     }
 
     /// Keeps the present forces as the best ones.
-    #[inline(always)]
     fn keep(&mut self) {
-        let Sweeper { best, blocks, .. } = &mut *self.sweeper;
+        let Sweeper { best, lambda, .. } = &mut *self.sweeper;
         best.clear();
-        best.extend(blocks[self.blocks.clone()].iter().map(|block| block.lambda));
+        best.extend_from_slice(&lambda[self.blocks.clone()]);
     }
 
     /// Returns to the best forces; velocities stay.
-    #[inline(always)]
     fn restore(&mut self) {
-        let Sweeper { best, blocks, .. } = &mut *self.sweeper;
-        for (block, best) in blocks[self.blocks.clone()].iter_mut().zip(best) {
-            block.lambda = *best;
-        }
+        let Sweeper { best, lambda, .. } = &mut *self.sweeper;
+        lambda[self.blocks.clone()].copy_from_slice(best);
     }
 
     /// Makes up to `most` sweeps, fewer if they suffice.
-    #[inline(always)]
     fn sweep(&mut self, most: usize) -> Swept {
-        let Self { sweeper, blocks, z, rest_rate } = self;
+        f64::run_hot(Sweeps { island: self, most })
+    }
+}
+
+/// Sweeps over an island, at most so many.
+struct Sweeps<'a, 'b> {
+    island: &'a mut Island<'b>,
+    most: usize,
+}
+
+impl Task for Sweeps<'_, '_> {
+    type Output = Swept;
+
+    #[inline(always)]
+    fn run(self) -> Swept {
+        let (Island { sweeper, blocks, z, rest_rate }, most) = (self.island, self.most);
         let mut last_square = 0.0;
         for sweep in 1..=most {
             sweeper.z_before[z.clone()].copy_from_slice(&sweeper.z[z.clone()]);
+            sweeper.before[blocks.clone()].copy_from_slice(&sweeper.lambda[blocks.clone()]);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for k in blocks.clone() {
-                let u = sweeper.rates(k);
-                let lambda = sweeper.own_force(k, u);
-                let before = sweeper.blocks[k].lambda;
-                sweeper.before[k] = before;
-                change = change.max(distance(&lambda, &before));
-                largest = largest.max(distance(&lambda, &[0.0; 3]));
-                sweeper.change(k, lambda);
+                let [of_change, of_force] = sweeper.relax(k);
+                change = if of_change > change { of_change } else { change };
+                largest = if of_force > largest { of_force } else { largest };
             }
             let is_last = sweep == most;
-            if change <= TOLERANCE * largest || is_last || largest == 0.0 {
-                let (residual, fastest) = residual(sweeper, blocks.clone(), largest);
+            if change <= TOLERANCE * TOLERANCE * largest || is_last || largest == 0.0 {
+                let (residual, fastest) = residual(sweeper, blocks.clone(), largest.sqrt());
                 let rests = fastest < *rest_rate;
                 let tolerance = if rests && sweep < REST_SWEEPS { REST_TOLERANCE } else { TOLERANCE };
                 if residual <= tolerance || is_last {
@@ -593,32 +666,48 @@ impl Island<'_> {
                 }
             }
             // further along the last direction
-            let mut square = 0.0;
-            for i in z.clone() {
-                let d = sweeper.z[i] - sweeper.z_before[i];
-                square += d * d;
-            }
+            let square = square_of_difference(&sweeper.z[z.clone()], &sweeper.z_before[z.clone()]);
             let beta = if last_square > 0.0 { square / last_square } else { f64::INFINITY };
             last_square = square;
-            let goes_on = beta <= 1.0;
-            for i in z.clone() {
-                let d = sweeper.z[i] - sweeper.z_before[i];
-                let along = if goes_on { beta * sweeper.direction_z[i] } else { 0.0 };
-                sweeper.direction_z[i] = along + d;
-                sweeper.z[i] += along;
-            }
-            for k in blocks.clone() {
-                let block = &mut sweeper.blocks[k];
-                for c in 0..3 {
-                    let d = block.lambda[c] - sweeper.before[k][c];
-                    let along = if goes_on { beta * sweeper.direction[k][c] } else { 0.0 };
-                    sweeper.direction[k][c] = along + d;
-                    block.lambda[c] += along;
-                }
-            }
+            let beta = if beta <= 1.0 { beta } else { 0.0 };
+            let Sweeper { z: v, z_before, direction_z, lambda, before, direction, .. } = &mut **sweeper;
+            go_on(beta, &mut v[z.clone()], &z_before[z.clone()], &mut direction_z[z.clone()]);
+            go_on(
+                beta,
+                lambda[blocks.clone()].as_flattened_mut(),
+                before[blocks.clone()].as_flattened(),
+                direction[blocks.clone()].as_flattened_mut(),
+            );
         }
         unreachable!("the last sweep returns")
     }
+}
+
+/// Moves `x`, which a sweep has changed from `before`, further along the last `direction`, and keeps the new one.
+#[inline(always)]
+fn go_on(beta: f64, x: &mut [f64], before: &[f64], direction: &mut [f64]) {
+    for ((x, before), direction) in x.iter_mut().zip(before).zip(direction) {
+        let along = beta * *direction;
+        *direction = along + (*x - before);
+        *x += along;
+    }
+}
+
+/// Square of the distance of two points, in four lanes and a rest.
+#[inline(always)]
+fn square_of_difference(x: &[f64], y: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (xs, ys) = (x.chunks_exact(4), y.chunks_exact(4));
+    let mut rest = 0.0;
+    for (x, y) in xs.remainder().iter().zip(ys.remainder()) {
+        rest += (x - y) * (x - y);
+    }
+    for (x, y) in xs.zip(ys) {
+        for c in 0..4 {
+            sums[c] += (x[c] - y[c]) * (x[c] - y[c]);
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// Residual of an island relative to its `largest` force, and its largest rate.
@@ -664,8 +753,12 @@ fn project_on_cone(friction: f64, x: [f64; 3]) -> ([f64; 3], [f64; 6]) {
 
 #[inline(always)]
 fn distance(x: &[f64; 3], y: &[f64; 3]) -> f64 {
-    let d = minus(*x, *y);
-    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+    square(minus(*x, *y)).sqrt()
+}
+
+#[inline(always)]
+fn square(x: [f64; 3]) -> f64 {
+    x[0] * x[0] + x[1] * x[1] + x[2] * x[2]
 }
 
 // written out: closures are not inlined into code for other registers
@@ -685,6 +778,18 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
     sums[0] + sums[1]
 }
 
+/// Scalar product of two lists of a multiple of four numbers, in four lanes.
+#[inline(always)]
+fn dot_12(x: &[f64], y: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    for (x, y) in x.chunks_exact(4).zip(y.chunks_exact(4)) {
+        for c in 0..4 {
+            sums[c] += x[c] * y[c];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
 #[inline(always)]
 fn fixed<const N: usize>(x: &[f64]) -> &[f64; N] {
     x.try_into().expect("the length was looked at")
@@ -695,7 +800,8 @@ fn fixed<const N: usize>(x: &[f64]) -> &[f64; N] {
 fn add_dots<const N: usize>(y: &[f64], z: &[f64], sums: &mut [f64; 3]) {
     let z = fixed::<N>(z);
     for (k, sum) in sums.iter_mut().enumerate() {
-        *sum += dot(fixed::<N>(&y[k * N..(k + 1) * N]), z);
+        let y = fixed::<N>(&y[k * N..(k + 1) * N]);
+        *sum += if N == 12 { dot_12(y, z) } else { dot(y, z) };
     }
 }
 

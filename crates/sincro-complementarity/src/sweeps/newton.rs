@@ -14,6 +14,8 @@
 //! their laws, and sweeps follow each step, which find the next modes. Sources: keys `alart1991`, `acary2008`
 //! (section 13.4).
 
+use sincro_math::{Real, Task};
+
 use super::local::product;
 use super::{Law, Sweeper, dot};
 
@@ -63,7 +65,7 @@ impl NewtonStep {
             self.add(sweeper, k, z.start, &law);
             self.laws.push(law);
         }
-        self.solve();
+        f64::run_hot(Factor { step: self });
         for (k, LinearLaw { force, slope, friction }) in blocks.zip(&self.laws) {
             let block = &sweeper.blocks[k];
             let mut growth = [0.0; 3];
@@ -178,6 +180,20 @@ impl NewtonStep {
     }
 }
 
+/// Factorisation and solution of a step.
+struct Factor<'a> {
+    step: &'a mut NewtonStep,
+}
+
+impl Task for Factor<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.step.solve();
+    }
+}
+
 impl LinearLaw {
     /// Law of block `k` at its rates `u`.
     #[inline(always)]
@@ -185,7 +201,7 @@ impl LinearLaw {
         let block = &sweeper.blocks[k];
         let rho = RHO * block.step_length();
         let (force, slope) = sweeper.projected(k, u);
-        let held: [f64; 3] = core::array::from_fn(|c| block.lambda[c] - rho * u[c]);
+        let held: [f64; 3] = core::array::from_fn(|c| sweeper.lambda[k][c] - rho * u[c]);
         if slope == [0.0; 6] {
             return Self { force, slope, friction: 0.0 };
         }
@@ -199,7 +215,7 @@ impl LinearLaw {
         };
         let (size, sliding) = (length(force[1], force[2]), length(u[1], u[2]));
         let (t1, t2) = if size > 0.0 { (force[1] / size, force[2] / size) } else { (0.0, 0.0) };
-        let limit = friction * block.lambda[0];
+        let limit = friction * sweeper.lambda[k][0];
         // across the sliding direction friction turns with it
         let turn = if sliding > 0.0 { (limit / sliding).min(rho) } else { rho };
         let slope = [rho, 0.0, 0.0, turn * t2 * t2, -turn * t1 * t2, turn * t1 * t1];
@@ -317,14 +333,15 @@ mod tests {
         let (mut sweeper, mut once) = (plates(8, 3), SolverReport::default());
         sweeper.solve(0.01, &mut once);
         let first = forces(&sweeper);
-        let start = plates(8, 3).blocks;
-        sweeper.blocks.clone_from(&start);
+        let start = plates(8, 3);
+        sweeper.blocks.clone_from(&start.blocks);
+        sweeper.lambda.clone_from(&start.lambda);
         let mut twice = once;
         sweeper.solve(0.01, &mut twice);
         assert_eq!(forces(&sweeper), first);
         assert_eq!((twice.islands, twice.sweeps), (2 * once.islands, 2 * once.sweeps));
         // another one is solved anew
-        sweeper.blocks = start;
+        (sweeper.blocks, sweeper.lambda) = (start.blocks, start.lambda);
         sweeper.blocks[0].b[0] -= 1.0;
         sweeper.solve(0.01, &mut once);
         assert_ne!(forces(&sweeper), first);
