@@ -2,10 +2,11 @@
 //!
 //! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]`
 //! takes the i-th match among the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for
-//! any run and any character. Free joints may be left out ([`super::tree`]). Copies that the scene language has
-//! numbered (`ball1`, `ball2`) are `ball[0]`, `ball[1]`, or `ball{0}`, `ball{1}`, where no object of the level is
-//! called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for the first of that name,
-//! `joint#0`, `joint#1` for the second and third.
+//! any run and any character; `/arm/Script` is the object of the script on `/arm`, which functions that take scripts
+//! take too. Free joints may be left out ([`super::tree`]). Copies that the scene language has numbered (`ball1`,
+//! `ball2`) are `ball[0]`, `ball[1]`, or `ball{0}`, `ball{1}`, where no object of the level is called `ball`. Without a
+//! leading sign it is a name of V-REP: `joint`, `joint#` for the first of that name, `joint#0`, `joint#1` for the
+//! second and third.
 
 use super::ApiError;
 use super::registry::{Entry, Handle, ObjectRegistry};
@@ -68,7 +69,23 @@ impl ObjectRegistry {
             }
             _ => self.find_name(text),
         };
+        let found = match found {
+            None => self.find_script(text, search),
+            found => found,
+        };
         found.ok_or_else(|| self.missing(text))
+    }
+
+    /// A script by its path: scripts are objects below those that they are on since CoppeliaSim 4.7, called `Script`
+    /// unless they are renamed. Here a script has the handle of its object.
+    fn find_script(&self, text: &str, search: Search) -> Option<Handle> {
+        let (object, name) = text.rsplit_once('/')?;
+        let name = split_number(name, '[', ']').map_or(name, |(name, _)| name);
+        if object.is_empty() || !matches!(name, "Script" | "script") {
+            return None;
+        }
+        let own = self.find(object, search).ok()?;
+        self.scene().scripts.iter().any(|script| script.object as i32 + 1 == own.0).then_some(own)
     }
 
     /// A name of V-REP, see the head of this file.

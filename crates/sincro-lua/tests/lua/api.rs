@@ -202,3 +202,22 @@ file = "a.lua"
         assert_eq!(run.status, sincro_sim::results::Status::Completed, "{mode}: {:?}", run.messages);
     }
 }
+
+#[test]
+fn a_script_is_found_below_its_object() {
+    let arm = "function twice(x) return 2 * x end";
+    let hinge = "function sysCall_init()
+            local script = sim.getObject('/hinge/arm/Script')
+            print(sim.callScriptFunction('twice', script, 21), script == sim.getObject('/hinge/arm'))
+            print(sim.getObject('./Script[0]') == sim.getObject('.'))
+            print(pcall(sim.getObject, '/base/Script'))
+        end";
+    let scene = format!(
+        "{PENDULUM}\n[[script]]\nobject = \"/hinge/arm\"\nfile = \"arm.lua\"\n[[script]]\nobject = \"/hinge\"\nfile = \"hinge.lua\"\n"
+    );
+    let loaded =
+        open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("arm.lua", arm), ("hinge.lua", hinge)]);
+    let said: Vec<String> = run(&loaded.unwrap()).messages.into_iter().map(|m| m.text).collect();
+    assert_eq!(said[..2], ["42\ttrue", "true"]);
+    assert!(said[2].starts_with("false"), "{said:?}");
+}
