@@ -276,7 +276,7 @@ impl Controller for ApiController {
 
     fn detected(&mut self, sensor: usize, found: Option<Detection>) {
         if let Some(registry) = &mut self.registry {
-            registry.tell(Handle(sensor as i32 + 1), found);
+            registry.sampled(Handle(sensor as i32 + 1), found);
         }
     }
 

@@ -122,6 +122,29 @@ fn a_reading_is_that_of_the_last_handling() {
 }
 
 #[test]
+fn a_proximity_sensor_with_explicit_handling_reads_what_it_last_handled() {
+    let mut s = session();
+    let (rail, eye) = (object(&mut s, "/rail"), object(&mut s, "/eye"));
+    let distance = |s: &mut Session| real(&call(s, "sim.readProximitySensor", std::slice::from_ref(&eye))[1]);
+    call(&mut s, "sim.setJointTargetVelocity", &[rail, Value::Real(0.5)]);
+    s.start().unwrap();
+    call(&mut s, "sim.setExplicitHandling", &[eye.clone(), Value::Int(1)]);
+    assert_eq!(call(&mut s, "sim.getExplicitHandling", std::slice::from_ref(&eye)), [Value::Int(1)]);
+    let before = real(&call(&mut s, "sim.handleProximitySensor", std::slice::from_ref(&eye))[1]);
+    s.step().unwrap();
+    assert_eq!(distance(&mut s), before);
+    let now = real(&call(&mut s, "sim.handleProximitySensor", std::slice::from_ref(&eye))[1]);
+    // 0.5 m/s for 0.05 s
+    assert!((now - (before - 0.025)).abs() < 1e-9, "{now} m");
+    call(&mut s, "sim.setExplicitHandling", &[eye.clone(), Value::Int(0)]);
+    s.step().unwrap();
+    assert!((distance(&mut s) - (before - 0.05)).abs() < 1e-9);
+    call(&mut s, "sim.setExplicitHandling", &[eye.clone(), Value::Int(1)]);
+    s.stop().unwrap();
+    assert_eq!(call(&mut s, "sim.getExplicitHandling", std::slice::from_ref(&eye)), [Value::Int(0)]);
+}
+
+#[test]
 fn what_is_made_is_seen_by_the_sensors_of_the_scene_and_recorded() {
     let mut s = session();
     let eye = object(&mut s, "/eye");

@@ -59,7 +59,9 @@ impl SimApi<'_> {
     ///
     /// There is no such object, or it is no proximity sensor.
     pub(crate) fn handle_proximity(&mut self, handle: Handle) -> Result<Option<Detection>, ApiError> {
-        if self.proximity_entry(handle)?.is_of_scene
+        let entry = self.proximity_entry(handle)?;
+        if entry.is_of_scene
+            && !entry.is_explicit
             && self.is_running()
             && let Some(saw) = self.proximity(handle)?
         {

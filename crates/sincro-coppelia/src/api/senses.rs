@@ -119,11 +119,11 @@ impl Senses {
             .for_each(|sensor| sensor.entity = Entity::All);
     }
 
-    /// A run has ended: proximity sensors detect the entities of `before` it.
+    /// A run has ended: proximity sensors detect the entities of `before` it, and are handled as then.
     pub fn end_run(&mut self, before: &Self) {
         for (own, sensor) in &mut self.proximity {
             if let Some(before) = before.proximity.get(own) {
-                sensor.entity = before.entity;
+                (sensor.entity, sensor.is_explicit) = (before.entity, before.is_explicit);
             }
         }
     }
@@ -256,6 +256,13 @@ impl ObjectRegistry {
         }
         if let Some(entry) = self.senses.proximity.get(&from).cloned() {
             self.senses.proximity.insert(to, ProximityEntry { saw: None, ..entry });
+        }
+    }
+
+    /// A proximity sensor of the scene has taken a sample; one with explicit handling keeps its last reading.
+    pub(crate) fn sampled(&mut self, sensor: Handle, saw: Option<Detection>) {
+        if self.senses.proximity.get(&sensor).is_some_and(|entry| !entry.is_explicit) {
+            self.tell(sensor, saw);
         }
     }
 

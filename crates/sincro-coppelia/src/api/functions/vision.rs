@@ -265,10 +265,13 @@ fn explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         return one(i64::from(sim.is_group_explicit(environment, group)?));
     }
     let own = handle(sim, a, 0)?;
+    if let Some(sensor) = sim.registry.senses.proximity.get(&own) {
+        return one(i64::from(sensor.is_explicit));
+    }
     one(i64::from(sim.registry.vision_sensor(own)?.is_explicit))
 }
 
-/// Sets the explicit handling of a vision sensor, or of a group of inverse kinematics of V-REP 3.
+/// Sets the explicit handling of a proximity or vision sensor, or of a group of inverse kinematics of V-REP 3.
 fn set_explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     if is_group(a.int(0)?) {
         let (environment, group) = parts(a.int(0)?)?;
@@ -276,6 +279,10 @@ fn set_explicit(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         return done();
     }
     let (own, flags) = (handle(sim, a, 0)?, a.int(1)?);
+    if let Some(sensor) = sim.registry.senses.proximity.get_mut(&own) {
+        sensor.is_explicit = flags & 1 != 0;
+        return done();
+    }
     sim.registry.change_vision(own, |sensor| sensor.is_explicit = flags & 1 != 0)?;
     done()
 }
