@@ -21,9 +21,13 @@ const WHOLE: &[Fixed<i64>] = &[
     (5, "intparam_current_page", 0),
     // none of those that have a number; MuJoCo's is the nearest in kind
     (DYNAMIC_ENGINE, "intparam_dynamic_engine", 4),
+    (PORTS[0], "intparam_server_port_start", 19_997),
+    (PORTS[1], "intparam_server_port_range", 100),
     (11, "intparam_visible_layers", 0xff),
     (12, "intparam_infotext_style", 0),
     (14, "intparam_edit_mode_type", 0),
+    // always the same: a port that is open already is accepted
+    (PORTS[2], "intparam_server_port_next", 19_997),
     (16, "intparam_qt_version", 0),
     // Linux
     (19, "intparam_platform", 2),
@@ -50,6 +54,8 @@ const WHOLE: &[Fixed<i64>] = &[
     (47, "intparam_mouseclickcounterup", 0),
 ];
 const DYNAMIC_ENGINE: i64 = 8;
+/// Ports that scripts of V-REP 3 choose one from: first, number, next.
+const PORTS: [i64; 3] = [9, 10, 15];
 
 /// Truth values.
 const TRUTHS: &[Fixed<bool>] = &[

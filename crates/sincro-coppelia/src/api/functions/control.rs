@@ -2,7 +2,7 @@
 
 use super::{Function, Outcome, done, one};
 use crate::api::stored::check_name;
-use crate::api::{Arguments, Phase, Request, SimApi, Value};
+use crate::api::{ApiError, Arguments, Phase, Request, SimApi, Value};
 
 /// Plug-ins of V-REP and CoppeliaSim whose functions are built in, by their names there.
 const MODULES: [&str; 3] = ["RemoteApi", "IK", "UI"];
@@ -12,6 +12,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "msgBox",
         tip: "int result=sim.msgBox(int dlgType,int buttons,string title,string message)",
         run: message_box,
+    },
+    Function {
+        name: "launchExecutable",
+        tip: "int result=sim.launchExecutable(string filename,string parameters='',int showStatus=1)",
+        run: launch,
     },
     Function { name: "startSimulation", tip: "int result=sim.startSimulation()", run: |d, _| ask(d, Request::Start) },
     Function { name: "pauseSimulation", tip: "int result=sim.pauseSimulation()", run: |d, _| ask(d, Request::Pause) },
@@ -122,6 +127,17 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: named,
     },
 ];
+
+/// No program is started. A script goes on, as where V-REP has not found the program, which is then started by hand.
+fn launch(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    if sim.own.is_none() {
+        return Err(ApiError::new("programs and plug-ins are not started by clients"));
+    }
+    let parameters = if a.has(1) { a.text(1)? } else { "" };
+    let program = format!("{} {parameters}", a.text(0)?);
+    sim.log(300, &format!("programs are not started by scripts: start this one by hand: {}", program.trim()));
+    one(-1_i64)
+}
 
 fn ask(sim: &mut SimApi<'_>, request: Request) -> Outcome {
     sim.registry.ask(request);
