@@ -33,7 +33,6 @@ pub(super) enum Function {
 use Function::{Client, Refused, Session, Sim};
 
 const BALL_JOINTS: &str = "a ball joint is moved by forces and by its initial state, not put somewhere";
-const BREAKING: &str = "force sensors do not break here";
 const CONSOLES: &str = "there are no consoles here: use simxAddStatusbarMessage";
 const COLLISIONS: &str = "there are no collision objects here: use simxCheckCollision with two bodies or collections";
 const DISTANCES: &str = "there are no distance objects here: use simxCheckDistance with two bodies or collections";
@@ -84,7 +83,7 @@ pub(super) const COMMANDS: &[Row] = &[
     row(0x100d, "simxGetJointForce", Sim(joints::force)),
     row(0x100e, "simxSetJointMaxForce", Sim(joints::set_target_force)),
     row(0x100f, "simxReadForceSensor", Sim(sensing::force_sensor)),
-    row(0x1010, "simxBreakForceSensor", Refused(BREAKING)),
+    row(0x1010, "simxBreakForceSensor", Sim(sensing::break_force_sensor)),
     row(0x1011, "simxReadVisionSensor", Sim(seeing::read)),
     row(0x1012, "simxGetObjectParent", Sim(objects::parent)),
     row(0x1014, "simxAuxiliaryConsoleClose", Refused(CONSOLES)),

@@ -1,8 +1,8 @@
 //! Commands of the legacy API: sensors, collisions, distances.
 
-use sincro_coppelia::api::{ApiError, Entity, Handle, SimApi};
+use sincro_coppelia::api::{ApiError, Entity, Handle, SimApi, functions};
 
-use super::functions::{Call, Reply, ints, reals};
+use super::functions::{Call, Reply, done, ints, reals};
 
 /// State (bit 0: there are data), force, torque; the numbers are not aligned.
 pub(super) fn force_sensor(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
@@ -10,6 +10,12 @@ pub(super) fn force_sensor(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     let mut data = vec![1];
     data.extend(reals(force.into_iter().chain(torque))?);
     Ok(data)
+}
+
+/// Parts what a force sensor carries from it.
+pub(super) fn break_force_sensor(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    functions::call(sim, "breakForceSensor", &[call.handle()?.into()])?;
+    done()
 }
 
 /// The two bodies or collections of a call; −2 is everything.

@@ -122,7 +122,6 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x1006, "vision"),
         (0x1009, "proximity"),
         (0x100b, "ball joint"),
-        (0x1010, "do not break"),
         (0x1011, "vision"),
         (0x1014, "consoles"),
         (0x1015, "consoles"),
@@ -155,6 +154,9 @@ fn what_touches_is_told_to_legacy_clients() {
         let errors = client.last_errors();
         assert!(errors.len() == 1 && errors[0].contains(why), "0x{function:04x}: {errors:?}");
     }
+    assert!(client.call(0x1010, &ints(&[floor]), &[]).is_err());
+    assert!(client.last_errors()[0].contains("is no force sensor"));
+    assert!(client.call(0x1010, &ints(&[scale]), &[]).is_ok());
     assert_eq!(client.ping(), 40_501, "the connection lives on");
 }
 

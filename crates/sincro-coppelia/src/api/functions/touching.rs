@@ -20,11 +20,22 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "int result,float[3] forceVector,float[3] torqueVector=sim.readForceSensor(int objectHandle)",
         run: force_sensor,
     },
+    Function {
+        name: "breakForceSensor",
+        tip: "int result=sim.breakForceSensor(int objectHandle)",
+        run: |sim, a| {
+            let own = handle(sim, a, 0)?;
+            sim.break_force_sensor(own)?;
+            one(1_i64)
+        },
+    },
 ];
 
 fn create_force_sensor(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     if a.int_or(0, 0)? & 1 != 0 {
-        return Err(ApiError::new("what a force sensor carries stays on it: it has no threshold at which it breaks"));
+        return Err(ApiError::new(
+            "a force sensor has no threshold at which it breaks: compare what sim.readForceSensor gives, then sim.breakForceSensor",
+        ));
     }
     one(sim.create_force_sensor()?)
 }

@@ -160,6 +160,20 @@ impl SimApi<'_> {
         Ok(())
     }
 
+    /// Parts what a force sensor carries from it: bodies are free, with the velocities that they have.
+    ///
+    /// # Errors
+    ///
+    /// The object is no force sensor.
+    pub(crate) fn break_force_sensor(&mut self, sensor: Handle) -> Result<(), ApiError> {
+        let entry = self.registry.entry(sensor)?;
+        if !matches!(entry.kind, Kind::ForceSensor(_)) {
+            return Err(ApiError(format!("`{}` is no force sensor", entry.path)));
+        }
+        let carried: Vec<Handle> = self.registry.visible_children(Some(sensor)).map(|entry| entry.handle).collect();
+        carried.into_iter().try_for_each(|body| self.set_parent(body, None, true))
+    }
+
     /// Makes a body fixed in the world where it is, or free.
     ///
     /// # Errors
