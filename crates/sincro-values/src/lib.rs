@@ -6,9 +6,11 @@
 //! | `cbor.rs`, `unpack.rs` | values as bytes and back |
 //! | `stored.rs` | data under tags |
 //! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
+//! | `clouds.rs` | contents of octrees and point clouds |
 //! | `ports.rs` | TCP ports that scripts ask for |
 
 pub mod cbor;
+pub mod clouds;
 mod error;
 mod handle;
 mod ports;

@@ -1,0 +1,218 @@
+//! Contents of octrees and point clouds: cubes of one size by their place, and points, each with a colour.
+//!
+//! Places are in the frame of the octree or point cloud `[m]`.
+
+use std::collections::BTreeMap;
+
+use super::ApiError;
+
+/// Voxels of an octree, or points of a point cloud, at most.
+pub const MAX_ITEMS: usize = 20_000;
+
+/// Voxels of an octree: cubes of one size whose edges lie along the axes, a corner of one of them in the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Voxels {
+    size: f64,
+    /// Colour and tag of the voxel `[i, j, k]`, from `i·size` to `(i + 1)·size` along x.
+    cells: BTreeMap<[i32; 3], ([u8; 3], i64)>,
+}
+
+impl Voxels {
+    /// Creates an empty octree with voxels of that size `[m]`.
+    ///
+    /// # Errors
+    ///
+    /// The size is not positive.
+    pub fn new(size: f64) -> Result<Self, ApiError> {
+        if !(size.is_finite() && size > 0.0) {
+            return Err(ApiError(format!("voxels of {size} m: expected more than 0")));
+        }
+        Ok(Self { size, cells: BTreeMap::new() })
+    }
+
+    /// Size of a voxel `[m]`.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Number of voxels.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Returns true if there are no voxels.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.cells.is_empty()
+    }
+
+    /// The voxel that a point `[m]` is in.
+    fn cell(&self, point: [f64; 3]) -> Result<[i32; 3], ApiError> {
+        let mut cell = [0; 3];
+        for (index, x) in cell.iter_mut().zip(point) {
+            let place = (x / self.size).floor();
+            if !(-1e9..=1e9).contains(&place) {
+                return Err(ApiError(format!(
+                    "a point at {x} m is not finite, or too far away for voxels of {} m",
+                    self.size
+                )));
+            }
+            *index = place as i32;
+        }
+        Ok(cell)
+    }
+
+    /// Adds the voxel that a point `[m]` is in, or gives it another colour and tag. Returns its centre `[m]` if it is
+    /// new.
+    ///
+    /// # Errors
+    ///
+    /// The point is too far away, or there are [`MAX_ITEMS`] voxels already.
+    pub fn insert(&mut self, point: [f64; 3], color: [u8; 3], tag: i64) -> Result<Option<[f64; 3]>, ApiError> {
+        let cell = self.cell(point)?;
+        let is_new = !self.cells.contains_key(&cell);
+        if is_new && self.cells.len() >= MAX_ITEMS {
+            return Err(ApiError(format!("an octree has {MAX_ITEMS} voxels at most: take larger ones")));
+        }
+        self.cells.insert(cell, (color, tag));
+        Ok(is_new.then(|| self.center(&cell)))
+    }
+
+    /// Removes the voxel that a point `[m]` is in; nothing if there is none.
+    ///
+    /// # Errors
+    ///
+    /// The point is too far away.
+    pub fn remove(&mut self, point: [f64; 3]) -> Result<(), ApiError> {
+        let cell = self.cell(point)?;
+        self.cells.remove(&cell);
+        Ok(())
+    }
+
+    /// Removes all voxels.
+    pub fn clear(&mut self) {
+        self.cells.clear();
+    }
+
+    /// Tag of the voxel that a point `[m]` is in; none if there is none.
+    ///
+    /// # Errors
+    ///
+    /// The point is too far away.
+    pub fn tag_at(&self, point: [f64; 3]) -> Result<Option<i64>, ApiError> {
+        Ok(self.cells.get(&self.cell(point)?).map(|(_, tag)| *tag))
+    }
+
+    fn center(&self, cell: &[i32; 3]) -> [f64; 3] {
+        cell.map(|k| (f64::from(k) + 0.5) * self.size)
+    }
+
+    /// Centres `[m]` and colours of all voxels, in the order of their places.
+    pub fn items(&self) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
+        self.cells.iter().map(|(cell, (color, _))| (self.center(cell), *color))
+    }
+}
+
+/// Points of a point cloud, in the order in which they were added.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Points {
+    points: Vec<([f64; 3], [u8; 3])>,
+}
+
+impl Points {
+    /// Number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Returns true if there are no points.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Adds a point `[m]`, unless one is nearer than `tolerance` `[m]`. Returns true if it was added.
+    ///
+    /// # Errors
+    ///
+    /// The point is not finite, or there are [`MAX_ITEMS`] points already.
+    pub fn insert(&mut self, point: [f64; 3], color: [u8; 3], tolerance: f64) -> Result<bool, ApiError> {
+        if !point.iter().all(|x| x.is_finite()) {
+            return Err(ApiError(format!("the point {point:?} is not finite")));
+        }
+        if tolerance > 0.0 && self.points.iter().any(|(other, _)| is_within(*other, point, tolerance)) {
+            return Ok(false);
+        }
+        if self.points.len() >= MAX_ITEMS {
+            return Err(ApiError(format!("a point cloud has {MAX_ITEMS} points at most: give a duplicate tolerance")));
+        }
+        self.points.push((point, color));
+        Ok(true)
+    }
+
+    /// Removes the points that are nearer to a place `[m]` than `tolerance` `[m]`.
+    pub fn remove(&mut self, place: [f64; 3], tolerance: f64) {
+        self.points.retain(|(point, _)| !is_within(*point, place, tolerance));
+    }
+
+    /// Keeps only the points that are nearer than `tolerance` `[m]` to one of some places `[m]`.
+    pub fn keep(&mut self, places: &[[f64; 3]], tolerance: f64) {
+        self.points.retain(|(point, _)| places.iter().any(|place| is_within(*point, *place, tolerance)));
+    }
+
+    /// Removes all points.
+    pub fn clear(&mut self) {
+        self.points.clear();
+    }
+
+    /// Places `[m]` and colours of all points.
+    pub fn items(&self) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
+        self.points.iter().copied()
+    }
+}
+
+fn is_within(a: [f64; 3], b: [f64; 3], distance: f64) -> bool {
+    let [x, y, z]: [f64; 3] = std::array::from_fn(|k| a[k] - b[k]);
+    x * x + y * y + z * z <= distance * distance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_one_cube_are_one_voxel() {
+        let mut voxels = Voxels::new(0.5).unwrap();
+        assert_eq!(voxels.insert([0.1, 0.1, 0.1], [255, 0, 0], 7).unwrap(), Some([0.25; 3]));
+        assert_eq!(voxels.insert([0.4, 0.4, 0.4], [0, 255, 0], 8).unwrap(), None);
+        assert_eq!(voxels.insert([-0.1, 0.4, 0.4], [0, 0, 255], 9).unwrap(), Some([-0.25, 0.25, 0.25]));
+        assert_eq!((voxels.len(), voxels.tag_at([0.2; 3]).unwrap()), (2, Some(8)));
+        voxels.remove([0.49; 3]).unwrap();
+        assert_eq!(voxels.items().collect::<Vec<_>>(), [([-0.25, 0.25, 0.25], [0, 0, 255])]);
+        assert!(voxels.insert([f64::NAN, 0.0, 0.0], [0; 3], 0).is_err() && Voxels::new(0.0).is_err());
+    }
+
+    #[test]
+    fn a_point_near_another_one_is_not_added() {
+        let mut points = Points::default();
+        assert!(points.insert([0.0; 3], [0; 3], 0.01).unwrap());
+        assert!(!points.insert([0.005, 0.0, 0.0], [0; 3], 0.01).unwrap());
+        assert!(points.insert([0.005, 0.0, 0.0], [0; 3], 0.0).unwrap());
+        points.remove([0.0; 3], 0.001);
+        assert_eq!(points.items().next(), Some(([0.005, 0.0, 0.0], [0; 3])));
+        points.keep(&[[1.0; 3]], 0.1);
+        assert!(points.is_empty());
+    }
+
+    #[test]
+    fn contents_have_a_limit() {
+        let mut points = Points::default();
+        for k in 0..MAX_ITEMS {
+            points.insert([k as f64, 0.0, 0.0], [0; 3], 0.0).unwrap();
+        }
+        assert!(points.insert([-1.0; 3], [0; 3], 0.0).is_err());
+    }
+}
