@@ -172,7 +172,17 @@ impl ApiController {
     /// Calls the scripts, if there are any; their time is that of `at`.
     fn call_scripts(&mut self, phase: Phase, at: Instant<'_>) -> Result<(), ScriptError> {
         let Some(scripts) = &mut self.scripts else { return Ok(()) };
-        scripts.call(phase, at.world, &mut self.registry, (at.tick, at.t))
+        scripts.call(phase, at.world, &mut self.registry, (at.tick, at.t))?;
+        self.make_bodies(at)
+    }
+
+    /// Makes the bodies that clients and scripts have told shapes to be, before the world goes on.
+    fn make_bodies(&mut self, at: Instant<'_>) -> Result<(), ScriptError> {
+        let Some(registry) = &mut self.registry else { return Ok(()) };
+        SimApi::new(registry, at.world, at.t).make_bodies().map_err(|ApiError(message)| {
+            let message = format!("shapes that become bodies: {message}");
+            ScriptError { object: "/".to_owned(), at: None, message, help: None }
+        })
     }
 }
 

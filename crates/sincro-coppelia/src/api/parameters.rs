@@ -97,6 +97,14 @@ impl SimApi<'_> {
         if id == 3019 && matches!(entry.kind, Kind::Body(_) | Kind::Shape) {
             return self.set_respondable_mask(handle, value);
         }
+        if let (3003 | 3004, Some(role)) = (id, self.role(handle)) {
+            match (id, value != 0) {
+                (3003, is_static) => role.is_static = is_static,
+                (_, is_respondable) => role.is_respondable = is_respondable,
+            }
+            return Ok(());
+        }
+        let entry = self.registry.entry(handle)?;
         if entry.kind == Kind::Shape && matches!(id, 3003 | 3004) {
             // static and not respondable it is
             let (is_static, is_respondable) = (id != 3003, id == 3004);

@@ -26,7 +26,7 @@ use super::note::Notes;
 use super::pairs::{self, Pair};
 use super::scene_objects::handle_of_id;
 use super::senses::Senses;
-use super::structure::{Belt, Link, Needed};
+use super::structure::{Belt, Link, Material, Needed, Role};
 
 use super::vision::Vision;
 use super::{ApiError, Phase};
@@ -36,6 +36,7 @@ use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
 use sincro_sim::restructure::Restructured;
 pub use sincro_values::Handle;
+use sincro_values::clouds::{Points, Voxels};
 use sincro_values::radio::Radio;
 use sincro_values::stored::Stored;
 use sincro_values::tubes::Tubes;
@@ -258,6 +259,16 @@ pub struct ObjectRegistry {
     pub(super) added: BTreeSet<Handle>,
     /// Joints that were made and move nothing yet, with their keys in a scene file: they are no part of the model.
     pub(super) parked: BTreeMap<Handle, Map<String, serde_json::Value>>,
+    /// Shapes that become bodies of the model at the next compilation, in the order in which they were told to.
+    pub(super) roles: Vec<(Handle, Role)>,
+    /// Voxels of shapes that are octrees.
+    pub(super) octrees: BTreeMap<Handle, Voxels>,
+    /// Points of shapes that are point clouds.
+    pub(super) clouds: BTreeMap<Handle, Points>,
+    /// Friction and restitution of objects that touch nothing, for the time when they do.
+    pub(super) materials: BTreeMap<Handle, Material>,
+    /// Masses of shapes that are no bodies, for the time when they are `[kg]`.
+    pub(super) masses: BTreeMap<Handle, f64>,
     /// Needs of the diagram.
     pub(super) needed: Arc<Needed>,
     /// Changes of the structure that the lock-step has not taken yet.
@@ -370,6 +381,11 @@ impl ObjectRegistry {
             scene: Arc::clone(scene),
             added: BTreeSet::new(),
             parked: BTreeMap::new(),
+            roles: Vec::new(),
+            materials: BTreeMap::new(),
+            octrees: BTreeMap::new(),
+            clouds: BTreeMap::new(),
+            masses: BTreeMap::new(),
             needed: Arc::new(Needed::new(loaded)),
             restructured: None,
             is_last_placement: false,
@@ -814,6 +830,7 @@ impl ObjectRegistry {
         self.restructured = None;
         self.is_last_placement = false;
         (self.initial_velocities, self.resets) = (BTreeMap::new(), BTreeMap::new());
+        (self.roles, self.masses, self.materials) = (Vec::new(), before.masses.clone(), before.materials.clone());
         if !Arc::ptr_eq(&self.scene, &before.scene) {
             self.end_restructured_run(before);
             return;

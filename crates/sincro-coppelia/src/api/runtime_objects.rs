@@ -70,6 +70,11 @@ impl ObjectRegistry {
         self.senses.forget(handle);
         self.drawings.forget(handle);
         self.parked.remove(&handle);
+        self.roles.retain(|(shape, _)| *shape != handle);
+        self.masses.remove(&handle);
+        self.materials.remove(&handle);
+        self.octrees.remove(&handle);
+        self.clouds.remove(&handle);
         self.forget_links(handle);
         self.looks.retain(|(owner, _), _| *owner != handle);
         self.component_colors.retain(|(owner, _), _| *owner != handle);

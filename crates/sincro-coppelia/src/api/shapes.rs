@@ -136,6 +136,30 @@ impl SimApi<'_> {
         }))
     }
 
+    /// Returns true if shapes that wait to become bodies are the same body if they are grouped before: solids of closed
+    /// form, all fixed or none, of no mass but that of water, on which nothing hangs and which hang on nothing. The
+    /// role of the first is that of all.
+    fn are_one_before_bodies(&mut self, first: Handle, others: &[Handle]) -> bool {
+        let Some(role) = self.role(first).copied() else { return false };
+        let is_alike = |sim: &mut Self, shape: Handle| {
+            let of_shape = sim.role(shape).copied();
+            let is_alone = sim.registry.tree(shape).len() == 1
+                && sim.registry.entry(shape).is_ok_and(|entry| entry.parent.is_none());
+            let has_mass = sim.registry.masses.contains_key(&shape);
+            let is_solid = sim
+                .registry
+                .senses
+                .parts_of(shape)
+                .iter()
+                .all(|(p, _)| matches!(p.geometry.surface(), Surface::Solid(_)));
+            is_solid
+                && is_alone
+                && !has_mass
+                && of_shape.is_some_and(|own| own.is_static == role.is_static && own.mass.is_none())
+        };
+        std::iter::once(first).chain(others.iter().copied()).all(|shape| is_alike(self, shape))
+    }
+
     /// One shape of several: the first one keeps its frame and name, the others are removed. Bodies that were made at
     /// run time become one body.
     ///
@@ -146,6 +170,9 @@ impl SimApi<'_> {
         let [first, others @ ..] = shapes else { return Err(ApiError::new("give two shapes at least")) };
         if others.is_empty() || (1..shapes.len()).any(|k| shapes[..k].contains(&shapes[k])) {
             return Err(ApiError::new("give two shapes at least, each once"));
+        }
+        if !self.are_one_before_bodies(*first, others) {
+            self.make_bodies()?;
         }
         let is_body = |sim: &Self, shape: &Handle| {
             sim.registry.entry(*shape).is_ok_and(|entry| matches!(entry.kind, Kind::Body(_)))

@@ -187,12 +187,21 @@ impl Session {
     ///
     /// Never: a session's lock-step has a registry.
     pub fn sim(&mut self) -> SimApi<'_> {
+        let mut sim = self.sim_as_it_is();
+        if let Err(ApiError(message)) = sim.make_bodies() {
+            sim.log(200, &format!("shapes that become bodies: {message}"));
+        }
+        sim
+    }
+
+    /// The functions of the API while shapes wait to become bodies.
+    fn sim_as_it_is(&mut self) -> SimApi<'_> {
         ApiController::sim(&mut self.lockstep).expect("a session's lock-step has a registry")
     }
 
     /// Objects of the scene and runtime objects, with all that clients and scripts store: handles, signals, setpoints.
     pub fn registry(&mut self) -> &mut ObjectRegistry {
-        self.sim().registry
+        self.sim_as_it_is().registry
     }
 
     /// State of the simulation: stopped, running or paused.
@@ -243,8 +252,8 @@ impl Session {
     /// No function of that name is offered, it has refused its arguments, or what it requested failed; the message
     /// names the function.
     pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, ApiError> {
-        let result = functions::call(&mut self.sim(), name, arguments)?;
-        self.follow_structure()?;
+        let result = functions::call(&mut self.sim_as_it_is(), name, arguments)?;
+        self.follow_changes()?;
         self.do_requests()?;
         Ok(result)
     }
@@ -331,6 +340,12 @@ impl Session {
     ///
     /// A controller cannot: the run has then ended.
     fn follow_structure(&mut self) -> Result<(), ApiError> {
+        self.sim_as_it_is().make_bodies()?;
+        self.follow_changes()
+    }
+
+    /// As [`Session::follow_structure`], while shapes wait to become bodies.
+    fn follow_changes(&mut self) -> Result<(), ApiError> {
         self.lockstep.follow_structure().map_err(|halt| {
             let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
             self.fail(status)
@@ -379,6 +394,7 @@ impl Session {
             Phase::Stopped => {}
         }
         self.open_scripts()?;
+        self.sim_as_it_is().make_bodies()?;
         if std::mem::take(&mut self.registry().is_model_changed) {
             self.adopt();
         }
@@ -578,7 +594,9 @@ impl Session {
         if registry.phase != Phase::Running {
             return Ok(());
         }
-        for _ in 0..registry.sample_ticks() {
+        let n_ticks = registry.sample_ticks();
+        self.follow_structure()?;
+        for _ in 0..n_ticks {
             let advanced = self.lockstep.advance();
             let Some(run) = &mut self.run else { return Ok(()) };
             if advanced.as_ref().err().is_none_or(sincro_sim::run::Halt::is_after_step) {

@@ -117,7 +117,7 @@ impl ApiContext<'_> {
             let (mut has_restructured, mut work) = (false, 0);
             let result = shared.with_sim(own, |sim| {
                 let before = sim.registry.scene().clone();
-                let result = (function.run)(sim, Arguments(&given));
+                let result = function.call(sim, Arguments(&given));
                 has_restructured = !Arc::ptr_eq(&before, sim.registry.scene());
                 work = sim.work();
                 result

@@ -5,7 +5,7 @@ use sincro_dynamics::spatial::{Pose, Sym3, Vec3};
 
 use super::{Function, Outcome, done, handle, one};
 use crate::api::convention::{matrix_of, pose_of_matrix};
-use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
+use crate::api::{ApiError, Arguments, Handle, Kind, Reference, SimApi, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -42,6 +42,23 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: compute,
     },
     Function {
+        name: "setEngineFloatParam",
+        tip: "int result=sim.setEngineFloatParam(int paramId,int objectHandle,float floatParam)",
+        run: |sim, a| {
+            let object = handle(sim, a, 1)?;
+            sim.set_engine_float(a.int(0)?, object, a.real(2)?)?;
+            one(1_i64)
+        },
+    },
+    Function {
+        name: "getEngineFloatParam",
+        tip: "float floatParam=sim.getEngineFloatParam(int paramId,int objectHandle)",
+        run: |sim, a| {
+            let object = handle(sim, a, 1)?;
+            one(sim.engine_float(a.int(0)?, object)?)
+        },
+    },
+    Function {
         name: "isDynamicallyEnabled",
         tip: "bool enabled=sim.isDynamicallyEnabled(int objectHandle)",
         run: is_dynamic,
@@ -70,6 +87,10 @@ fn push_at(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn mass(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let shape = super::handle(sim, a, 0)?;
+    if sim.registry.entry(shape)?.kind == Kind::Shape {
+        return one(sim.shape_mass(shape)?);
+    }
     let own = body(sim, a)?;
     one(sim.mass(own)?.mass)
 }
@@ -97,6 +118,10 @@ fn both(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 /// V-REP keeps the inertia of a unit of mass: it grows with the mass.
 fn set_mass(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let shape = super::handle(sim, a, 0)?;
+    if sim.registry.entry(shape)?.kind == Kind::Shape {
+        return sim.set_shape_mass(shape, a.real(1)?).and_then(|()| done());
+    }
     let own = body(sim, a)?;
     let scaled = sim.mass_scaled(own, a.real(1)?)?;
     sim.set_mass(own, scaled)?;

@@ -8,6 +8,7 @@ mod absent;
 mod bits;
 mod bodies;
 mod buffers;
+mod clouds;
 mod collections;
 mod control;
 mod distances;
@@ -71,7 +72,63 @@ pub struct Function {
     pub run: fn(&mut SimApi<'_>, Arguments<'_>) -> Outcome,
 }
 
+/// Functions that see a shape which is to be a body (`shapeintparam_static`, `shapeintparam_respondable`) as they see
+/// the body, and those that look at no objects: with them, shapes that a script makes one after the other become bodies
+/// in one compilation of the scene.
+const BEFORE_BODIES: &[&str] = &[
+    "addLog",
+    "addStatusbarMessage",
+    "buildMatrix",
+    "buildPose",
+    "createDummy",
+    "createMeshShape",
+    "createPrimitiveShape",
+    "createPureShape",
+    "createShape",
+    "getObjectHandle",
+    "getObject",
+    "getEngineFloatParam",
+    "getObjectAlias",
+    "getObjectMatrix",
+    "getObjectName",
+    "getObjectOrientation",
+    "getObjectPose",
+    "getObjectPosition",
+    "getObjectQuaternion",
+    "getRandom",
+    "getSimulationTime",
+    "getSimulationTimeStep",
+    "groupShapes",
+    "isHandle",
+    "setEngineFloatParam",
+    "setObjectAlias",
+    "setObjectColor",
+    "setObjectInt32Param",
+    "setObjectMatrix",
+    "setObjectName",
+    "setObjectOrientation",
+    "setObjectPose",
+    "setObjectPosition",
+    "setObjectQuaternion",
+    "setObjectSpecialProperty",
+    "setShapeColor",
+    "setShapeMass",
+];
+
 impl Function {
+    /// Calls the function. Shapes that a client or script has told to be bodies are made bodies of the model before, at
+    /// once, unless the function sees no difference.
+    ///
+    /// # Errors
+    ///
+    /// The function has refused its arguments, or the model cannot have the bodies.
+    pub fn call(&self, sim: &mut SimApi<'_>, arguments: Arguments<'_>) -> Outcome {
+        if !sim.registry.roles.is_empty() && !BEFORE_BODIES.contains(&self.name) {
+            sim.make_bodies()?;
+        }
+        (self.run)(sim, arguments)
+    }
+
     /// Returns true if argument `k`, counted from 0, may be nil by the call tip: `string colorName=nil`.
     ///
     /// ```
@@ -118,6 +175,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         distances::FUNCTIONS,
         collections::FUNCTIONS,
         shapes::FUNCTIONS,
+        clouds::FUNCTIONS,
         bits::FUNCTIONS,
         tubes::FUNCTIONS,
         radio::FUNCTIONS,
@@ -204,7 +262,7 @@ pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
         let short: String = name.chars().take(100).collect();
         ApiError(format!("No such function: {short}"))
     })?;
-    (function.run)(sim, Arguments(arguments)).map_err(|ApiError(message)| {
+    function.call(sim, Arguments(arguments)).map_err(|ApiError(message)| {
         ApiError(format!("{message} (in function '{}.{}')", module_of(name), function.name))
     })
 }

@@ -225,10 +225,12 @@ pub(super) const FUNCTIONS: &[Function] = &[
 
 impl SimApi<'_> {
     /// Number of an object's type as V-REP has it: 0 shapes and bodies, 1 joints and rotors, 5 proximity sensors, 9
-    /// vision sensors, 12 force sensors, 4 (dummies) for everything else.
+    /// vision sensors, 12 force sensors, 15 octrees, 16 point clouds, 4 (dummies) for everything else.
     #[must_use]
     pub fn type_of(&self, entry: &Entry) -> i64 {
         match entry.kind {
+            Kind::Shape if self.registry.octrees.contains_key(&entry.handle) => 15,
+            Kind::Shape if self.registry.clouds.contains_key(&entry.handle) => 16,
             Kind::Body(_) | Kind::Shape => 0,
             Kind::Proximity => 5,
             Kind::Joint(Some(_)) => 1,

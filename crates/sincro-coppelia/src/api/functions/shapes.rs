@@ -149,7 +149,7 @@ fn pure(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// Numbers of argument `k` by threes.
-fn threes(a: Arguments<'_>, k: usize) -> Result<Vec<[f64; 3]>, ApiError> {
+pub(super) fn threes(a: Arguments<'_>, k: usize) -> Result<Vec<[f64; 3]>, ApiError> {
     let wrong = || ApiError(format!("argument {} is no list of numbers, three by three", k + 1));
     let list = a.get(k).as_reals().filter(|list| list.len() % 3 == 0).ok_or_else(wrong)?;
     Ok(list.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect())

@@ -18,7 +18,7 @@ use sincro_scene::scenery::Piece;
 /// Density of what is made without a mass, as in V-REP [kg/m³].
 const DENSITY: f64 = 1000.0;
 /// Coefficient of friction of what is made, that of V-REP's default material.
-const FRICTION: f64 = 0.71;
+pub(super) const FRICTION: f64 = 0.71;
 
 /// Role of a shape in the dynamics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,54 +154,150 @@ impl SimApi<'_> {
         Ok(self.fresh_name(&name))
     }
 
-    /// Gives a shape that was made a role in the dynamics: it becomes a body of the model. One that moves is free,
-    /// unless it hangs on a joint or on something that moves.
+    /// Gives a shape that was made a role in the dynamics: it becomes a body of the model at the next compilation, with
+    /// all others that wait for it ([`SimApi::make_bodies`]). One that moves is free, unless it hangs on a joint or on
+    /// something that moves.
     ///
     /// # Errors
     ///
-    /// The shape encloses no volume, or the model cannot be so.
+    /// The shape encloses no volume, or there are too many objects.
     pub(crate) fn give_role(&mut self, shape: Handle, role: Role) -> Result<(), ApiError> {
-        let entry = self.registry.entry(shape)?.clone();
+        let entry = self.registry.entry(shape)?;
         if entry.kind != Kind::Shape {
             return Err(ApiError(format!("`{}` is no shape that was made at run time", entry.path)));
         }
-        self.check_room(2)?;
-        let mut shapes = Vec::new();
-        let parts = self.registry.senses.parts_of(shape);
-        let hull = hull_mass(&parts, role.mass);
-        for (piece, place) in parts {
-            let mut keys = shape_keys(piece.geometry.surface(), &entry.path)?;
-            keys.extend(pose_keys(&place));
-            let [r, g, b] = piece.color;
-            keys.insert("color".into(), format!("#{r:02x}{g:02x}{b:02x}").into());
-            shapes.push(Value::Object(keys));
+        if self.registry.octrees.contains_key(&shape) || self.registry.clouds.contains_key(&shape) {
+            return Err(ApiError(format!("`{}` is no shape: octrees and point clouds move nothing", entry.path)));
         }
+        self.check_room(2 * (self.registry.roles.len() + 1))?;
+        // refused now, not when it is compiled
+        self.shapes_of_body(shape)?;
+        self.registry.roles.retain(|(other, _)| *other != shape);
+        self.registry.roles.push((shape, role));
+        Ok(())
+    }
+
+    /// Role that a shape has from the next compilation on; none if it has none or is a body already.
+    pub(crate) fn role(&mut self, shape: Handle) -> Option<&mut Role> {
+        self.registry.roles.iter_mut().find(|(other, _)| *other == shape).map(|(_, role)| role)
+    }
+
+    /// Gives a shape that is no body, or is one from the next compilation on, a mass `[kg]` for the time when it is
+    /// one.
+    ///
+    /// # Errors
+    ///
+    /// The mass is not positive.
+    pub(crate) fn set_shape_mass(&mut self, shape: Handle, mass: f64) -> Result<(), ApiError> {
+        if !(mass.is_finite() && mass > 0.0) {
+            let path = &self.registry.entry(shape)?.path;
+            return Err(ApiError(format!("mass {mass} kg of `{path}` is not positive")));
+        }
+        self.registry.masses.insert(shape, mass);
+        Ok(())
+    }
+
+    /// Mass of a shape that is no body `[kg]`: the one that it was given, else that of water.
+    ///
+    /// # Errors
+    ///
+    /// It has none of its own and encloses no volume.
+    pub(crate) fn shape_mass(&mut self, shape: Handle) -> Result<f64, ApiError> {
+        if let Some(mass) = self.registry.masses.get(&shape) {
+            return Ok(*mass);
+        }
+        self.shapes_of_body(shape)?;
+        let parts = self.registry.senses.parts_of(shape);
+        if let Some(hull) = hull_mass(&parts, None) {
+            return Ok(hull.mass);
+        }
+        let mut sum = 0.0;
+        for (piece, _) in parts {
+            let Surface::Solid(solid) = piece.geometry.surface() else {
+                let path = &self.registry.entry(shape)?.path;
+                return Err(ApiError(format!("`{path}` has several meshes: give it a mass with sim.setShapeMass")));
+            };
+            sum += solid.mass_properties(DENSITY).mass;
+        }
+        Ok(sum)
+    }
+
+    /// Makes bodies of the model of all shapes that wait for it: one compilation. Shapes that a scene cannot have do
+    /// not keep the others from it.
+    ///
+    /// # Errors
+    ///
+    /// The model cannot be so, for the first of them.
+    pub(crate) fn make_bodies(&mut self) -> Result<(), ApiError> {
+        let roles = std::mem::take(&mut self.registry.roles);
+        match &roles[..] {
+            [] => return Ok(()),
+            [one] => return self.make_bodies_of(std::slice::from_ref(one)),
+            all if self.make_bodies_of(all).is_ok() => return Ok(()),
+            _ => {}
+        }
+        let mut first = Ok(());
+        for one in roles.chunks(1) {
+            let made = self.make_bodies_of(one);
+            first = first.and(made);
+        }
+        first
+    }
+
+    fn make_bodies_of(&mut self, roles: &[(Handle, Role)]) -> Result<(), ApiError> {
         let mut edit = self.draft()?;
-        self.join_parked(entry.parent, &mut edit)?;
-        let (parent, x_wp) = self.parent_in_edit(entry.parent, &edit)?;
+        for (shape, role) in roles {
+            self.add_body(*shape, *role, &mut edit)?;
+        }
+        self.rebuild(edit)
+    }
+
+    /// Adds the body that a shape becomes to an edit.
+    fn add_body(&mut self, shape: Handle, role: Role, edit: &mut Rebuild) -> Result<(), ApiError> {
+        let entry = self.registry.entry(shape)?.clone();
+        let parts = self.registry.senses.parts_of(shape);
+        let own_mass = self.registry.masses.get(&shape).copied().or(role.mass);
+        let hull = hull_mass(&parts, own_mass);
+        let shapes = self.shapes_of_body(shape)?;
+        self.join_parked(entry.parent, edit)?;
+        let (parent, x_wp) = self.parent_in_edit(entry.parent, edit)?;
         let place = self.pose(shape, Reference::World)?;
         let name = self.model_name(shape)?;
         let mut keys = table([("name", name.clone().into()), ("shape", Value::Array(shapes))]);
-        match (hull, role.mass) {
+        match (hull, own_mass) {
             (Some(hull), _) => keys.extend(mass_keys(&hull)),
             (None, Some(mass)) => drop(keys.insert("mass".into(), mass.into())),
             (None, None) => drop(keys.insert("density".into(), DENSITY.into())),
         }
         if role.is_respondable {
-            keys.insert("contact".into(), contact_keys());
+            keys.insert("contact".into(), self.contact_keys(shape));
         }
         let is_carried = edit.joined.contains_key(&parent) || self.moves(&parent);
         let (parent, pose) = if role.is_static || is_carried {
             (parent, x_wp.inverse().compose(&place))
         } else {
-            let joint = self.fresh_name(&format!("{name}_free"));
+            let joint = self.fresh_name_in(&format!("{name}_free"), &edit.draft);
             (edit.draft.add("joint", free_joint(&joint, "/", &place)), Pose::identity())
         };
         keys.insert("parent".into(), parent.into());
         keys.extend(pose_keys(&pose));
         let path = edit.draft.add("body", keys);
         edit.joined.insert(path, shape);
-        self.rebuild(edit)
+        Ok(())
+    }
+
+    /// Parts of a shape as the scene file has them, in its frame.
+    fn shapes_of_body(&mut self, shape: Handle) -> Result<Vec<Value>, ApiError> {
+        let path = self.registry.entry(shape)?.path.clone();
+        let parts = self.registry.senses.parts_of(shape);
+        let keys = parts.into_iter().map(|(piece, place)| {
+            let mut keys = shape_keys(piece.geometry.surface(), &path)?;
+            keys.extend(pose_keys(&place));
+            let [r, g, b] = piece.color;
+            keys.insert("color".into(), format!("#{r:02x}{g:02x}{b:02x}").into());
+            Ok(Value::Object(keys))
+        });
+        keys.collect()
     }
 
     /// Returns true if an object of the model moves.
@@ -231,7 +327,7 @@ impl SimApi<'_> {
         if keys.get("shape").and_then(Value::as_array).is_none_or(Vec::is_empty) {
             return Err(ApiError(format!("`{path}` has no shape to touch others with")));
         }
-        keys.insert("contact".into(), contact_keys());
+        keys.insert("contact".into(), self.contact_keys(body));
         edit.draft.replace(&path, "body", keys);
         self.rebuild(edit)
     }
@@ -248,10 +344,6 @@ fn hull_mass(parts: &[(Piece, Pose<f64>)], mass: Option<f64>) -> Option<MassProp
     let scale = mass.map_or(1.0, |mass| mass / of_water.mass);
     let inertia = of_water.inertia.map(|x| x * scale);
     Some(MassProperties { mass: of_water.mass * scale, inertia, ..of_water })
-}
-
-fn contact_keys() -> Value {
-    Value::Object(table([("friction", FRICTION.into())]))
 }
 
 /// A surface as a shape of a scene file; meshes are their convex hulls.

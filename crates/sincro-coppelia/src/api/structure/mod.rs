@@ -12,6 +12,7 @@ mod group;
 mod hang;
 mod link;
 mod make;
+mod materials;
 mod model;
 mod motors;
 mod needed;
@@ -21,6 +22,7 @@ mod stops;
 pub(super) use belt::Belt;
 pub(super) use link::Link;
 pub(crate) use make::Role;
+pub(super) use materials::Material;
 pub(super) use needed::Needed;
 
 use std::collections::BTreeMap;
@@ -95,6 +97,10 @@ impl SimApi<'_> {
             // it is a runtime object no longer: its pieces are those of the scene
             self.registry.senses.forget_parts(*handle);
             self.registry.parked.remove(handle);
+            self.registry.masses.remove(handle);
+            if self.registry.scene().objects.iter().any(|o| handle_of_object(o) == *handle && o.contact.is_some()) {
+                self.registry.materials.remove(handle);
+            }
             if self.registry.entry(*handle).is_ok_and(|entry| entry.is_runtime) {
                 self.registry.n_created -= 1;
             }
@@ -274,16 +280,26 @@ impl SimApi<'_> {
 
     /// A name that no object has, made of another one.
     fn fresh_name(&self, name: &str) -> String {
+        self.unused_name(name, |_| false)
+    }
+
+    /// As [`SimApi::fresh_name`], of an object of the world that an edit adds beside others.
+    fn fresh_name_in(&self, name: &str, draft: &SceneDraft) -> String {
+        self.unused_name(name, |name| draft.table(&format!("/{name}")).is_some())
+    }
+
+    fn unused_name(&self, name: &str, is_taken: impl Fn(&str) -> bool) -> String {
+        let is_taken = |name: &str| self.registry.names.contains_key(name) || is_taken(name);
         let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         let plain: String = name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
         let plain = if plain.is_empty() { "Object".to_owned() } else { plain };
         let stem = plain.trim_end_matches(|c: char| c.is_ascii_digit());
         let stem = if stem.is_empty() { &plain } else { stem };
         let mut candidates = (0..).map(|k: usize| format!("{stem}{k}"));
-        if !self.registry.names.contains_key(&plain) {
+        if !is_taken(&plain) {
             return plain;
         }
-        candidates.find(|name| !self.registry.names.contains_key(name)).expect("there are not that many objects")
+        candidates.find(|name| !is_taken(name)).expect("there are not that many objects")
     }
 }
 

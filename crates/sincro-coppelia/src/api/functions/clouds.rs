@@ -1,0 +1,226 @@
+//! Functions: octrees and point clouds. Voxels are cubes, points small balls: sensors, distances and pictures see them
+//! as they see shapes; they have no mass and touch nothing.
+
+use sincro_dynamics::contact::Surface;
+use sincro_dynamics::model::Shape;
+use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_values::clouds::{Points, Voxels};
+
+use super::{Function, Outcome, handle, one};
+use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
+
+/// Radius of the ball that a point is `[m]`.
+const POINT_RADIUS: f64 = 0.0025;
+/// Option: points are given in the frame of the octree or point cloud, not in the world.
+const IS_LOCAL: i64 = 1;
+/// Option: each point has a colour of its own.
+const HAS_COLORS: i64 = 2;
+
+pub(super) const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "createOctree",
+        tip: "int handle=sim.createOctree(float voxelSize,int options=0,float pointSize=1)",
+        run: |sim, a| {
+            let voxels = Voxels::new(a.real(0)?)?;
+            let own = sim.create_shape("Octree", Vec::new())?;
+            sim.registry.octrees.insert(own, voxels);
+            one(own)
+        },
+    },
+    Function {
+        name: "insertVoxelsIntoOctree",
+        tip: "int totalVoxelCnt=sim.insertVoxelsIntoOctree(int octreeHandle,int options,float[] pts,int[] color=nil,int[] tag=nil)",
+        run: insert_voxels,
+    },
+    Function {
+        name: "removeVoxelsFromOctree",
+        tip: "int totalVoxelCnt=sim.removeVoxelsFromOctree(int octreeHandle,int options,float[] pts=nil)",
+        run: |sim, a| {
+            let (own, mut voxels) = octree(sim, a)?;
+            if a.has(2) {
+                points(sim, a, (own, 2))?.into_iter().try_for_each(|point| voxels.remove(point))?;
+            } else {
+                voxels.clear();
+            }
+            show_voxels(sim, own, voxels)
+        },
+    },
+    Function {
+        name: "getOctreeVoxels",
+        tip: "float[] voxels=sim.getOctreeVoxels(int octreeHandle)",
+        run: |sim, a| super::list(octree(sim, a)?.1.items().flat_map(|(center, _)| center)),
+    },
+    Function {
+        name: "checkOctreePointOccupancy",
+        tip: "int result,int tag=sim.checkOctreePointOccupancy(int octreeHandle,int options,float[] points)",
+        run: |sim, a| {
+            let (own, voxels) = octree(sim, a)?;
+            let given = points(sim, a, (own, 2))?;
+            let tags = given.into_iter().map(|point| voxels.tag_at(point)).collect::<Result<Vec<_>, ApiError>>()?;
+            // of several points, whether one is inside
+            let tag = tags.into_iter().flatten().next();
+            Ok(vec![i64::from(tag.is_some()).into(), tag.unwrap_or(0).into()])
+        },
+    },
+    Function {
+        name: "createPointCloud",
+        tip: "int handle=sim.createPointCloud(float maxVoxelSize,int maxPtCntPerVoxel,int options=0,float pointSize=1)",
+        run: |sim, _| {
+            let own = sim.create_shape("PointCloud", Vec::new())?;
+            sim.registry.clouds.insert(own, Points::default());
+            one(own)
+        },
+    },
+    Function {
+        name: "insertPointsIntoPointCloud",
+        tip: "int totalPointCnt=sim.insertPointsIntoPointCloud(int pointCloudHandle,int options,float[] pts,int[] color=nil,float duplicateTolerance=0)",
+        run: insert_points,
+    },
+    Function {
+        name: "removePointsFromPointCloud",
+        tip: "int totalPointCnt=sim.removePointsFromPointCloud(int pointCloudHandle,int options,float[] pts,float distanceTolerance)",
+        run: |sim, a| {
+            let (own, mut cloud) = cloud(sim, a)?;
+            if a.has(2) {
+                let tolerance = distance(a, 3)?;
+                points(sim, a, (own, 2))?.into_iter().for_each(|point| cloud.remove(point, tolerance));
+            } else {
+                cloud.clear();
+            }
+            show_points(sim, own, cloud)
+        },
+    },
+    Function {
+        name: "intersectPointsWithPointCloud",
+        tip: "int totalPointCnt=sim.intersectPointsWithPointCloud(int pointCloudHandle,int options,float[] pts,float distanceTolerance)",
+        run: |sim, a| {
+            let (own, mut cloud) = cloud(sim, a)?;
+            cloud.keep(&points(sim, a, (own, 2))?, distance(a, 3)?);
+            show_points(sim, own, cloud)
+        },
+    },
+    Function {
+        name: "getPointCloudPoints",
+        tip: "float[] points=sim.getPointCloudPoints(int pointCloudHandle)",
+        run: |sim, a| super::list(cloud(sim, a)?.1.items().flat_map(|(point, _)| point)),
+    },
+];
+
+/// The octree of the first argument, with a copy of its voxels.
+fn octree(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<(Handle, Voxels), ApiError> {
+    let own = handle(sim, a, 0)?;
+    let path = &sim.registry.entry(own)?.path;
+    let wrong = || ApiError(format!("`{path}` is no octree: sim.createOctree makes one"));
+    Ok((own, sim.registry.octrees.get(&own).cloned().ok_or_else(wrong)?))
+}
+
+/// The point cloud of the first argument, with a copy of its points.
+fn cloud(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<(Handle, Points), ApiError> {
+    let own = handle(sim, a, 0)?;
+    let path = &sim.registry.entry(own)?.path;
+    let wrong = || ApiError(format!("`{path}` is no point cloud: sim.createPointCloud makes one"));
+    Ok((own, sim.registry.clouds.get(&own).cloned().ok_or_else(wrong)?))
+}
+
+/// Points of argument `k` in the frame of an octree or point cloud `[m]`.
+fn points(sim: &mut SimApi<'_>, a: Arguments<'_>, (own, k): (Handle, usize)) -> Result<Vec<[f64; 3]>, ApiError> {
+    let given = super::shapes::threes(a, k)?;
+    if a.int(1)? & IS_LOCAL != 0 {
+        return Ok(given);
+    }
+    let x_cw = sim.pose(own, Reference::World)?.inverse();
+    Ok(given.into_iter().map(|point| x_cw.point(Vec3(point)).0).collect())
+}
+
+/// A tolerance, argument `k` `[m]`.
+fn distance(a: Arguments<'_>, k: usize) -> Result<f64, ApiError> {
+    let x = if a.has(k) { a.real(k)? } else { 0.0 };
+    if x.is_finite() && x >= 0.0 { Ok(x) } else { Err(ApiError(format!("a tolerance of {x} m: expected 0 or more"))) }
+}
+
+/// Colours of argument 4, from 0 to 255: one for all points, or one for each of `n`.
+fn colors(a: Arguments<'_>, n: usize) -> Result<Vec<[u8; 3]>, ApiError> {
+    if !a.has(3) {
+        return Ok(vec![[255, 0, 0]; n]);
+    }
+    let given = super::shapes::threes(a, 3)?;
+    let byte = |x: f64| x.clamp(0.0, 255.0).round() as u8;
+    let all: Vec<[u8; 3]> = given.into_iter().map(|color| color.map(byte)).collect();
+    match (a.int(1)? & HAS_COLORS != 0, all.len()) {
+        (true, m) if m == n => Ok(all),
+        (false, 1..) => Ok(vec![all[0]; n]),
+        (is_own, m) => {
+            let expected = if is_own { n } else { 1 };
+            Err(ApiError(format!(
+                "{m} colours, expected {expected} of red, green, blue (option 2: one for each point)"
+            )))
+        }
+    }
+}
+
+fn insert_voxels(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, mut voxels) = octree(sim, a)?;
+    let given = points(sim, a, (own, 2))?;
+    let colors = colors(a, given.len())?;
+    let tags: Vec<i64> = match a.get(4) {
+        Value::Nil => Vec::new(),
+        tags => tags
+            .as_reals()
+            .ok_or_else(|| ApiError::new("argument 5 is no list of tags"))?
+            .iter()
+            .map(|x| *x as i64)
+            .collect(),
+    };
+    for (k, (point, color)) in given.into_iter().zip(colors).enumerate() {
+        let tag = tags.get(k).or(tags.first()).copied().unwrap_or(0);
+        voxels.insert(point, color, tag)?;
+    }
+    show_voxels(sim, own, voxels)
+}
+
+fn insert_points(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (own, mut cloud) = cloud(sim, a)?;
+    let (given, tolerance) = (points(sim, a, (own, 2))?, distance(a, 4)?);
+    let colors = colors(a, given.len())?;
+    for (point, color) in given.into_iter().zip(colors) {
+        cloud.insert(point, color, tolerance)?;
+    }
+    show_points(sim, own, cloud)
+}
+
+/// Keeps the voxels of an octree and shows them; returns their number.
+fn show_voxels(sim: &mut SimApi<'_>, own: Handle, voxels: Voxels) -> Outcome {
+    let cube = Surface::Solid(Shape::Cuboid { size: [voxels.size(); 3] });
+    sim.show_items(own, cube, voxels.items())?;
+    let n = voxels.len();
+    sim.registry.octrees.insert(own, voxels);
+    one(n as i64)
+}
+
+/// Keeps the points of a point cloud and shows them; returns their number.
+fn show_points(sim: &mut SimApi<'_>, own: Handle, cloud: Points) -> Outcome {
+    sim.show_items(own, Surface::Solid(Shape::Sphere { radius: POINT_RADIUS }), cloud.items())?;
+    let n = cloud.len();
+    sim.registry.clouds.insert(own, cloud);
+    one(n as i64)
+}
+
+impl SimApi<'_> {
+    /// Shows one surface at some places of an object `[m]`, in place of what it showed before.
+    fn show_items(
+        &mut self,
+        own: Handle,
+        surface: Surface,
+        items: impl Iterator<Item = ([f64; 3], [u8; 3])>,
+    ) -> Result<(), ApiError> {
+        self.finish_pictures();
+        self.registry.senses.forget_parts(own);
+        let frame = self.registry.entry(own)?.frame;
+        let geometry = self.registry.senses.prepare(surface)?;
+        for (place, color) in items {
+            self.registry.senses.add(own, &frame, geometry.clone(), Pose::translation(Vec3(place)));
+            self.registry.senses.paint_last(color);
+        }
+        Ok(())
+    }
+}

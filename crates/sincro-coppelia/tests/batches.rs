@@ -1,0 +1,258 @@
+//! Shapes that clients make one after the other and that become bodies of the model at once; octrees and point clouds.
+
+use std::sync::Arc;
+
+use sincro_coppelia::api::{Search, Value};
+use sincro_coppelia::session::Session;
+use sincro_sim::Extensions;
+use sincro_testing::scenes::box_above_floor;
+use sincro_testing::{OpenSession, SceneFolder};
+
+/// Acceleration of gravity [m/s²].
+const G: f64 = 9.81;
+/// `sim.shapeintparam_static`, `sim.shapeintparam_respondable`.
+const STATIC: i64 = 3003;
+const RESPONDABLE: i64 = 3004;
+
+const EXPERIMENT: &str = r#"
+title = "Batches"
+duration = 10.0
+step = 0.005
+record = ["energy.balance"]
+error_bar = "none"
+"#;
+
+fn open() -> OpenSession {
+    OpenSession::open(SceneFolder::of(&box_above_floor(0.05), EXPERIMENT), &[], Extensions::default(), None)
+}
+
+fn call(session: &mut Session, name: &str, arguments: &[Value]) -> Vec<Value> {
+    session.call(name, arguments).unwrap_or_else(|error| panic!("{name}: {error:?}"))
+}
+
+fn number(session: &mut Session, name: &str, arguments: &[Value]) -> f64 {
+    call(session, name, arguments)[0].as_real().unwrap()
+}
+
+/// A cube of 0.1 m at a place.
+fn cube(session: &mut Session, place: [f64; 3]) -> Value {
+    let made = call(session, "sim.createPrimitiveShape", &[3_i64.into(), Value::reals([0.1; 3]), 0_i64.into()]);
+    let [own] = <[Value; 1]>::try_from(made).unwrap();
+    call(session, "sim.setObjectPosition", &[own.clone(), Value::reals(place), (-1_i64).into()]);
+    own
+}
+
+fn set(session: &mut Session, shape: &Value, parameter: i64, value: i64) {
+    call(session, "sim.setObjectInt32Param", &[shape.clone(), parameter.into(), value.into()]);
+}
+
+/// A cube that moves and touches others.
+fn dynamic_cube(session: &mut Session, place: [f64; 3]) -> Value {
+    let own = cube(session, place);
+    set(session, &own, STATIC, 0);
+    set(session, &own, RESPONDABLE, 1);
+    own
+}
+
+fn height(session: &mut Session, shape: &Value) -> f64 {
+    call(session, "sim.getObjectPosition", &[shape.clone(), (-1_i64).into()])[0].as_reals().unwrap()[2]
+}
+
+#[test]
+fn shapes_made_between_two_steps_are_one_change_of_the_scene() {
+    let mut session = open();
+    session.start().unwrap();
+    let before = Arc::clone(session.registry().scene());
+    let cubes: Vec<Value> =
+        (0..200).map(|k| dynamic_cube(&mut session, [1.0 + f64::from(k % 20), 1.0 + f64::from(k / 20), 2.0])).collect();
+    assert!(Arc::ptr_eq(&before, session.registry().scene()), "the scene was compiled before the step");
+    session.step().unwrap();
+    let after = session.registry().scene();
+    // a body and a free joint for each
+    assert_eq!(after.objects.len(), before.objects.len() + 400);
+    let t = session.registry().sample_time();
+    for cube in &cubes {
+        let z = height(&mut session, cube);
+        assert!((z - (2.0 - 0.5 * G * t * t)).abs() < 1e-9, "z = {z} m");
+    }
+}
+
+#[test]
+fn a_function_that_needs_a_body_finds_one() {
+    let mut session = open();
+    session.start().unwrap();
+    let own = dynamic_cube(&mut session, [1.0, 0.0, 1.0]);
+    assert_eq!(call(&mut session, "sim.isDynamicallyEnabled", std::slice::from_ref(&own)), [Value::Bool(true)]);
+    let mass = number(&mut session, "sim.getShapeMass", std::slice::from_ref(&own));
+    assert!((mass - 1.0).abs() < 1e-12, "a litre of water has {mass} kg");
+    // typed functions, which have no name
+    let other = dynamic_cube(&mut session, [2.0, 0.0, 1.0]);
+    let handle = sincro_coppelia::api::Handle(other.as_int().unwrap() as i32);
+    assert!((session.sim().mass(handle).unwrap().mass - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_shape_keeps_the_mass_that_it_was_given_before_it_is_a_body() {
+    let mut session = open();
+    let own = cube(&mut session, [1.0, 0.0, 1.0]);
+    call(&mut session, "sim.setShapeMass", &[own.clone(), 0.25.into()]);
+    assert_eq!(number(&mut session, "sim.getShapeMass", std::slice::from_ref(&own)), 0.25);
+    set(&mut session, &own, STATIC, 0);
+    session.start().unwrap();
+    let both = call(&mut session, "sim.getShapeMassAndInertia", std::slice::from_ref(&own));
+    assert!((both[0].as_real().unwrap() - 0.25).abs() < 1e-12);
+    // m·(a² + a²)/12
+    let inertia = both[1].as_reals().unwrap()[0];
+    assert!((inertia - 0.25 * 0.02 / 12.0).abs() < 1e-12, "{inertia} kg·m²");
+    let refused = session.call("sim.setShapeMass", &[own, 0.0.into()]);
+    assert!(refused.is_err());
+}
+
+#[test]
+fn shapes_grouped_before_they_are_bodies_are_the_body_of_shapes_grouped_after() {
+    let grouped = |is_settled: bool| {
+        let mut session = open();
+        session.start().unwrap();
+        let cubes = [[1.0, 0.0, 2.0], [1.1, 0.0, 2.0], [1.1, 0.1, 2.0]].map(|place| dynamic_cube(&mut session, place));
+        if is_settled {
+            let _ = session.sim();
+        }
+        let group = call(&mut session, "sim.groupShapes", &[Value::List(cubes.to_vec())]).remove(0);
+        let both = call(&mut session, "sim.getShapeMassAndInertia", std::slice::from_ref(&group));
+        session.step().unwrap();
+        let numbers = both.iter().flat_map(|value| value.as_reals().unwrap_or_else(|| vec![value.as_real().unwrap()]));
+        (numbers.collect::<Vec<f64>>(), height(&mut session, &group))
+    };
+    let (before, after) = (grouped(false), grouped(true));
+    assert_eq!(before.0.len(), after.0.len());
+    for (x, y) in before.0.iter().zip(&after.0) {
+        assert!((x - y).abs() < 1e-12, "{x} and {y}");
+    }
+    assert!((before.0[0] - 3.0).abs() < 1e-12 && (before.1 - after.1).abs() < 1e-12);
+}
+
+#[test]
+fn a_shape_without_volume_is_refused_when_it_is_told_to_move() {
+    let mut session = open();
+    let flat = call(&mut session, "sim.createPrimitiveShape", &[1_i64.into(), Value::reals([1.0; 3]), 0_i64.into()]);
+    let refused = session.call("sim.setObjectInt32Param", &[flat[0].clone(), STATIC.into(), 0_i64.into()]);
+    assert!(refused.unwrap_err().0.contains("needs a volume"));
+    session.start().unwrap();
+    session.step().unwrap();
+}
+
+#[test]
+fn voxels_of_an_octree_are_seen_where_they_are() {
+    let mut session = open();
+    let octree = call(&mut session, "sim.createOctree", &[0.1.into()]).remove(0);
+    assert_eq!(call(&mut session, "sim.getObjectType", std::slice::from_ref(&octree)), [Value::Int(15)]);
+    let points = Value::reals([2.01, 0.01, 0.01, 2.09, 0.09, 0.09, 2.11, 0.01, 0.01]);
+    let n = call(&mut session, "sim.insertVoxelsIntoOctree", &[octree.clone(), 0_i64.into(), points.clone()]);
+    assert_eq!(n, [Value::Int(2)]);
+    let centers = call(&mut session, "sim.getOctreeVoxels", std::slice::from_ref(&octree))[0].as_reals().unwrap();
+    for (x, y) in centers.iter().zip([2.05, 0.05, 0.05, 2.15, 0.05, 0.05]) {
+        assert!((x - y).abs() < 1e-12, "{centers:?}");
+    }
+    let dummy = call(&mut session, "sim.createPrimitiveShape", &[4_i64.into(), Value::reals([0.1; 3]), 0_i64.into()]);
+    let ball = dummy[0].clone();
+    call(&mut session, "sim.setObjectPosition", &[ball.clone(), Value::reals([1.0, 0.05, 0.05]), (-1_i64).into()]);
+    let distance = |session: &mut Session| {
+        let found = call(session, "sim.checkDistance", &[ball.clone(), octree.clone()]);
+        found[1].as_reals().unwrap()[6]
+    };
+    assert!((distance(&mut session) - 0.95).abs() < 1e-9);
+    // where it is moved to, points of the world are other voxels
+    call(&mut session, "sim.setObjectPosition", &[octree.clone(), Value::reals([1.0, 0.0, 0.0]), (-1_i64).into()]);
+    assert!((distance(&mut session) - 1.95).abs() < 1e-9);
+    let inside = [octree.clone(), 0_i64.into(), Value::reals([3.01, 0.01, 0.01])];
+    assert_eq!(call(&mut session, "sim.checkOctreePointOccupancy", &inside)[0], Value::Int(1));
+    assert_eq!(call(&mut session, "sim.removeVoxelsFromOctree", &inside), [Value::Int(1)]);
+    assert_eq!(call(&mut session, "sim.checkOctreePointOccupancy", &inside)[0], Value::Int(0));
+    assert_eq!(call(&mut session, "sim.removeVoxelsFromOctree", &[octree.clone(), 0_i64.into()]), [Value::Int(0)]);
+    let refused = session.call("sim.insertVoxelsIntoOctree", &[ball, 0_i64.into(), points]);
+    assert!(refused.unwrap_err().0.contains("is no octree"));
+    let refused = session.call("sim.setObjectInt32Param", &[octree, STATIC.into(), 0_i64.into()]);
+    assert!(refused.unwrap_err().0.contains("move nothing"));
+}
+
+#[test]
+fn points_of_a_cloud_come_back_without_duplicates() {
+    let mut session = open();
+    let cloud = call(&mut session, "sim.createPointCloud", &[0.02.into(), 20_i64.into()]).remove(0);
+    assert_eq!(call(&mut session, "sim.getObjectType", std::slice::from_ref(&cloud)), [Value::Int(16)]);
+    let points = Value::reals([1.0, 0.0, 0.0, 1.0, 0.001, 0.0, 1.0, 1.0, 0.0]);
+    let color = Value::List([255, 0, 0].map(Value::Int).to_vec());
+    let given = [cloud.clone(), 0_i64.into(), points, color, 0.01.into()];
+    assert_eq!(call(&mut session, "sim.insertPointsIntoPointCloud", &given), [Value::Int(2)]);
+    let kept = call(&mut session, "sim.getPointCloudPoints", std::slice::from_ref(&cloud));
+    assert_eq!(kept, [Value::reals([1.0, 0.0, 0.0, 1.0, 1.0, 0.0])]);
+    let near = [cloud.clone(), 0_i64.into(), Value::reals([1.0, 1.0, 0.0]), 0.1.into()];
+    assert_eq!(call(&mut session, "sim.removePointsFromPointCloud", &near), [Value::Int(1)]);
+    let one = [cloud.clone(), 0_i64.into(), Value::reals([0.0; 6]), Value::reals([1.0, 2.0]), 0.0.into()];
+    assert!(session.call("sim.insertPointsIntoPointCloud", &one).is_err());
+    // made in a run, it goes with it
+    session.start().unwrap();
+    let other = call(&mut session, "sim.createPointCloud", &[0.02.into(), 20_i64.into()]).remove(0);
+    session.stop().unwrap();
+    assert!(session.call("sim.getPointCloudPoints", std::slice::from_ref(&other)).is_err());
+    assert!(session.call("sim.getPointCloudPoints", &[cloud]).is_ok());
+}
+
+#[test]
+fn what_a_broken_force_sensor_carried_falls() {
+    let scene = r#"
+joint = [{ name = "hook", kind = "fixed", force_sensor = true, position = [0.0, 0.0, 2.0] }]
+body = [{ name = "lamp", parent = "/hook", mass = 2.0, shape = [{ sphere = { radius = 0.05 } }] }]
+"#;
+    let experiment = EXPERIMENT;
+    let mut session = OpenSession::open(SceneFolder::of(scene, experiment), &[], Extensions::default(), None);
+    session.start().unwrap();
+    session.step().unwrap();
+    let find =
+        |session: &mut Session, path: &str| Value::from(session.registry().find(path, Search::default()).unwrap());
+    let (hook, lamp) = (find(&mut session, "/hook"), find(&mut session, "/lamp"));
+    let force = call(&mut session, "sim.readForceSensor", std::slice::from_ref(&hook))[1].as_reals().unwrap();
+    assert!((force[2].abs() - 2.0 * G).abs() < 1e-9, "{force:?} N");
+    assert!(session.call("sim.breakForceSensor", std::slice::from_ref(&lamp)).is_err());
+    call(&mut session, "sim.breakForceSensor", &[hook]);
+    let n = 20;
+    for _ in 0..n {
+        session.step().unwrap();
+    }
+    let t = f64::from(n) * session.registry().sample_time();
+    let z = height(&mut session, &lamp);
+    assert!((z - (2.0 - 0.5 * G * t * t)).abs() < 1e-9, "z = {z} m");
+}
+
+#[test]
+fn friction_of_an_engine_is_that_of_the_contact() {
+    // sim.bullet_body_friction, sim.newton_body_restitution, sim.bullet_body_lineardamping
+    let (friction, restitution, damping) = (6003_i64, 33_003_i64, 6004_i64);
+    let mut session = open();
+    let own = dynamic_cube(&mut session, [1.0, 1.0, 0.05]);
+    let get = |session: &mut Session, own: &Value, id: i64| {
+        number(session, "sim.getEngineFloatParam", &[id.into(), own.clone()])
+    };
+    assert_eq!((get(&mut session, &own, friction), get(&mut session, &own, restitution)), (0.71, 0.0));
+    call(&mut session, "sim.setEngineFloatParam", &[friction.into(), own.clone(), 0.2.into()]);
+    session.start().unwrap();
+    session.step().unwrap();
+    // it is a body now
+    assert_eq!(get(&mut session, &own, friction), 0.2);
+    let keys = |session: &mut Session| {
+        let path =
+            session.registry().entry(sincro_coppelia::api::Handle(own.as_int().unwrap() as i32)).unwrap().path.clone();
+        session.registry().scene().object(&path).unwrap().contact.unwrap()
+    };
+    assert!((keys(&mut session).friction - 0.2).abs() < 1e-12);
+    call(&mut session, "sim.setEngineFloatParam", &[friction.into(), own.clone(), 0.5.into()]);
+    call(&mut session, "sim.setEngineFloatParam", &[restitution.into(), own.clone(), 0.25.into()]);
+    let contact = keys(&mut session);
+    assert!((contact.friction - 0.5).abs() < 1e-12 && (contact.restitution - 0.25).abs() < 1e-12);
+    let refused = |session: &mut Session, id: i64, value: f64| {
+        session.call("sim.setEngineFloatParam", &[id.into(), own.clone(), value.into()]).unwrap_err().0
+    };
+    assert!(refused(&mut session, damping, 0.1).contains("friction and restitution of shapes are offered"));
+    assert!(refused(&mut session, restitution, 1.5).contains("expected 0 to 1"));
+    assert!(refused(&mut session, friction, -0.1).contains("expected 0 or more"));
+}
