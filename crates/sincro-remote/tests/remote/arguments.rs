@@ -19,7 +19,9 @@ pub const ELSEWHERE: [&str; 8] = [
 
 /// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops,
 /// couplings, groups, a motion, mesh files.
-pub const NEEDS_MORE: [&str; 28] = [
+pub const NEEDS_MORE: [&str; 32] = [
+    "getEngineFloatParameter",
+    "setEngineFloatParameter",
     "addScript",
     "createScript",
     "setScriptText",
@@ -29,6 +31,8 @@ pub const NEEDS_MORE: [&str; 28] = [
     "setJointDependency",
     "getContactInfo",
     "readForceSensor",
+    "breakForceSensor",
+    "launchExecutable",
     "getIkGroupHandle",
     "handleIkGroup",
     "checkIkGroup",
@@ -67,6 +71,8 @@ pub struct Made {
     drawing: Value,
     motion: Value,
     path: Value,
+    octree: Value,
+    cloud: Value,
 }
 
 impl Made {
@@ -79,15 +85,17 @@ impl Made {
         let collection = make("sim.createCollection", &[Value::Int(0)]);
         let drawing = make("sim.addDrawingObject", &drawing_arguments());
         let (motion, path) = (make("sim.ruckigPos", &motion_arguments()), make("sim.createPath", &path_arguments()));
-        Self { point, shapes, sensor, collection, drawing, motion, path }
+        let octree = make("sim.createOctree", &[Value::Real(0.1)]);
+        let cloud = make("sim.createPointCloud", &[Value::Real(0.02), Value::Int(20)]);
+        Self { point, shapes, sensor, collection, drawing, motion, path, octree, cloud }
     }
 }
 
 impl Made {
     /// Objects to be removed once a name was called: sensors and shapes that stay are looked at in every step.
-    pub fn objects(&self) -> [Value; 4] {
+    pub fn objects(&self) -> [Value; 6] {
         let [one, other] = &self.shapes;
-        [self.point.clone(), one.clone(), other.clone(), self.sensor.clone()]
+        [&self.point, one, other, &self.sensor, &self.octree, &self.cloud].map(Value::clone)
     }
 }
 
@@ -117,7 +125,7 @@ fn motion_arguments() -> Vec<Value> {
 /// Arguments that fit where none of the others do.
 pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
     let Things { joint, body, eye, made } = things;
-    let Made { point, shapes: [shape, other], sensor, collection, drawing, motion, path } = made;
+    let Made { point, shapes: [shape, other], sensor, collection, drawing, motion, path, octree, cloud } = made;
     let three = || Value::reals([0.1, 0.2, 0.3]);
     let turn = || Value::reals([0.0, 0.0, 0.0, 1.0]);
     let pose = || Value::reals([1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0]);
@@ -170,6 +178,19 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "emptyCollection" | "removeCollection" | "destroyCollection" | "getCollectionObjects" => {
             vec![collection.clone()]
         }
+        "setEngineFloatParam" => vec![int(6003), shape.clone(), Value::Real(0.5)],
+        "getEngineFloatParam" => vec![int(6003), shape.clone()],
+        "createOctree" => vec![Value::Real(0.1)],
+        "createPointCloud" => vec![Value::Real(0.02), int(20)],
+        "insertVoxelsIntoOctree" | "removeVoxelsFromOctree" | "checkOctreePointOccupancy" => {
+            vec![octree.clone(), int(0), three()]
+        }
+        "getOctreeVoxels" => vec![octree.clone()],
+        "insertPointsIntoPointCloud" => vec![cloud.clone(), int(0), three()],
+        "removePointsFromPointCloud" | "intersectPointsWithPointCloud" => {
+            vec![cloud.clone(), int(0), three(), Value::Real(0.1)]
+        }
+        "getPointCloudPoints" => vec![cloud.clone()],
         "groupShapes" => vec![Value::List(vec![shape.clone(), other.clone()])],
         "ungroupShape" => vec![shape.clone()],
         "scaleObject" => vec![shape.clone(), Value::Real(2.0), Value::Real(2.0), Value::Real(2.0)],
