@@ -116,9 +116,7 @@ impl<R: Real> Task for ForwardDynamics<'_, R> {
 
 #[inline(always)]
 fn velocities_base_to_tip<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
-    let inertias = &model.params.inertias[..model.links.len()];
-    for (i, link) in model.links.iter().enumerate() {
-        let inertia = &inertias[i];
+    for (i, (link, inertia)) in model.links.iter().zip(&model.params.inertias).enumerate() {
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &done[link.parent as usize].v);
         link.kind.dispatch(Velocity { link, inertia, q: input.q, v: input.v, parent, out: &mut rest[0] });
@@ -176,9 +174,7 @@ pub(crate) fn joint_motion<S: Stage, R: Real>(link: &Link<R>, x: &[R]) -> Motion
 
 #[inline(always)]
 fn inertias_tip_to_base<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
-    let inertias = &model.params.inertias[..model.links.len()];
-    for (i, link) in model.links.iter().enumerate().rev() {
-        let inertia = &inertias[i];
+    for (i, (link, inertia)) in model.links.iter().zip(&model.params.inertias).enumerate().rev() {
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize]);
         let dofs = &mut scratch.dofs[link.v_idx as usize..];

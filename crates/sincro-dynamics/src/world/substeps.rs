@@ -51,6 +51,10 @@ impl World {
         span: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
+        let has_events = system.zero_crossing_count().is_some();
+        if !(has_events || self.is_constrained() || self.has_limited_drives()) {
+            return self.smooth_sub_steps(start, span, system);
+        }
         let (mut t, end, mut events, mut idle, mut close) = (start, start + span, 0, 0, 0);
         let (mut share, mut after_event, mut crawling) = (IDLE_STEP, false, 0);
         let zeno_fallback = self.zeno_fallback();
@@ -59,19 +63,11 @@ impl World {
             return self.finish_at_velocity_level(start, span, system);
         }
         while t < end {
-            let reach_target_velocities = system.next_time_event(t);
-            let corner = self.model().next_time_event(t).min(reach_target_velocities).min(end);
-            system.set_time_event(if reach_target_velocities <= corner + SAME_INSTANT {
-                corner
-            } else {
-                f64::INFINITY
-            });
+            let corner = self.next_corner(t, end, system);
             if self.is_constrained() && end - t < 1e-13 * span {
                 break;
             }
-            // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
-            let h_max = if t == start && corner == end { span } else { corner - t };
-            let h_max = if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max };
+            let h_max = self.longest_sub_step((t, corner), (start, end, span));
             if self.is_constrained() {
                 self.resolve_impacts();
                 self.may_graze = idle <= MAX_GRAZING_EVENTS;
@@ -84,7 +80,6 @@ impl World {
                     return Err((t, Stop::Unsolved { t, residual: report.worst_residual }));
                 }
             }
-            let has_events = system.zero_crossing_count().is_some();
             let limited = self.has_limited_drives() || self.is_constrained() || has_events;
             let control = if limited { self.control() } else { None };
             if limited {
@@ -101,11 +96,7 @@ impl World {
                     continue;
                 }
                 Err((t, Stop::Integration(Failure::NotFinite { .. }))) if !self.y.iter().all(|x| x.is_finite()) => {
-                    // the coupled system has last seen a trial state: its own is the saved one
-                    let own = self.mechanism.dim();
-                    self.mechanism.load(&self.state, &mut self.y);
-                    self.y[own..].copy_from_slice(&self.attached_before);
-                    return Err((start, Stop::Integration(Failure::NotFinite { t })));
+                    return Err(self.not_finite(start, t));
                 }
                 made => made?,
             };
@@ -138,6 +129,60 @@ impl World {
         Ok(())
     }
 
+    /// Makes sub-steps over `span` from `start` where nothing switches: they end at time events alone. The same steps
+    /// as [`World::sub_steps`] makes, without what looks for events.
+    fn smooth_sub_steps<A: CoupledSystem<f64>>(
+        &mut self,
+        start: f64,
+        span: f64,
+        system: &mut A,
+    ) -> Result<(), (f64, Stop)> {
+        let (mut t, end) = (start, start + span);
+        while t < end {
+            let corner = self.next_corner(t, end, system);
+            let h_max = self.longest_sub_step((t, corner), (start, end, span));
+            let made = self.method_step(t, h_max, ModeRule::HeldAndChecked, system);
+            if !self.y.iter().all(|x| x.is_finite()) && matches!(made, Ok(_) | Err(Failure::NotFinite { .. })) {
+                return Err(self.not_finite(start, t));
+            }
+            let h = made.map_err(|failure| (t, Stop::Integration(failure)))?;
+            self.statistics.steps += 1;
+            t = self.end_of_step(t, h, (h_max, corner));
+        }
+        Ok(())
+    }
+
+    /// Next time event after `t`, at most `end`; the coupled system is told if it is its own.
+    fn next_corner<A: CoupledSystem<f64>>(&self, t: f64, end: f64, system: &mut A) -> f64 {
+        let reach_target_velocities = system.next_time_event(t);
+        let corner = self.model().next_time_event(t).min(reach_target_velocities).min(end);
+        let is_own = reach_target_velocities <= corner + SAME_INSTANT;
+        system.set_time_event(if is_own { corner } else { f64::INFINITY });
+        corner
+    }
+
+    /// Longest sub-step from `t` up to the time event `corner`, of a tick from `start` to `end`.
+    fn longest_sub_step(&self, (t, corner): (f64, f64), (start, end, span): (f64, f64, f64)) -> f64 {
+        // the undivided step is exactly the tick, not (t + h) − t: lanes take it so
+        let h_max = if t == start && corner == end { span } else { corner - t };
+        if self.substeps > 1 { h_max.min(self.substep(span)) } else { h_max }
+    }
+
+    /// Time at the end of a step of length `h` from `t`, exactly that of the time event `corner` that it reaches.
+    fn end_of_step(&self, t: f64, h: f64, (h_max, corner): (f64, f64)) -> f64 {
+        if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h }
+    }
+
+    /// Goes back to the start of the tick, at `start`, after numbers at `t` that are not finite.
+    #[cold]
+    fn not_finite(&mut self, start: f64, t: f64) -> (f64, Stop) {
+        // the coupled system has last seen a trial state: its own is the saved one
+        let own = self.mechanism.dim();
+        self.mechanism.load(&self.state, &mut self.y);
+        self.y[own..].copy_from_slice(&self.attached_before);
+        (start, Stop::Integration(Failure::NotFinite { t }))
+    }
+
     /// Makes one sub-step from `t`, at most `h_max` and up to the time event `corner`; with `limited` drives or
     /// contacts its events are located, from the error control at its start. Returns the time reached, and true if it
     /// ends at an event.
@@ -157,7 +202,7 @@ impl World {
             return Err((t, Stop::Integration(Failure::NotFinite { t })));
         }
         self.statistics.steps += 1;
-        let reached = if h >= h_max && (self.substeps == 1 || t + h >= corner) { corner } else { t + h };
+        let reached = self.end_of_step(t, h, (h_max, corner));
         let event = if limited { self.find_event(t, h, (reached, violated), control, system)? } else { None };
         if let Some((bad, crossing)) = event {
             return Ok((self.locate_event(t, (bad, h), crossing, control, system)?, true));
