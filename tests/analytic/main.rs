@@ -1,5 +1,6 @@
 //! Integrators, drives and force elements against closed forms and orders of convergence.
 
+mod activations;
 mod air;
 mod bushings;
 mod contacts;

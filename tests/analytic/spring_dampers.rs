@@ -34,7 +34,7 @@ fn formula(text: &str) -> ForceLaw<f64> {
 
 fn between(a: (NodeId, [f64; 3]), b: (NodeId, [f64; 3]), law: ForceLaw<f64>) -> SpringDamperSpec {
     let path = PathSpec::Points(vec![a, b]);
-    SpringDamperSpec { path, free_length: None, law, tension_only: false, actuator: None }
+    SpringDamperSpec { path, free_length: None, law, tension_only: false, actuator: None, activation: None }
 }
 
 fn at(p: [f64; 3]) -> Pose<f64> {

@@ -20,7 +20,7 @@ use crate::spatial::{Quat, Vec3};
 /// | `drives` | state of each drive: locked (0) or saturated upwards (+1) or downwards (−1) | drives |
 /// | `contacts` | warm start: fallback, then slot, multipliers and contact mode of each loaded slot | 1 + 8 × slots, or 0 |
 /// | `totals` | work, dissipation and motor impulses since the start ([`crate::state`]) | 2 + motors |
-/// | `rotors` | speed of each rotor with a lag; of a stock propeller its mass flow this tick; currents of windings | [`Model::n_rotor_states`] |
+/// | `rotors` | speed of each rotor with a lag; of a stock propeller its mass flow this tick; currents of windings; activations | [`Model::n_rotor_states`] |
 /// | `tick` | base steps done | |
 ///
 /// ```
@@ -57,15 +57,16 @@ pub struct State<R> {
     /// Integrated work `[J]`, dissipated energy `[J]`, then the impulse of each motor `[N·m·s]` or `[N·s]`.
     pub totals: Vec<R>,
     /// Rotor states, in the order of the rotors that have one: speed of a rotor with a lag `[rad/s]`, mass flow of a
-    /// stock propeller during the present tick `[kg/s]`; then the current of each winding with inductance `[A]`.
+    /// stock propeller during the present tick `[kg/s]`; then the current of each winding with inductance `[A]`;
+    /// then the activation of each actuator that has one.
     pub rotors: Vec<R>,
     /// Number of base steps since the start.
     pub tick: u64,
 }
 
 impl<R: Real> State<R> {
-    /// State at rest, with all coordinates zero (quaternions: no rotation), commands and currents zero, rotors at their
-    /// initial speeds.
+    /// State at rest, with all coordinates zero (quaternions: no rotation), commands and currents zero, rotors and
+    /// activations at their initial values.
     #[must_use]
     pub fn new(model: &Model<R>) -> Self {
         let mut q = vec![R::zero(); model.n_q()];
@@ -77,7 +78,8 @@ impl<R: Real> State<R> {
             }
         }
         let mut rotors: Vec<R> = model.rotors().iter().filter_map(|rotor| rotor.speed.initial()).collect();
-        rotors.resize(model.n_rotor_states(), R::zero());
+        rotors.resize(model.n_rotor_states() - model.activations().len(), R::zero());
+        rotors.extend(model.activations().iter().map(|activation| activation.initial));
         Self {
             q,
             v: vec![R::zero(); model.n_v()],

@@ -15,7 +15,7 @@ pub(crate) struct ContinuousState {
     pub start: f64,
 }
 
-/// States in the order q, v, speeds of rotors with a lag, currents of windings, continuous blocks.
+/// States in the order q, v, speeds of rotors with a lag, currents of windings, activations, continuous blocks.
 #[must_use]
 pub(crate) fn states(loaded: &Loaded) -> Vec<ContinuousState> {
     let (model, initial) = (&loaded.scene.model, &loaded.scene.initial);
@@ -37,6 +37,9 @@ pub(crate) fn states(loaded: &Loaded) -> Vec<ContinuousState> {
         if let Some(state) = winding.state {
             all.push(named(Probe::Winding(WindingQuantity::Current, k), initial.rotors[state]));
         }
+    }
+    for (k, activation) in model.activations().iter().enumerate() {
+        all.push(named(Probe::Activation(k), initial.rotors[activation.state]));
     }
     if let Some(controller) = &loaded.controller {
         let program = controller.wiring.program();

@@ -70,7 +70,7 @@ pub(crate) fn tendon_mass(robot: &Robot, path: &TendonPath) -> Option<f64> {
     let law = ForceLaw { stiffness: 1.0, damping: 0.0, preload: 0.0, nonlinear: None };
     builder.spring_damper(
         "tendon",
-        SpringDamperSpec { path, free_length: None, law, tension_only: false, actuator: None },
+        SpringDamperSpec { path, free_length: None, law, tension_only: false, actuator: None, activation: None },
     );
     let (model, _) = builder.build().ok()?;
     let mass = stiffest(&model, &State::new(&model))?.inertia;

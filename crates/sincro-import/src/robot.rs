@@ -399,6 +399,8 @@ pub(crate) struct Tendon {
     pub limits: Option<TendonLimits>,
     /// Largest force of its actuator, infinite for none; none without actuator `[N]`.
     pub actuator: Option<f64>,
+    /// Activation of its actuator `[N]`.
+    pub activation: Option<Activation>,
 }
 
 /// Stops of a tendon, a spring and damper beyond each.
@@ -434,6 +436,37 @@ pub(crate) struct CommandedForce {
     pub wrench: [f64; 6],
 }
 
+/// A state between the command of an actuator and what acts, in the unit of the command.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Activation {
+    /// Time constant `[s]`; none of an integrator, whose command is the rate.
+    pub time_constant: Option<f64>,
+    /// Range of the input, that is of the command.
+    pub input_range: Option<[f64; 2]>,
+    /// Range of the activation.
+    pub range: Option<[f64; 2]>,
+    /// Activation at the start.
+    pub initial: f64,
+}
+
+impl Activation {
+    /// The activation of a command that is `scale` times this one plus `offset`.
+    pub fn scaled(&self, scale: f64, offset: f64) -> Self {
+        let of = |range: Option<[f64; 2]>, offset: f64| {
+            let ends = range.map(|range| range.map(|x| scale * x + offset));
+            ends.map(|[a, b]| [a.min(b), a.max(b)])
+        };
+        // the command of an integrator is a rate
+        let of_input = if self.time_constant.is_some() { offset } else { 0.0 };
+        Self {
+            input_range: of(self.input_range, of_input),
+            range: of(self.range, offset),
+            initial: scale * self.initial + offset,
+            ..*self
+        }
+    }
+}
+
 /// A motor of a joint.
 #[derive(Clone, Debug)]
 pub(crate) struct Motor {
@@ -445,6 +478,8 @@ pub(crate) struct Motor {
     pub max_torque: Option<f64>,
     /// Command at the start.
     pub command: f64,
+    /// Activation, in the unit of the command.
+    pub activation: Option<Activation>,
 }
 
 /// Laws of motors.

@@ -445,6 +445,11 @@ fn describe(loaded: &Loaded, at: &LockStep, state: &State<f64>, z: &[f64]) -> (V
         axes.push(current.map_or_else(|| axis(format!("current[{winding}]"), "A"), |e| axis(&e.name, &*e.unit)));
         values.push(state.rotors[k]);
     }
+    for (k, activation) in model.activations().iter().enumerate() {
+        let own = named(Probe::Activation(k));
+        axes.push(own.map_or_else(|| axis(format!("activation[{k}]"), ""), |e| axis(&e.name, &*e.unit)));
+        values.push(state.rotors[activation.state]);
+    }
     if let Some(control) = at.control() {
         for step in control.wiring().program().steps.iter().filter(|_| !z.is_empty()) {
             for k in step.states.clone() {

@@ -18,7 +18,7 @@ fn fields(request: &Request<'_>) -> Vec<(&'static str, &'static str, Vec<Named>)
     [
         ("q", "coordinates", q),
         ("v", "velocities", v),
-        ("elements", "states of rotors and windings", elements),
+        ("elements", "states of rotors, windings and activations", elements),
         ("commands", "commands of motors, forces and rotors", commands),
     ]
     .into_iter()

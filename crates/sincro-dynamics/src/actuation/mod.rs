@@ -7,6 +7,7 @@
 //! | `friction` | locked: any torque within the limit; sliding: ∓ limit(q̇) | | limit(q̇)·\|q̇\| |
 //! | [`motor`] | by mode | | −τ q̇ |
 //! | [`winding`] | N k_t i | ½ L i² | R i² |
+//! | [`activation`] | none: what acts in the place of a command | | |
 //! | [`applied`] | a signal of time | | −τ q̇ |
 //! | [`elastic_gear`] | −k p − c ẋ between two joints, outside of the backlash | ½ k p² | c ẋ² |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
@@ -16,6 +17,7 @@
 //! one that depends on the position as forces on bodies ([`gravity_field`]); elements in the air are in
 //! [`crate::aero`].
 
+pub mod activation;
 pub mod applied;
 pub mod bushing;
 pub(crate) mod damper;
@@ -29,6 +31,7 @@ pub mod spring;
 pub mod spring_damper;
 pub mod winding;
 
+pub use activation::{Activation, ActivationDynamics};
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use bushing::Bushing;
 pub use drive::{Drive, DriveKind};

@@ -221,8 +221,14 @@ impl<R: Real> SpringDamper<R> {
     /// of the model (n_commands), of which an actuator reads its own.
     #[inline(always)]
     pub fn forces(&self, length: R, rate: R, commands: &[R]) -> LineForces<R> {
+        self.forces_under(length, rate, self.actuator.map_or(R::zero(), |a| commands[a.command]))
+    }
+
+    /// Forces along the path as [`SpringDamper::forces`], for the `command` of its actuator `[N]`.
+    #[inline(always)]
+    pub fn forces_under(&self, length: R, rate: R, command: R) -> LineForces<R> {
         let (x, zero) = (length - self.free_length, R::zero());
-        let actuator = self.actuator.map_or(zero, |a| commands[a.command].clamp_abs(a.max_force));
+        let actuator = self.actuator.map_or(zero, |a| command.clamp_abs(a.max_force));
         let (elastic, both) = (self.law.force(x, zero), self.law.force(x, rate));
         if !self.tension_only {
             return LineForces { elastic, damping: both - elastic, actuator };

@@ -183,6 +183,8 @@ impl<R: Real> LaneWorlds<R> {
         let mut slope = vec![R::zero(); layout.dim()];
         self.mechanism.mark_locked();
         self.mechanism.slope(t, &self.y, &mut slope);
+        let states = layout.rotor_states();
+        self.mechanism.model.stop_activations(&self.y[states.clone()], &mut slope[states]);
         [&slope[layout.velocities()], &slope[layout.rotor_states()]].concat()
     }
 

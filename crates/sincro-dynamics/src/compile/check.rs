@@ -46,7 +46,9 @@ pub(super) fn check(builder: &ModelBuilder) -> Vec<Diagnostic> {
     for (name, spec) in &builder.spring_dampers {
         let is_line = matches!(&spec.path, PathSpec::Points(points) if points.len() == 2);
         let word = if is_line { "spring_damper" } else { "tendon" };
-        for (_, message, help) in spec.problems(&format!("{word} `{name}`")) {
+        let of = format!("{word} `{name}`");
+        let of_activation = spec.activation.iter().flat_map(|activation| activation.problems(&of));
+        for (_, message, help) in spec.problems(&of).into_iter().chain(of_activation) {
             let (severity, help) = (Severity::Error, help.into());
             found.0.push(Diagnostic { severity, node: None, field: "spring_damper", message, help });
         }
@@ -334,6 +336,7 @@ fn check_motor(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec, n
         found.error(id, "motor", message, if n == 0 { "a fixed joint has none: leave it out" } else { help });
     }
     check_windings(found, id, name, spec);
+    check_activations(found, id, name, spec);
     for motor in &spec.motor {
         let is_servo = matches!(motor.mode, MotorMode::Position | MotorMode::Spring);
         if is_servo && matches!(spec.kind, JointKind::Ball | JointKind::Free) {
@@ -365,6 +368,19 @@ fn check_windings(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec
                 let help = if is_positive { "give a number above zero" } else { "give zero or more" };
                 found.error(id, "motor", message, help);
             }
+        }
+    }
+}
+
+fn check_activations(found: &mut Findings, id: NodeId, name: &str, spec: &JointSpec) {
+    for (k, motor) in spec.motor.iter().enumerate() {
+        let Some(activation) = spec.activation.get(k).copied().flatten() else { continue };
+        if !matches!(motor.mode, MotorMode::Torque | MotorMode::Spring | MotorMode::Voltage) {
+            let message = format!("motor of `{name}`: an ideal motor has no activation");
+            found.error(id, "motor", message, "take mode `torque`, `spring` or `voltage`, or leave `activation` out");
+        }
+        for (_, message, help) in activation.problems(&format!("the motor of `{name}`")) {
+            found.error(id, "motor", message, help);
         }
     }
 }

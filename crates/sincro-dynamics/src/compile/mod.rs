@@ -12,7 +12,7 @@ use sincro_math::scalar_field::ScalarField;
 use crate::actuation::bushing::LinkFrame;
 use crate::actuation::spring::NonlinearSpring;
 use crate::actuation::spring_damper::{JointShare, LineActuator, LinkPoint, Path, Segment};
-use crate::actuation::{AppliedTorque, AppliedWrench, Bushing, ElasticGear, Motor, SpringDamper};
+use crate::actuation::{Activation, AppliedTorque, AppliedWrench, Bushing, ElasticGear, Motor, SpringDamper};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, RotorLaw, SpeedSource};
 use crate::contact::{self, Collider, PairLaw};
@@ -82,6 +82,7 @@ fn compile(builder: &ModelBuilder) -> Result<(Model<f64>, Vec<Diagnostic>), Buil
             applied: Vec::new(),
             wrenches: Vec::new(),
             windings: Vec::new(),
+            activations: Vec::new(),
             rotors: Vec::new(),
             drags: Vec::new(),
             spring_dampers: Vec::new(),
@@ -125,6 +126,19 @@ fn number_commands(model: &mut Model<f64>) {
     }
     for (k, actuator) in structure.spring_dampers.iter_mut().filter_map(|s| s.actuator.as_mut()).enumerate() {
         actuator.command = n_before_lines + k;
+    }
+}
+
+/// Adds the activations of actuators along paths to those of motors, and numbers their states, from `n_states` on.
+fn mount_activations(model: &mut Model<f64>, builder: &ModelBuilder, n_states: usize) {
+    let structure = model.structure_mut();
+    for ((_, spec), element) in builder.spring_dampers.iter().zip(&structure.spring_dampers) {
+        if let (Some(activation), Some(actuator)) = (spec.activation, element.actuator) {
+            structure.activations.push(Activation { command: actuator.command, ..activation });
+        }
+    }
+    for (k, activation) in structure.activations.iter_mut().enumerate() {
+        activation.state = n_states + k;
     }
 }
 
@@ -265,6 +279,7 @@ impl Compiler<'_> {
         let lines = spring_dampers(builder, &carriers, &model);
         model.structure_mut().spring_dampers = lines;
         number_commands(&mut model);
+        mount_activations(&mut model, builder, n_states);
         model.params.drives = model.find_drives();
         model
     }
@@ -364,6 +379,9 @@ impl Compiler<'_> {
                 self.structure.dofs[v_idx + k].armature += winding.gear_ratio.powi(2) * winding.rotor_inertia;
                 self.structure.windings.push(winding.mounted(first.index() + k, v_idx + k, 0));
             }
+        }
+        for (k, activation) in spec.activation.iter().enumerate() {
+            self.structure.activations.extend(activation.map(|own| Activation { command: first.index() + k, ..own }));
         }
         let motor = (!spec.motor.is_empty()).then_some(first);
         let name = self.nodes[node.0 as usize].name.clone();

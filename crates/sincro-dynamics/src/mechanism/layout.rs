@@ -7,8 +7,8 @@ use sincro_math::Real;
 use crate::ids::MotorId;
 use crate::model::Model;
 
-/// Layout of y and of its slope: displacement in the chart, velocities, totals if they are tracked, states of rotors
-/// and windings.
+/// Layout of y and of its slope: displacement in the chart, velocities, totals if they are tracked, states of rotors,
+/// windings and activations.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
     n_v: usize,
@@ -97,7 +97,7 @@ impl Layout {
         self.n_rotor_states > 0
     }
 
-    /// States of elements: of rotors, then of windings.
+    /// States of elements: of rotors, then of windings, then of activations.
     #[inline(always)]
     #[must_use]
     pub fn rotor_states(self) -> Range<usize> {

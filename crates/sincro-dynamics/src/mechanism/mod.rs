@@ -57,6 +57,9 @@ pub struct Mechanism<R> {
     pub(crate) model: Model<R>,
     /// Commands, each in the unit of its actuator, in the order of [`Model::n_commands`].
     pub commands: Vec<R>,
+    /// Values that act in the place of the commands at the last evaluation; not kept where no actuator has an
+    /// activation.
+    actuations: Vec<R>,
     /// State of each drive, in the order of [`Model::drives`]: 0 locked, +1 or −1 saturated upwards or downwards.
     pub drives: Vec<R>,
     layout: Layout,
@@ -112,6 +115,7 @@ impl<R: Real> Mechanism<R> {
         let zero = vec![R::zero(); model.n_v()];
         Self {
             commands: vec![R::zero(); model.n_commands()],
+            actuations: vec![R::zero(); model.n_commands()],
             drives: vec![R::zero(); model.n_drives()],
             layout: Layout::new(&model, tracks_totals),
             has_special: model.has_special_joint_elements(),
@@ -155,6 +159,7 @@ impl<R: Real> Mechanism<R> {
     pub fn heap_bytes(&self) -> usize {
         let numbers = [
             &self.commands,
+            &self.actuations,
             &self.drives,
             &self.base,
             &self.q,
@@ -285,14 +290,23 @@ impl<R: Real> Mechanism<R> {
         self.locked_mask[dof].lane(0) > 0.5
     }
 
+    /// Values that act in the place of the commands, as the last evaluation found them.
+    #[inline(always)]
+    fn acting_commands(&self) -> &[R] {
+        acting(&self.model, &self.commands, &self.actuations)
+    }
+
     /// Accelerations at (t, q in `self.q`, v) for the loads of bearings that are known; `implicit` as in [`Instant`].
     #[inline(always)]
     fn accelerations(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>, v_dot: &mut [R]) {
+        if !self.model.activations.is_empty() {
+            self.model.find_actuations(&self.commands, rotors, &mut self.actuations);
+        }
         let at = TorqueInput {
             t,
             q: &self.q,
             v,
-            commands: &self.commands,
+            commands: acting(&self.model, &self.commands, &self.actuations),
             drives: &self.drives,
             elements: rotors,
             loads: &self.loads,
@@ -368,7 +382,8 @@ impl<R: Real> Mechanism<R> {
         }
         if self.model.has_lines() {
             let implicit = implicit.map(|(h, implicit)| implicit.steps(h));
-            let at = (&*self.q, v, &*self.commands);
+            let commands = acting(&self.model, &self.commands, &self.actuations);
+            let at = (&*self.q, v, commands);
             self.lines.add_wrenches(&self.model, &self.scratch, at, implicit, &mut self.external);
         }
         for wrench in &self.model.wrenches {
@@ -474,6 +489,8 @@ impl<R: Real> Mechanism<R> {
             let states = self.layout.rotor_states();
             self.rotor_rates(&y[states.clone()], h, &mut slope[states]);
             self.current_rates(y, h, slope);
+            let states = self.layout.rotor_states();
+            self.model.activation_rates(&self.commands, &y[states.clone()], R::splat(h), &mut slope[states]);
         }
     }
 
@@ -502,7 +519,7 @@ impl<R: Real> Mechanism<R> {
             let (at, dof) = (layout.rotor_states().start + k, layout.velocity(winding.dof));
             let is_active = self.model.params.motors[winding.motor].mode == MotorMode::Voltage;
             let v_end = y[dof] + h * slope[dof];
-            let command = self.commands[winding.motor];
+            let command = self.acting_commands()[winding.motor];
             slope[at] = if is_active { winding.current_rate(y[at], v_end, command, h) } else { R::zero() };
         }
     }
@@ -541,8 +558,9 @@ impl<R: Real> Mechanism<R> {
                 dissipation += self.air_dissipation;
             }
             if !self.model.spring_dampers.is_empty() || !self.model.bushings.is_empty() {
+                let commands = acting(&self.model, &self.commands, &self.actuations);
                 let (of_actuators, heat) =
-                    self.lines.power(&self.model, &self.commands, (steps.0.lane(0) != 0.0).then_some(v));
+                    self.lines.power(&self.model, commands, (steps.0.lane(0) != 0.0).then_some(v));
                 work += of_actuators;
                 dissipation += heat;
             }
@@ -561,7 +579,8 @@ impl<R: Real> Mechanism<R> {
             for winding in self.model.active_windings() {
                 let (i, k) = (winding.motor, winding.dof);
                 let v_end = v[k] + v[k] - v_at[k];
-                let power = winding.power(winding.state_in(elements), (v_end, v[k]), self.commands[i], steps.0);
+                let power =
+                    winding.power(winding.state_in(elements), (v_end, v[k]), self.acting_commands()[i], steps.0);
                 // the work of its torque is in the sum already
                 work += power.electrical - self.motor_torque[i] * v[k];
                 dissipation += power.heat;
@@ -592,13 +611,14 @@ impl<R: Real> Mechanism<R> {
     pub(crate) fn find_motor_torques(&mut self, (v, elements): (&[R], &[R]), mean: &[R], steps: (R, R)) {
         for (i, motor) in self.model.params.motors.iter().enumerate() {
             let q = self.model.dofs[motor.dof].coordinate_in(&self.q);
-            self.motor_torque[i] = motor.torque(q, v[motor.dof], self.commands[i], steps).0;
+            self.motor_torque[i] = motor.torque(q, v[motor.dof], self.acting_commands()[i], steps).0;
         }
         if self.has_special {
             for winding in self.model.active_windings() {
                 let (i, k) = (winding.motor, winding.dof);
                 let v_end = mean[k] + mean[k] - v[k];
-                let current = winding.current_after(winding.state_in(elements), v_end, self.commands[i], steps.0);
+                let current =
+                    winding.current_after(winding.state_in(elements), v_end, self.acting_commands()[i], steps.0);
                 self.motor_torque[i] = winding.torque_per_ampere() * current;
             }
         }
@@ -724,6 +744,7 @@ impl<R: Real> System<R> for Mechanism<R> {
         displace(&self.model, &self.base, &y[displacement.clone()], &mut self.q);
         core::mem::swap(&mut self.base, &mut self.q);
         y[displacement].fill(R::zero());
+        self.model.limit_activations(&mut y[self.layout.rotor_states()]);
     }
 
     fn magnitude(&self, y: &[R], k: usize) -> f64 {
@@ -736,6 +757,12 @@ impl<R: Real> System<R> for Mechanism<R> {
         }
         1.0
     }
+}
+
+/// Commands of elements: `actuations` if an actuator has an activation.
+#[inline(always)]
+fn acting<'a, R: Real>(model: &Model<R>, commands: &'a [R], actuations: &'a [R]) -> &'a [R] {
+    if model.activations.is_empty() { commands } else { actuations }
 }
 
 /// φ' = ω + ½ φ×ω + c φ×(φ×ω) with ω in child axes; c by [`Vec3::rotation_rate_coefficient`].

@@ -6,7 +6,7 @@ use sincro_math::scalar_field::ScalarField;
 
 use super::LoopJointKind;
 use super::MassProperties;
-use crate::actuation::{ForceLaw, GravityField, Motor, NonlinearLaw, Winding};
+use crate::actuation::{Activation, ForceLaw, GravityField, Motor, NonlinearLaw, Winding};
 use crate::aero::rotor::RotorLaw;
 use crate::aero::wind::Wind;
 use crate::contact::{Material, PairLaw, Surface};
@@ -94,6 +94,8 @@ pub struct JointSpec {
     pub motor: Vec<Motor<f64>>,
     /// Windings of the motors in mode voltage, one entry a motor, or empty.
     pub winding: Vec<Option<Winding<f64>>>,
+    /// Activations of the motors in mode torque, spring or voltage, one entry a motor, or empty.
+    pub activation: Vec<Option<Activation<f64>>>,
 }
 
 impl JointSpec {
@@ -113,6 +115,7 @@ impl JointSpec {
             limit_restitution: 0.0,
             motor: Vec::new(),
             winding: Vec::new(),
+            activation: Vec::new(),
         }
     }
 }
@@ -243,6 +246,8 @@ pub struct SpringDamperSpec {
     pub tension_only: bool,
     /// Largest force of its actuator `[N]`, whose command is an input of the world; `None` for no actuator.
     pub actuator: Option<f64>,
+    /// Activation of its actuator; `None`: the command acts at once.
+    pub activation: Option<Activation<f64>>,
 }
 
 impl SpringDamperSpec {

@@ -10,6 +10,7 @@
 //! gravity, joint limits, gears, contact laws and motors, which may be set between two steps of a
 //! [`World`](crate::world::World) and are part of a snapshot.
 
+mod activations;
 pub(crate) mod builder;
 mod constraints;
 pub(crate) mod diagnostic;
@@ -193,11 +194,12 @@ impl<R: Real> Model<R> {
     }
 
     /// Number of states of elements, the length of [`crate::state::State::rotors`]: one for each rotor with a lag and
-    /// each stock propeller, then one for each winding with inductance.
+    /// each stock propeller, then one for each winding with inductance, then one for each activation.
     #[must_use]
     pub fn n_rotor_states(&self) -> usize {
         self.rotors.iter().filter(|r| r.speed.state().is_some()).count()
             + self.windings.iter().filter(|w| w.state.is_some()).count()
+            + self.activations.len()
     }
 
     /// Windings of direct-current motors, in the order of their motors.

@@ -7,7 +7,7 @@ use sincro_math::{Dual, Real};
 use super::{Dof, Link, Model, ModelParams, Structure};
 use crate::actuation::bushing::LinkFrame;
 use crate::actuation::spring_damper::{JointShare, LineActuator, LinkPoint, Path, Segment};
-use crate::actuation::{AppliedTorque, AppliedWrench, Motor};
+use crate::actuation::{Activation, ActivationDynamics, AppliedTorque, AppliedWrench, Motor};
 use crate::actuation::{Bushing, ElasticGear, ForceLaw, SpringDamper, Winding};
 use crate::aero::AirDrag;
 use crate::aero::rotor::{MountedRotor, SpeedSource};
@@ -112,6 +112,19 @@ impl<R: Real> Model<R> {
             gear_ratio: num(&|m| m.windings[i].gear_ratio),
             rotor_inertia: num(&|m| m.windings[i].rotor_inertia),
             max_voltage: num(&|m| m.windings[i].max_voltage),
+        });
+        let activations = first.activations.iter().enumerate().map(|(i, own)| Activation {
+            command: own.command,
+            state: own.state,
+            dynamics: match own.dynamics {
+                ActivationDynamics::Integrator => ActivationDynamics::Integrator,
+                ActivationDynamics::Filter { .. } => ActivationDynamics::Filter {
+                    time_constant: num(&|m| m.activations[i].time_constant().unwrap_or(1.0)),
+                },
+            },
+            input_range: core::array::from_fn(|k| num(&|m| m.activations[i].input_range[k])),
+            range: core::array::from_fn(|k| num(&|m| m.activations[i].range[k])),
+            initial: num(&|m| m.activations[i].initial),
         });
         let lanes = |f: &dyn Fn(&Model<f64>) -> crate::signal::Signal| (0..R::LANES).map(|k| f(of(k))).collect();
         let applied = (0..first.applied.len())
@@ -221,6 +234,7 @@ impl<R: Real> Model<R> {
             applied: applied.collect(),
             wrenches: wrenches.collect(),
             windings: windings.collect(),
+            activations: activations.collect(),
             rotors: rotors.collect(),
             drags: drags.collect(),
             spring_dampers: spring_dampers.collect(),
@@ -285,6 +299,9 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
     };
     let motors = |m: &Model<f64>| -> Vec<_> { m.params.motors.iter().map(|x| (x.dof, x.mode)).collect() };
     let windings = |m: &Model<f64>| -> Vec<_> { m.windings.iter().map(|w| (w.motor, w.state)).collect() };
+    let activations = |m: &Model<f64>| -> Vec<_> {
+        m.activations.iter().map(|x| (x.command, x.state, x.time_constant().is_some())).collect()
+    };
     let applied = |m: &Model<f64>| -> Vec<_> { m.applied.iter().map(|x| x.dof).collect() };
     let wrenches = |m: &Model<f64>| -> Vec<_> { m.wrenches.iter().map(|x| (x.link, x.in_body, x.input)).collect() };
     let rotors = |m: &Model<f64>| -> Vec<_> {
@@ -309,6 +326,7 @@ fn same_structure(a: &Model<f64>, b: &Model<f64>) -> Result<(), PackError> {
         (links(a) == links(b), "links and joints"),
         (motors(a) == motors(b), "motors"),
         (windings(a) == windings(b), "windings of motors"),
+        (activations(a) == activations(b), "activations of actuators"),
         (applied(a) == applied(b), "applied torques"),
         (wrenches(a) == wrenches(b), "external forces"),
         (rotors(a) == rotors(b), "rotors"),

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use super::{Dof, Link, Names};
 use crate::actuation::spring::NonlinearSpring;
-use crate::actuation::{AppliedTorque, AppliedWrench, Bushing, ElasticGear, GravityField, SpringDamper, Winding};
+use crate::actuation::{
+    Activation, AppliedTorque, AppliedWrench, Bushing, ElasticGear, GravityField, SpringDamper, Winding,
+};
 use crate::aero::AirDrag;
 use crate::aero::rotor::MountedRotor;
 use crate::aero::wind::Wind;
@@ -22,6 +24,8 @@ pub struct Structure<R> {
     pub(crate) wrenches: Vec<AppliedWrench<R>>,
     /// Windings of direct-current motors, in the order of their motors.
     pub(crate) windings: Vec<Winding<R>>,
+    /// Activations of actuators, in the order of their commands.
+    pub(crate) activations: Vec<Activation<R>>,
     pub(crate) rotors: Vec<MountedRotor<R>>,
     pub(crate) drags: Vec<AirDrag<R>>,
     pub(crate) spring_dampers: Vec<SpringDamper<R>>,

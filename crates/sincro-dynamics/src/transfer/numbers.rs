@@ -179,6 +179,12 @@ pub(super) fn transfer_state(
             state.rotors[own] = before.rotors[other];
         }
     }
+    for activation in model.activations() {
+        let old = names.commands[activation.command];
+        if let Some(other) = former.activations().iter().find(|other| Some(other.command) == old) {
+            state.rotors[activation.state] = activation.saturated(before.rotors[other.state]);
+        }
+    }
     state
 }
 

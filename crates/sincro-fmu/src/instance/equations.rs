@@ -1,9 +1,9 @@
 //! Equations of motion of a scene that does not switch, with the continuous blocks of its diagram, on any kind of
 //! number: plain ones for an importer that integrates, dual numbers for derivatives.
 //!
-//! Notation: x = (q, v, r, z): coordinates, velocities, speeds of rotors with a lag and currents of windings, states of
-//! continuous blocks. Quaternions are four states with q̇ = ½ q ω; whatever their length, the pose is that of the unit
-//! quaternion.
+//! Notation: x = (q, v, r, z): coordinates, velocities, speeds of rotors with a lag, currents of windings and
+//! activations, states of continuous blocks. Quaternions are four states with q̇ = ½ q ω; whatever their length, the
+//! pose is that of the unit quaternion.
 
 use sincro_blocks::instance::Number;
 use sincro_dynamics::coupled::{CompiledNumber, Coupled, CoupledSystem, MechanismResponse, StateView};
@@ -91,6 +91,8 @@ impl<R: Number + CompiledNumber> Equations<R> {
         let (mechanism, negated_jacobian_diagonal) = (&mut self.mechanism, &mut self.diagonal[..]);
         let mut coupled = Coupled { mechanism, system, negated_jacobian_diagonal };
         R::evaluate(&mut coupled, t, &self.y, &mut self.slope);
+        let states = self.mechanism.layout().rotor_states();
+        self.mechanism.model().stop_activations(&self.y[states.clone()], &mut self.slope[states]);
     }
 
     /// Writes ẋ, as it was last evaluated, at the states `x` that were placed.

@@ -1,6 +1,6 @@
 //! Writer of MJCF: joints stand in the body they carry, as at zero coordinates; inertias are written in full.
 
-use sincro_dynamics::actuation::MotorMode;
+use sincro_dynamics::actuation::{Activation, MotorMode};
 use sincro_dynamics::constraint::LoopJointKind;
 use sincro_dynamics::contact::Surface;
 use sincro_dynamics::joint::JointKind;
@@ -240,6 +240,18 @@ fn actuators(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
             String::new()
         };
         let name = escaped(&joint.name);
+        if let Some(activation) = joint.activation
+            && matches!(motor.mode, MotorMode::Torque | MotorMode::Spring)
+        {
+            let (kp, kv) = (plain(motor.stiffness), plain(motor.damping));
+            let law = match motor.mode {
+                MotorMode::Spring => format!("gainprm=\"{kp}\" biastype=\"affine\" biasprm=\"0 -{kp} -{kv}\""),
+                _ => "gainprm=\"1\"".to_owned(),
+            };
+            let keys = activation_keys(tree, &joint.path, &activation);
+            lines += &format!("    <general name=\"{name}\" joint=\"{name}\" {law} {keys}{limit}/>\n");
+            continue;
+        }
         match motor.mode {
             MotorMode::Torque => lines += &format!("    <motor name=\"{name}\" joint=\"{name}\"{limit}/>\n"),
             MotorMode::Spring => {
@@ -253,4 +265,21 @@ fn actuators(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
     if !lines.is_empty() {
         *out += &format!("  <actuator>\n{lines}  </actuator>\n");
     }
+}
+
+/// Attributes of an activation; notes what MJCF does not say.
+pub(super) fn activation_keys(tree: &mut Tree<'_>, path: &str, own: &Activation<f64>) -> String {
+    let mut keys = match own.time_constant() {
+        Some(time_constant) => format!("dyntype=\"filterexact\" dynprm=\"{}\"", plain(time_constant)),
+        None => "dyntype=\"integrator\"".to_owned(),
+    };
+    for (key, range) in [("actrange", own.range), ("ctrlrange", own.input_range)] {
+        if range.iter().any(|x| x.is_finite()) {
+            keys += &format!(" {key}=\"{}\"", numbers(&range.map(|x| x.clamp(-1e9, 1e9))));
+        }
+    }
+    if own.initial != 0.0 {
+        tree.note(path, "MuJoCo starts its activation at zero");
+    }
+    keys
 }

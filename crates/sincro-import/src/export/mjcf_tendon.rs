@@ -5,7 +5,7 @@ use sincro_dynamics::actuation::bushing::Bushing;
 use sincro_dynamics::model::Attached;
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
-use super::mjcf::is_site;
+use super::mjcf::{activation_keys, is_site};
 use super::{Tree, escaped, numbers, wxyz};
 use crate::number::plain;
 use crate::path_mass::masses_of;
@@ -223,8 +223,9 @@ impl Tendons {
     }
 
     /// Lines of the actuators on tendons.
-    pub fn actuators(&self, tree: &Tree<'_>) -> String {
-        let model = &tree.scene.model;
+    pub fn actuators(&self, tree: &mut Tree<'_>) -> String {
+        let scene = tree.scene;
+        let model = &scene.model;
         let mut lines = String::new();
         for (element, path) in model.spring_dampers().iter().zip(&model.names().spring_dampers) {
             let Some(actuator) = element.actuator else { continue };
@@ -234,6 +235,11 @@ impl Tendons {
             } else {
                 String::new()
             };
+            if let Some(activation) = model.activations().iter().find(|own| own.command == actuator.command) {
+                let keys = activation_keys(tree, path, activation);
+                lines += &format!("    <general name=\"{name}\" tendon=\"{name}\" gainprm=\"1\" {keys}{limit}/>\n");
+                continue;
+            }
             lines += &format!("    <motor name=\"{name}\" tendon=\"{name}\"{limit}/>\n");
         }
         lines

@@ -99,6 +99,8 @@ struct Joint {
     limits: [f64; 2],
     /// Motor of the model.
     motor: Option<sincro_dynamics::actuation::Motor<f64>>,
+    /// Activation of the motor.
+    activation: Option<sincro_dynamics::actuation::Activation<f64>>,
     /// Coordinates at the start.
     start: Vec<f64>,
 }
@@ -188,6 +190,8 @@ impl<'a> Tree<'a> {
         {
             limits[usize::from(limit.sign < 0.0)] = limit.bound;
         }
+        let motor = info.filter(|i| i.n_v == 1).and_then(|i| i.motor);
+        let activation = model.activations().iter().find(|own| motor.is_some_and(|id| own.command == id.index()));
         Some(Joint {
             path: object.path.clone(),
             name: unique(names, object),
@@ -195,7 +199,8 @@ impl<'a> Tree<'a> {
             pose,
             dofs,
             limits,
-            motor: info.filter(|i| i.n_v == 1).and_then(|i| i.motor).map(|id| *model.motor(id)),
+            motor: motor.map(|id| *model.motor(id)),
+            activation: activation.copied(),
             start: info.map_or_else(Vec::new, |i| self.scene.initial.q[i.q_idx..i.q_idx + i.n_q].to_vec()),
         })
     }
@@ -230,6 +235,12 @@ impl<'a> Tree<'a> {
         }
         for joint in scene.model.names().joints.iter().filter(|joint| joint.n_v > 1 && joint.motor.is_some()) {
             self.note(&joint.name, "motors of several axes are not written");
+        }
+        for own in scene.model.activations().iter().filter(|_| format != Format::Mjcf) {
+            // springs between points and tendons are not written at all
+            if let Some(motor) = scene.model.motors().get(own.command) {
+                self.note(scene.model.names().dof_name(motor.dof), "the activation of its motor is not written");
+            }
         }
         for script in &scene.scripts {
             self.note(&script.path, "a script is not written");

@@ -58,6 +58,7 @@ impl<'d> Reader<'d> {
                     free_length: [known.reference - known.offset; 2],
                     limits: None,
                     actuator: None,
+                    activation: None,
                 };
                 if let Some(lengths) = self.defaults.numbers(e, "main", "springlength")?
                     && lengths.first().is_some_and(|x| *x >= 0.0)
@@ -251,6 +252,7 @@ impl<'d> Reader<'d> {
             free_length: [length; 2],
             limits: None,
             actuator: None,
+            activation: None,
         });
         Ok(())
     }
@@ -289,6 +291,7 @@ impl<'d> Reader<'d> {
             free_length: [-known.offset; 2],
             limits: None,
             actuator: Some(max_force.unwrap_or(f64::INFINITY)),
+            activation: law.activation.map(|own| own.scaled(law.gain * gear, 0.0)),
         }))
     }
 }

@@ -3,7 +3,7 @@
 use super::{Context, Writer, last};
 use crate::Motors;
 use crate::number::{list, number, quoted};
-use crate::robot::{Joint, JointKind, MotorLaw, Robot};
+use crate::robot::{Activation, Joint, JointKind, MotorLaw, Robot};
 use crate::source::ElementStatus;
 
 /// Velocity a unit of error of the motors that hold [1/s].
@@ -52,6 +52,20 @@ fn middle(lower: f64, upper: f64) -> f64 {
         (true, false) => lower,
         _ => upper,
     }
+}
+
+/// Key of an activation, as an inline table.
+pub(super) fn activation(own: &Activation) -> String {
+    let kind = match own.time_constant {
+        Some(time_constant) => format!("kind = \"filter\", time_constant = {}", number(time_constant)),
+        None => "kind = \"integrator\"".to_owned(),
+    };
+    let range = |key: &str, range: Option<[f64; 2]>| {
+        range.map(|[lower, upper]| format!(", {key} = {{ lower = {}, upper = {} }}", number(lower), number(upper)))
+    };
+    let ranges = [range("range", own.range), range("input_range", own.input_range)].into_iter().flatten();
+    let initial = if own.initial == 0.0 { String::new() } else { format!(", initial = {}", number(own.initial)) };
+    format!("activation = {{ {kind}{}{initial} }}", ranges.collect::<String>())
 }
 
 impl Writer<'_> {
@@ -132,13 +146,14 @@ impl Writer<'_> {
         let of_source: Vec<_> = self.robot.motors.iter().filter(|m| m.joint == k).collect();
         if let Some(motor) = of_source.first() {
             let limit = motor.max_torque.map_or_else(String::new, |x| format!(", max_torque = {}", number(x)));
+            let activation = motor.activation.map_or_else(String::new, |own| format!(", {}", activation(&own)));
             match motor.law {
-                MotorLaw::Torque => self.line(&format!("motor = {{ mode = \"torque\"{limit} }}")),
+                MotorLaw::Torque => self.line(&format!("motor = {{ mode = \"torque\"{limit}{activation} }}")),
                 MotorLaw::Spring(stiffness, damping) => {
                     let command = number(motor.command);
                     let (stiffness, damping) = (number(stiffness), number(damping));
                     self.line(&format!(
-                        "motor = {{ mode = \"spring\", command = {command}, stiffness = {stiffness}, damping = {damping}{limit} }}"
+                        "motor = {{ mode = \"spring\", command = {command}, stiffness = {stiffness}, damping = {damping}{limit}{activation} }}"
                     ));
                 }
             }

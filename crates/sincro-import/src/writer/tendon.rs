@@ -1,5 +1,6 @@
 //! Tendons.
 
+use super::joint::activation;
 use super::{Writer, last, place};
 use crate::number::{list, number, quoted};
 use crate::robot::TendonPath;
@@ -48,9 +49,9 @@ impl Writer<'_> {
                 self.line(&format!("limits = {{ {bounds}stiffness = {stiffness}, damping = {damping} }}"));
             }
             if let Some(max_force) = tendon.actuator {
-                let limit =
-                    if max_force.is_finite() { format!("max_force = {}", number(max_force)) } else { String::new() };
-                self.line(&format!("actuator = {{ {limit} }}"));
+                let limit = max_force.is_finite().then(|| format!("max_force = {}", number(max_force)));
+                let keys: Vec<String> = limit.into_iter().chain(tendon.activation.as_ref().map(activation)).collect();
+                self.line(&format!("actuator = {{ {} }}", keys.join(", ")));
             }
             self.line("");
         }

@@ -7,6 +7,8 @@ use sincro_import::export::{Format, export};
 
 use crate::folder::Folder;
 
+const EXPERIMENT: &str = "title = \"own\"\nduration = 0.1\nstep = 0.01\nrecord = [\"energy.total\"]\n";
+
 const SCENE: &str = r##"
 gravity = [0.0, 0.0, -3.7]
 
@@ -306,4 +308,35 @@ fn bushings_yield_in_mujoco_as_here() {
         }
         assert!(weld.contains("solimp=\"0.95 0.95 0.001\""), "{weld}");
     }
+}
+
+#[test]
+fn activations_come_back_from_mjcf() {
+    let folder = Folder::new();
+    let actuated = format!(
+        "{}\n{}",
+        SCENE.replace(
+            "motor = { mode = \"torque\", max_torque = 5.0 }",
+            "motor = { mode = \"torque\", max_torque = 5.0, activation = { kind = \"filter\", time_constant = 0.05, range = { lower = -2.0, upper = 1.5 } } }"
+        )
+        .replace(
+            "damping = 0.3",
+            "damping = 0.3\nmotor = { mode = \"spring\", stiffness = 8.0, damping = 0.5, activation = { kind = \"integrator\", input_range = { lower = -1.0, upper = 3.0 } } }"
+        ),
+        "[[tendon]]\nname = \"cord\"\njoints = [\"/base/turn/arm/slide\"]\ncoefficients = [2.0]\nactuator = { max_force = 3.0, activation = { kind = \"filter\", time_constant = 0.2 } }\n"
+    );
+    folder.file("own/scene.toml", &actuated);
+    folder.file("own/experiment.toml", EXPERIMENT);
+    let loaders = sincro_scene::fmu::Loaders::default();
+    let own = sincro_scene::open::open(&folder.path().join("own"), &[], loaders, true).unwrap().scene;
+    let exported = export(&own, "own", Format::Mjcf).unwrap();
+    let imported = folder.import("r.xml", &exported.text).unwrap_or_else(|found| panic!("{found}\n{}", exported.text));
+    let back = folder.open(&imported).scene.model;
+    assert_eq!(back.activations(), own.model.activations(), "{}", exported.text);
+    assert_eq!(back.activations().len(), 3);
+    assert_eq!(back.motors(), own.model.motors());
+    // other formats say what they leave out
+    let notes = export(&own, "own", Format::Urdf).unwrap().notes;
+    let left_out = notes.iter().filter(|(_, words)| words.contains("the activation of its motor is not written"));
+    assert_eq!(left_out.count(), 2, "{notes:?}");
 }

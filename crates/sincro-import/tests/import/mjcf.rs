@@ -388,3 +388,77 @@ fn an_anchor_on_a_body_that_turns_about_its_centre_of_mass_has_the_mass_there() 
     assert!((rim.stiffness[1] - mass / (0.05 * 4e-4)).abs() < 1e-9 * rim.stiffness[1], "{rim:?}");
     assert!(entry(&imported, "connect[rim]").words.contains("rigidly"), "{}", entry(&imported, "connect[rim]").words);
 }
+
+/// A chain of three hinges with a fixed tendon, and actuators.
+fn actuated(actuators: &str) -> String {
+    let body = |k: usize| {
+        format!(
+            r#"<body name="b{k}" pos="0 0 0.2"><joint name="j{k}" axis="0 1 0" range="-1 2"/><inertial pos="0 0 0.1" mass="1" diaginertia="0.01 0.01 0.01"/>"#
+        )
+    };
+    let bodies: String = (0..3).map(body).collect();
+    format!(
+        r#"<mujoco><compiler angle="radian"/><worldbody>{bodies}</body></body></body></worldbody>
+<tendon><fixed name="t"><joint joint="j0" coef="0.5"/><joint joint="j2" coef="-1"/></fixed></tendon>
+<actuator>{actuators}</actuator></mujoco>"#
+    )
+}
+
+#[test]
+fn activations_are_those_of_motors_and_tendons_in_units_of_their_commands() {
+    let folder = Folder::new();
+    let text = actuated(
+        r#"<general name="a" joint="j0" gear="3" gainprm="-2" dyntype="filter" dynprm="0.07" ctrlrange="-1 0.8" actrange="-0.5 0.7"/>
+<intvelocity name="b" joint="j1" gear="2" kp="15" kv="1" inheritrange="0.5"/>
+<cylinder name="c" tendon="t" timeconst="0.3" area="4" actearly="true"/>
+<position name="d" joint="j2" kp="5" kv="1" timeconst="0.1"/>"#,
+    );
+    let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    let model = folder.open(&imported).scene.model;
+    let of = |k: usize| {
+        let own = model.activations()[k];
+        (own.command, own.time_constant(), own.range, own.input_range, own.initial)
+    };
+    let all = [f64::NEG_INFINITY, f64::INFINITY];
+    let scaled = |range: [f64; 2], scale: f64| [range[1] * scale, range[0] * scale];
+    // the torque is gain·gear times the activation
+    assert_eq!(of(0), (0, Some(0.07), scaled([-0.5, 0.7], -6.0), scaled([-1.0, 0.8], -6.0), 0.0));
+    // half of the range about its middle, and angles of the joint, which are those of the actuator over its gear
+    assert_eq!(of(1), (1, None, [-0.125, 0.625], all, 0.0));
+    assert_eq!(of(2), (2, Some(0.1), all, all, 0.0));
+    assert_eq!(of(3), (3, Some(0.3), all, all, 0.0));
+    assert_eq!((model.motors()[1].stiffness, model.motors()[1].damping), (60.0, 4.0));
+    assert!(entry(&imported, "cylinder[c]").words.contains("`actearly`"), "{}", entry(&imported, "cylinder[c]").words);
+    assert!(model.spring_dampers()[0].actuator.is_some());
+}
+
+#[test]
+fn activations_without_counterpart_are_refused_by_name() {
+    let folder = Folder::new();
+    for (actuator, word) in [
+        (r#"<muscle name="m" joint="j0"/>"#, "a `muscle` has no counterpart"),
+        (r#"<general name="m" joint="j0" dyntype="muscle"/>"#, "its activation is of type `muscle`"),
+        (r#"<general name="m" joint="j0" dyntype="user"/>"#, "its activation is of type `user`"),
+        (r#"<damper name="m" joint="j0" kv="2"/>"#, "a `damper` has no counterpart"),
+        (
+            r#"<general name="m" joint="j0" dyntype="filter" biastype="affine" biasprm="0 0 -1"/>"#,
+            "a damper whose command has an activation",
+        ),
+    ] {
+        let imported = folder.import("m.xml", &actuated(actuator)).unwrap_or_else(|found| panic!("{found}"));
+        let words = &entry(&imported, "[m]").words;
+        assert!(words.contains(word), "{actuator}: {words}");
+    }
+}
+
+#[test]
+fn a_reference_shifts_the_activation_of_a_servo() {
+    let folder = Folder::new();
+    let text = actuated(r#"<position name="d" joint="j1" kp="5" timeconst="0.1" actrange="-1 2"/>"#)
+        .replace(r#"name="j1" axis="0 1 0""#, r#"name="j1" axis="0 1 0" ref="0.25""#);
+    let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    let scene = folder.open(&imported).scene;
+    let own = scene.model.activations()[0];
+    assert_eq!((own.initial, own.range), (-0.25, [-1.25, 1.75]));
+    assert_eq!(scene.initial.rotors, [-0.25]);
+}

@@ -126,7 +126,12 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
             list.add(format!("{name}.{what}"), unit, Probe::SpringDamper(quantity, k));
         }
         if let Some(actuator) = model.spring_dampers()[k].actuator {
-            list.add(format!("{name}.command"), "N", Probe::Command(actuator.command));
+            let activation = activation_of(actuator.command, model);
+            let unit = if activation.is_some_and(|(_, integrates)| integrates) { "N/s" } else { "N" };
+            list.add(format!("{name}.command"), unit, Probe::Command(actuator.command));
+            if let Some((k, _)) = activation {
+                list.add(format!("{name}.activation"), "N", Probe::Activation(k));
+            }
         }
     }
     for (k, name) in model.names().bushings.iter().enumerate() {
@@ -160,10 +165,10 @@ pub fn catalogue(model: &Model<f64>) -> Vec<Entry> {
 }
 
 /// Units of a coordinate, its rate, its acceleration and its torque.
-struct Units([&'static str; 4]);
+struct Units([&'static str; 5]);
 
-const ANGLE: Units = Units(["rad", "rad/s", "rad/s²", "N·m"]);
-const LENGTH: Units = Units(["m", "m/s", "m/s²", "N"]);
+const ANGLE: Units = Units(["rad", "rad/s", "rad/s²", "N·m", "N·m/s"]);
+const LENGTH: Units = Units(["m", "m/s", "m/s²", "N", "N/s"]);
 
 fn joint_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
     let name = &joint.name;
@@ -228,12 +233,16 @@ fn motor_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
             _ => ("command", "motor_torque"),
         };
         let units = if *is_length { LENGTH.0 } else { ANGLE.0 };
-        let of_command = |motor: MotorId| match model.motor(motor).mode {
-            MotorMode::Torque => units[3],
-            MotorMode::Velocity => units[1],
-            MotorMode::Position | MotorMode::Spring => units[0],
-            MotorMode::Voltage => "V",
-            MotorMode::Free => "",
+        let of_activation = |motor: MotorId| match model.motor(motor).mode {
+            MotorMode::Torque => [units[3], units[4]],
+            MotorMode::Velocity => [units[1], units[2]],
+            MotorMode::Position | MotorMode::Spring => [units[0], units[1]],
+            MotorMode::Voltage => ["V", "V/s"],
+            MotorMode::Free => ["", ""],
+        };
+        let of_command = |motor: MotorId| {
+            let activation = activation_of(motor.index(), model);
+            of_activation(motor)[usize::from(activation.is_some_and(|(_, integrates)| integrates))]
         };
         let mut add = |what: &str, unit: &dyn Fn(MotorId) -> &'static str, probe: fn(usize) -> Probe| {
             for (component, motor) in components.iter().zip(&motors[*first..]) {
@@ -245,8 +254,18 @@ fn motor_signals(list: &mut List, joint: &JointInfo, model: &Model<f64>) {
         add(&format!("{torque}_now"), &|_| units[3], Probe::MotorTorqueNow);
         for (component, motor) in components.iter().zip(&motors[*first..]) {
             winding_signals(list, &joint.name, component, *motor, model);
+            if let Some((k, _)) = activation_of(motor.index(), model) {
+                let name = format!("{}.activation{component}", joint.name);
+                list.add(name, of_activation(*motor)[0], Probe::Activation(k));
+            }
         }
     }
+}
+
+/// Activation of the actuator with that command: its index, and true for an integrator.
+fn activation_of(command: usize, model: &Model<f64>) -> Option<(usize, bool)> {
+    let k = model.activations().iter().position(|own| own.command == command)?;
+    Some((k, model.activations()[k].time_constant().is_none()))
 }
 
 /// Signals of the winding of a motor, if it has one.

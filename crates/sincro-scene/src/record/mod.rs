@@ -82,6 +82,8 @@ pub enum Probe {
     ElasticGear(GearQuantity, usize),
     /// Quantity of a motor's winding: quantity, index of the winding.
     Winding(WindingQuantity, usize),
+    /// Activation of an actuator, by its index among them, in the unit of its command.
+    Activation(usize),
     /// Component of the wind at its reference height `[m/s]`.
     Wind(usize),
     /// Quantity of the contacts of a body: quantity, frame of the body, component.

@@ -100,6 +100,10 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
             }
         }
         Probe::Winding(quantity, k) if !has_commanded_circuit(model, quantity, k) => of_winding(at, quantity, k),
+        Probe::Activation(k) => {
+            let activation = &model.activations()[k];
+            activation.saturated(at.rotors[activation.state])
+        }
         Probe::Wind(k) => {
             let wind = model.wind()?;
             wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
@@ -178,18 +182,23 @@ pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     x_wl.rot.mul_vec(drag.pose.rot.mul_vec(force))
 }
 
-/// Returns true for the force of a spring and damper with an actuator, which depends on its present command.
+/// Returns true for the force of a spring and damper with an actuator, which depends on its present command: not where
+/// it has an activation.
 pub(crate) fn has_actuated_force<R: Real>(model: &Model<R>, quantity: LineQuantity, k: usize) -> bool {
-    quantity == LineQuantity::Force && model.spring_dampers()[k].actuator.is_some()
+    let is_direct = |command: usize| model.activations().iter().all(|own| own.command != command);
+    quantity == LineQuantity::Force && model.spring_dampers()[k].actuator.is_some_and(|own| is_direct(own.command))
 }
 
 /// Returns true for a quantity of a winding that depends on its present command: all but the back-EMF, and the current
-/// where it is a state.
+/// where it is a state; none where the motor has an activation.
 pub(crate) fn has_commanded_circuit<R: Real>(model: &Model<R>, quantity: WindingQuantity, k: usize) -> bool {
     match quantity {
         WindingQuantity::BackEmf => false,
-        WindingQuantity::Current => model.windings()[k].state.is_none(),
-        WindingQuantity::Voltage | WindingQuantity::ElectricalPower => true,
+        WindingQuantity::Current if model.windings()[k].state.is_some() => false,
+        WindingQuantity::Current | WindingQuantity::Voltage | WindingQuantity::ElectricalPower => {
+            let winding = &model.windings()[k];
+            model.activations().iter().all(|own| own.command != winding.motor)
+        }
     }
 }
 
@@ -198,7 +207,7 @@ fn of_winding<R: Real>(at: &View<'_, R>, quantity: WindingQuantity, k: usize) ->
     let v = at.v[winding.dof];
     // in another mode the command is no voltage; of the state alone there is none
     let is_active = at.model.motors()[winding.motor].mode == MotorMode::Voltage;
-    let command = at.commands.get(winding.motor).copied().filter(|_| is_active).unwrap_or(R::zero());
+    let command = if is_active { at.model.actuation(winding.motor, at.commands, at.rotors) } else { R::zero() };
     let current = match winding.state {
         Some(k) => at.rotors[k],
         None if is_active => winding.current(R::zero(), v, command),
@@ -223,7 +232,10 @@ fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
     match quantity {
         LineQuantity::Length => path.length,
         LineQuantity::Rate => path.rate,
-        LineQuantity::Force => element.forces(path.length, path.rate, at.commands).total(),
+        LineQuantity::Force => {
+            let command = element.actuator.map_or(R::zero(), |a| at.model.actuation(a.command, at.commands, at.rotors));
+            element.forces_under(path.length, path.rate, command).total()
+        }
     }
 }
 

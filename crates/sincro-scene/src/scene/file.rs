@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::activation::ActivationFile;
 use super::air::{DragFile, WindFile};
 use super::bushing::BushingFile;
 use super::camera::CameraFile;
@@ -468,6 +469,8 @@ pub(crate) struct MotorFile {
     /// Mode `voltage`: voltage of the supply, above 0; no limit if left out or inf [V].
     #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0, "x-infinite" = true)))]
     pub max_voltage: Option<f64>,
+    /// Modes `torque`, `spring` and `voltage`: a state between the command and what acts, in the unit of the command.
+    pub activation: Option<ActivationFile>,
 }
 
 /// What a motor does with its command.

@@ -1,6 +1,6 @@
 //! Joints and motors: from what is written to the builder's specification.
 
-use sincro_dynamics::actuation::{Motor, MotorMode, Winding};
+use sincro_dynamics::actuation::{Activation, Motor, MotorMode, Winding};
 use sincro_dynamics::joint::{Friction, JointKind};
 use sincro_dynamics::model::JointSpec;
 use sincro_dynamics::signal::Signal;
@@ -58,7 +58,30 @@ pub(super) fn spec(file: &JointFile, pointer: &str, signals: &mut SignalReader<'
     let commands = commands.collect();
     spec.motor = motors.iter().map(|(file, pointer)| motor(file, pointer, signals)).collect();
     spec.winding = motors.iter().map(|(file, _)| winding(file)).collect();
+    spec.activation = activations(file, &motors, signals);
     (spec, commands)
+}
+
+/// Activations of the motors of a joint, one entry a motor.
+fn activations(
+    file: &JointFile,
+    motors: &[(&MotorFile, String)],
+    signals: &mut SignalReader<'_>,
+) -> Vec<Option<Activation<f64>>> {
+    let of = format!("the motor of joint `{}`", file.name);
+    let one = |(motor, pointer): &(&MotorFile, String)| {
+        let own = motor.activation.as_ref()?;
+        let is_driven = matches!(motor.mode, MotorModeFile::Torque | MotorModeFile::Spring | MotorModeFile::Voltage);
+        let pointer = format!("{pointer}/activation");
+        if !is_driven {
+            let at = signals.document.key_at(&pointer);
+            let message = format!("{of} has an `activation`, which is of modes `torque`, `spring` and `voltage`");
+            signals.diagnostics.push(Diagnostic::error(&at, message).with_help("take one of them, or leave it out"));
+            return None;
+        }
+        Some(own.spec(&of, &pointer, signals))
+    };
+    motors.iter().map(one).collect()
 }
 
 /// Entries of one value or a list, each with its pointer.

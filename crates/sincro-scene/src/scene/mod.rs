@@ -3,6 +3,7 @@
 //! The types of `file.rs` are what is written; `compile` orders the tree, makes the builder's specifications of joints,
 //! bodies and forces, and brings what the builder finds back to lines of the file. All problems are reported at once.
 
+mod activation;
 mod air;
 mod body;
 mod bushing;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sincro_dynamics::actuation::force_law::FORMULA_NAMES;
-use sincro_dynamics::actuation::{ForceLaw, ForceTable, NonlinearLaw};
+use sincro_dynamics::actuation::{Activation, ForceLaw, ForceTable, NonlinearLaw};
 use sincro_dynamics::model::{Model, NodeId, PathSpec, SpringDamperSpec};
 use sincro_dynamics::recursions::kinematics;
 use sincro_dynamics::scratch::Scratch;
@@ -14,6 +14,7 @@ use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_math::expression::Expression;
 
+use super::activation::ActivationFile;
 use super::file::SceneFile;
 use super::signal_file::{SignalFile, SignalReader};
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -70,6 +71,8 @@ pub(crate) struct LineActuatorFile {
     /// Largest force; none if left out or inf [N].
     #[cfg_attr(test, schemars(range(min = 0.0), extend("x-infinite" = true)))]
     pub max_force: Option<f64>,
+    /// Activation: a state between the command and the force [N].
+    pub activation: Option<ActivationFile>,
 }
 
 impl LineActuatorFile {
@@ -79,6 +82,16 @@ impl LineActuatorFile {
             Some(command) => signals.read(command, &format!("{pointer}/actuator/command")),
             None => Signal::Constant(0.0),
         }
+    }
+
+    /// Its activation, for the builder; notes what is wrong with it. `of` is the element as messages call it.
+    pub(super) fn activation(
+        &self,
+        of: &str,
+        pointer: &str,
+        signals: &mut SignalReader<'_>,
+    ) -> Option<Activation<f64>> {
+        self.activation.as_ref().map(|own| own.spec(of, &format!("{pointer}/actuator/activation"), signals))
     }
 
     /// Largest force, infinite for none `[N]`.
@@ -104,6 +117,7 @@ pub(super) fn spec(
         law: ForceLaw { stiffness: file.stiffness, damping: file.damping, preload: file.preload, nonlinear },
         tension_only: file.tension_only,
         actuator: file.actuator.as_ref().map(LineActuatorFile::largest_force),
+        activation: file.actuator.as_ref().and_then(|actuator| actuator.activation(&of, pointer, signals)),
     };
     if file.law.is_none() && file.table.is_none() && command.is_none() {
         let numbers = [file.stiffness, file.damping, file.preload];

@@ -155,6 +155,7 @@ pub(super) fn spec(
         law: ForceLaw { stiffness, damping: file.damping, preload: file.preload, nonlinear },
         tension_only: file.tension_only,
         actuator: file.actuator.as_ref().map(LineActuatorFile::largest_force),
+        activation: file.actuator.as_ref().and_then(|actuator| actuator.activation(&of, pointer, signals)),
     };
     spring_damper::check(&spec, &of, pointer, signals).then_some((spec, command))
 }

@@ -16,7 +16,7 @@ mod streams;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use sincro_dynamics::aero::rotor::{MountedRotor, SpeedSource};
+use sincro_dynamics::aero::rotor::SpeedSource;
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::stiffness::{RK4_LIMIT, Stiffness, stiffest};
 use sincro_dynamics::world::{MethodKind, StepStatistics, World};
@@ -230,16 +230,26 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
     (kind, warnings)
 }
 
-/// The rotor that follows its command fastest with a lag, and how fast [1/s].
-fn fastest_lag(scene: &Scene) -> Option<(usize, f64)> {
-    let rate = |(k, rotor): (usize, &MountedRotor<f64>)| match rotor.speed {
-        SpeedSource::Lag { time_constant, .. } => Some((k, 1.0 / time_constant)),
+/// The rotor or activation that follows its command fastest with a lag, in words, and how fast [1/s].
+fn fastest_lag(scene: &Scene) -> Option<(String, f64)> {
+    let (model, names) = (&scene.model, scene.model.names());
+    let rotors = model.rotors().iter().zip(&names.rotors).filter_map(|(rotor, name)| match rotor.speed {
+        SpeedSource::Lag { time_constant, .. } => Some((format!("the lag of rotor `{name}`"), 1.0 / time_constant)),
         _ => None,
-    };
-    scene.model.rotors().iter().enumerate().filter_map(rate).max_by(|a, b| a.1.total_cmp(&b.1))
+    });
+    let activations = model.activations().iter().filter_map(|own| {
+        let line = || model.spring_dampers().iter().position(|s| s.actuator.is_some_and(|a| a.command == own.command));
+        let name = match model.motors().get(own.command) {
+            Some(motor) => names.dof_name(motor.dof),
+            None => &names.spring_dampers[line()?],
+        };
+        Some((format!("the activation of the actuator of `{name}`"), 1.0 / own.time_constant()?))
+    });
+    rotors.chain(activations).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Returns true if a rotor follows its command so fast that an explicit method with error control would be slow.
+/// Returns true if a rotor or activation follows its command so fast that an explicit method with error control would
+/// be slow.
 fn has_fast_lag(scene: &Scene, experiment: &Experiment) -> bool {
     fastest_lag(scene).is_some_and(|(_, rate)| rate * experiment.step > SLOW_FROM)
 }
@@ -256,21 +266,20 @@ fn is_stiff_otherwise(loaded: &Loaded) -> bool {
     has_fast_lag(&loaded.scene, &loaded.experiment) || fast_block(loaded).is_some()
 }
 
-/// Warnings about the lag of rotors under an explicit method.
+/// Warnings about the lag of rotors and activations under an explicit method.
 fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Option<String> {
-    let (k, rate) = fastest_lag(scene)?;
+    let (lag, rate) = fastest_lag(scene)?;
     let product = rate * experiment.step;
-    let name = &scene.model.names().rotors[k];
     match kind {
         MethodKind::Rk4 if product > RK4_LIMIT => Some(format!(
-            "the lag of rotor `{name}` ({:.3e} s) is too short for `rk4` at a step of {} s, which is stable up to {:.2e} s: the run will \
+            "{lag} ({:.3e} s) is too short for `rk4` at a step of {} s, which is stable up to {:.2e} s: the run will \
              diverge. Use integrator = \"implicit\" (same step) or \"auto\"",
             1.0 / rate,
             experiment.step,
             RK4_LIMIT / rate
         )),
         MethodKind::DormandPrince if product > SLOW_FROM => Some(format!(
-            "the lag of rotor `{name}` ({:.3e} s) makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \
+            "{lag} ({:.3e} s) makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \
              \"stiff\"",
             1.0 / rate,
             product / 3.3
