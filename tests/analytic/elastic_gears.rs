@@ -29,7 +29,7 @@ fn shafts(stiffness: f64, damping: f64, backlash: f64, torque: Signal) -> Result
         b.body(["rotor", "wheel"][k], joint, Pose::identity(), BodySpec { mass });
         joints.push(joint);
     }
-    let gear = GearSpec { joints: [joints[0], joints[1]], ratio: RATIO, offset: 0.0 };
+    let gear = GearSpec { joints: [joints[0], joints[1]], ratio: RATIO, offset: 0.0, higher: [0.0; 3] };
     b.elastic_gear("gear", ElasticGearSpec { gear, stiffness, damping, backlash });
     b.build().map(|(model, _)| model).map_err(|e| e.to_string())
 }

@@ -150,7 +150,7 @@ fn a_coupling_makes_two_shafts_one() {
     b.body("first", one, Pose::identity(), wheel(0.3));
     let two = b.joint("two", NodeId::WORLD, Pose::translation(Vec3([1.0, 0.0, 0.0])), shaft(0.0));
     b.body("second", two, Pose::identity(), wheel(0.05));
-    b.gear("gear", GearSpec { joints: [one, two], ratio: -3.0, offset: 0.0 });
+    b.gear("gear", GearSpec { joints: [one, two], ratio: -3.0, offset: 0.0, higher: [0.0; 3] });
     let model = b.build().unwrap().0;
     for kind in LOCATING {
         let mut world = World::new(model.clone(), State::new(&model), kind, 1e-10, 1e-3);

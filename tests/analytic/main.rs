@@ -13,6 +13,7 @@ mod loop_kinds;
 mod loops;
 mod mechanisms;
 mod orders;
+mod polynomial_gears;
 mod power;
 mod reactions;
 mod rotors;

@@ -363,7 +363,7 @@ pub(crate) enum LoopKind {
     Weld,
 }
 
-/// Two joints: second = ratio·first + offset.
+/// Two joints: second = offset + ratio·first, with higher powers of first.
 #[derive(Clone, Debug)]
 pub(crate) struct Gear {
     /// Name in the scene.
@@ -376,6 +376,16 @@ pub(crate) struct Gear {
     pub ratio: f64,
     /// Coordinate of the second where the first is zero.
     pub offset: f64,
+    /// Coefficients of the second, third and fourth power of the first.
+    pub higher: [f64; 3],
+}
+
+impl Gear {
+    /// Coordinate of the second joint where that of the first is `q`.
+    pub fn second(&self, q: f64) -> f64 {
+        let [c2, c3, c4] = self.higher;
+        self.ratio * q + self.offset + if self.higher == [0.0; 3] { 0.0 } else { q * q * (c2 + q * (c3 + q * c4)) }
+    }
 }
 
 /// A spring, damper, stop or actuator along a path.

@@ -305,6 +305,7 @@ impl Compiler<'_> {
                 coordinates: [one.q_idx, two.q_idx],
                 ratio: spec.ratio,
                 offset: spec.offset,
+                higher: spec.higher,
             })
         });
         let mut limits = Vec::new();

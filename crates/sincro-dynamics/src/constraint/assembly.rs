@@ -19,7 +19,7 @@ impl<R: Real> Constraints<R> {
     /// is no constraint any more: it may well be approached, and meets with an impact.
     pub fn assemble(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>, within: bool) {
         let set = &*model.params.constraints;
-        self.assemble_loops(model, q, scratch);
+        self.assemble_loops(model, q, v, scratch);
         for (slot, limit) in set.limits.iter().enumerate() {
             if self.memory.is_closed(slot) {
                 let sign = R::splat(limit.sign);
@@ -47,7 +47,7 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Assembles the rows and residuals of loop joints and gears that are used, and nothing else.
-    pub fn assemble_loops(&mut self, model: &Model<R>, q: &[R], scratch: &Scratch<R>) {
+    pub fn assemble_loops(&mut self, model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>) {
         let set = &*model.params.constraints;
         self.rows.clear();
         self.residual.clear();
@@ -57,10 +57,12 @@ impl<R: Real> Constraints<R> {
         }
         for gear in &set.gears {
             let [one, two] = gear.dofs.map(|k| k as u32);
-            let ratio = R::splat(gear.ratio);
-            self.rows.push(Row::of_joints([(one, -ratio), (two, R::one())]));
-            let [q1, q2] = gear.coordinates.map(|k| q[k]);
-            self.residual.push(q2 - ratio * q1 - R::splat(gear.offset));
+            let q1 = q[gear.coordinates[0]];
+            let row = Row::of_joints([(one, -gear.slope(q1)), (two, R::one())]);
+            let square = |rate: R| rate * rate;
+            let bias = gear.is_polynomial().then(|| -(gear.curvature(q1) * square(v[gear.dofs[0]])));
+            self.rows.push(Row { bias, ..row });
+            self.residual.push(gear.residual(q));
         }
         let mut is_used = self.is_independent.iter();
         self.rows.retain(|_| *is_used.next().unwrap_or(&true));

@@ -10,7 +10,7 @@
 //! | universal | the point's, and zₐ·z_b | 4 |
 //! | planar | zₐ·(pₐ − p_b), and xₐ·z_b, yₐ·z_b | 3 |
 //! | distance | \|pₐ − p_b\| − length | 1 |
-//! | gear (in `mod.rs`) | q₂ − ratio·q₁ − offset | 1 |
+//! | gear ([`GearConstraint`](crate::model::GearConstraint)) | q₂ − p(q₁) | 1 |
 //!
 //! Axes of an end instead of the world's: rows that a planar loop cannot move along stay idle whatever it stands on.
 //! The rows are exact derivatives of the residuals, where the loop is open too.

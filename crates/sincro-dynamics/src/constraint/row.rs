@@ -29,12 +29,14 @@ pub(crate) struct Row<R> {
     pub wb_dot: Force<R>,
     /// Degrees of freedom and coefficients of a row over joint rates; `WORLD` for none.
     pub joints: [(u32, R); 2],
+    /// Velocity bias J̇ v of a row over joint rates whose coefficients vary; `None` if they are constant.
+    pub bias: Option<R>,
 }
 
 impl<R: Real> Row<R> {
     /// A row between two links with the same wrench on both.
     pub fn between(a: u32, b: u32, w: Force<R>, w_dot: Force<R>) -> Self {
-        Self { a, b, wa: w, wb: w, wa_dot: w_dot, wb_dot: w_dot, joints: [(WORLD, R::zero()); 2] }
+        Self { a, b, wa: w, wb: w, wa_dot: w_dot, wb_dot: w_dot, joints: [(WORLD, R::zero()); 2], bias: None }
     }
 
     /// p of this row and q of another between the same links.
@@ -63,7 +65,7 @@ impl<R: Real> Row<R> {
     /// A row over joint rates.
     pub fn of_joints(joints: [(u32, R); 2]) -> Self {
         let o = Force::zero();
-        Self { a: WORLD, b: WORLD, wa: o, wb: o, wa_dot: o, wb_dot: o, joints }
+        Self { a: WORLD, b: WORLD, wa: o, wb: o, wa_dot: o, wb_dot: o, joints, bias: None }
     }
 }
 
@@ -178,6 +180,9 @@ impl<R: Real> Motions<R> {
             if k != WORLD {
                 sum += c * v_dot[k as usize];
             }
+        }
+        if let Some(bias) = row.bias {
+            sum += bias;
         }
         sum
     }

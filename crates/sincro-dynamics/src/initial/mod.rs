@@ -18,7 +18,7 @@ pub use velocities::{ConstraintRate, MotorConflict, consistent_velocities, const
 pub struct ConstraintResidual {
     /// Name of the loop joint or gear.
     pub name: String,
-    /// Distance between the ends, or deviation from the prescribed distance `[m]`; of a gear |q₂ − ratio·q₁ − offset|
+    /// Distance between the ends, or deviation from the prescribed distance `[m]`; of a gear |q₂ − p(q₁)|
     /// in the unit of its second joint. Not negative.
     pub distance: f64,
     /// Angle between axes that should agree `[rad]`; 0 if there are none.
@@ -86,9 +86,10 @@ pub fn constraint_residuals(model: &Model<f64>, x: &State<f64>) -> Vec<Constrain
         let (distance, angle) = c.residual(&scratch);
         ConstraintResidual { name: c.name.clone(), distance, angle }
     });
-    let gears = set.gears.iter().map(|c| {
-        let [q1, q2] = c.coordinates.map(|k| x.q[k]);
-        ConstraintResidual { name: c.name.clone(), distance: (q2 - c.ratio * q1 - c.offset).abs(), angle: 0.0 }
+    let gears = set.gears.iter().map(|c| ConstraintResidual {
+        name: c.name.clone(),
+        distance: c.residual(&x.q).abs(),
+        angle: 0.0,
     });
     loop_joints.chain(gears).collect()
 }

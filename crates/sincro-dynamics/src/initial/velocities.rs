@@ -61,7 +61,7 @@ impl MotorConflict {
 ///     builder.body(&format!("{name}'s body"), joint, Pose::identity(), BodySpec { mass });
 ///     joint
 /// });
-/// builder.gear("gear", GearSpec { joints, ratio: -0.25, offset: 0.0 });
+/// builder.gear("gear", GearSpec { joints, ratio: -0.25, offset: 0.0, higher: [0.0; 3] });
 /// let (model, _warnings) = builder.build()?;
 /// let state = State { v: vec![4.0, 0.0], ..State::new(&model) };
 /// assert_eq!(constraint_rates(&model, &state)[0].speed, 1.0); // the wheel should turn at −1 rad/s

@@ -422,7 +422,7 @@ impl<R: Real> Mechanism<R> {
         kinematics::chain_poses(&self.model, &mut self.scratch);
         let c = self.constraints.as_deref_mut().expect("there are loops");
         c.motions.place(&self.model, &self.scratch, v);
-        c.assemble_loops(&self.model, &self.base, &self.scratch);
+        c.assemble_loops(&self.model, &self.base, v, &self.scratch);
         c.keep_loop_joints();
     }
 }

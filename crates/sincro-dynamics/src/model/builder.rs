@@ -303,8 +303,8 @@ impl SpringDamperSpec {
     }
 }
 
-/// Gear (mimic) constraint of two joints with one degree of freedom each, q₂ = ratio·q₁ + offset; to be added by
-/// [`ModelBuilder::gear`].
+/// Gear (mimic) constraint of two joints with one degree of freedom each, q₂ = offset + ratio·q₁ + Σ cₖ q₁ᵏ; to be
+/// added by [`ModelBuilder::gear`].
 #[derive(Clone, Debug)]
 pub struct GearSpec {
     /// The two joints, 1 and 2.
@@ -313,6 +313,8 @@ pub struct GearSpec {
     pub ratio: f64,
     /// Coordinate q₂ where q₁ = 0 `[rad]` or `[m]`.
     pub offset: f64,
+    /// Coefficients c₂, c₃, c₄ of q₁², q₁³, q₁⁴; zero for a linear one, as all elastic gears are.
+    pub higher: [f64; 3],
 }
 
 /// Elastic gear with backlash between two joints with one degree of freedom each; to be added by
@@ -574,7 +576,7 @@ impl ModelBuilder {
     ///     builder.body(&format!("{name} wheel"), joint, Pose::identity(), BodySpec { mass });
     ///     joint
     /// });
-    /// builder.gear("gear", GearSpec { joints, ratio: -3.0, offset: 0.0 });
+    /// builder.gear("gear", GearSpec { joints, ratio: -3.0, offset: 0.0, higher: [0.0; 3] });
     /// let (model, _warnings) = builder.build()?;
     /// let [first, second] = ["first", "second"].map(|name| model.names().joint_id(name).unwrap());
     /// let mut world = World::builder(model).velocities(first, &[1.0]).velocities(second, &[-3.0]).build()?;

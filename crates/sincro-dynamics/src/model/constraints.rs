@@ -1,5 +1,7 @@
 //! Constraints of a model as they are declared: loop joints, gears, joint limits, colliders and their pairs.
 
+use sincro_math::Real;
+
 use crate::contact::{Collider, Pair};
 use crate::spatial::Pose;
 
@@ -69,7 +71,8 @@ pub struct LoopJoint {
     pub b: Anchor,
 }
 
-/// Gear (mimic) constraint of a model between two coordinates, q₂ = ratio·q₁ + offset.
+/// Gear (mimic) constraint of a model between two coordinates, q₂ = offset + ratio·q₁ + Σ cₖ q₁ᵏ, k = 2, 3, 4. Its row
+/// is q̇₂ − p'(q₁) q̇₁, with the velocity bias −p''(q₁) q̇₁², p the polynomial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GearConstraint {
     /// Name given by the user.
@@ -78,10 +81,49 @@ pub struct GearConstraint {
     pub dofs: [usize; 2],
     /// Indices in q of their coordinates.
     pub coordinates: [usize; 2],
-    /// Ratio of the rates, v₂ over v₁.
+    /// Ratio of the rates, v₂ over v₁, where q₁ = 0; everywhere without higher powers.
     pub ratio: f64,
     /// Coordinate q₂ where q₁ = 0 `[rad]` or `[m]`.
     pub offset: f64,
+    /// Coefficients c₂, c₃, c₄ of q₁², q₁³, q₁⁴; all zero for a linear one.
+    pub higher: [f64; 3],
+}
+
+impl GearConstraint {
+    /// Returns true if q₂ is a polynomial of q₁ of degree two or more.
+    #[must_use]
+    pub fn is_polynomial(&self) -> bool {
+        self.higher != [0.0; 3]
+    }
+
+    /// Position residual q₂ − p(q₁) at the coordinates `q` (n_q) of a model, in the unit of q₂.
+    #[inline(always)]
+    pub fn residual<R: Real>(&self, q: &[R]) -> R {
+        let [q1, q2] = self.coordinates.map(|k| q[k]);
+        let linear = q2 - R::splat(self.ratio) * q1 - R::splat(self.offset);
+        if !self.is_polynomial() {
+            return linear;
+        }
+        let [c2, c3, c4] = self.higher.map(R::splat);
+        linear - q1 * q1 * (c2 + q1 * (c3 + q1 * c4))
+    }
+
+    /// Slope p'(q₁), the ratio of the rates, v₂ over v₁.
+    #[inline(always)]
+    pub fn slope<R: Real>(&self, q1: R) -> R {
+        if !self.is_polynomial() {
+            return R::splat(self.ratio);
+        }
+        let [c2, c3, c4] = [2.0 * self.higher[0], 3.0 * self.higher[1], 4.0 * self.higher[2]].map(R::splat);
+        R::splat(self.ratio) + q1 * (c2 + q1 * (c3 + q1 * c4))
+    }
+
+    /// Curvature p''(q₁).
+    #[inline(always)]
+    pub fn curvature<R: Real>(&self, q1: R) -> R {
+        let [c2, c3, c4] = [2.0 * self.higher[0], 6.0 * self.higher[1], 12.0 * self.higher[2]].map(R::splat);
+        c2 + q1 * (c3 + q1 * c4)
+    }
 }
 
 /// Lower or upper limit of the coordinate of a joint; both limits of a joint are two entries.

@@ -62,11 +62,7 @@ impl Observation<'_> {
         let set = self.model().constraints();
         match set.loop_joints.get(k) {
             Some(joint) => joint.residual(self.scratch()).0,
-            None => {
-                let gear = &set.gears[k - set.loop_joints.len()];
-                let [q1, q2] = gear.coordinates.map(|k| self.state.q[k]);
-                (q2 - gear.ratio * q1 - gear.offset).abs()
-            }
+            None => set.gears[k - set.loop_joints.len()].residual(&self.state.q).abs(),
         }
     }
 

@@ -198,13 +198,12 @@ fn geom(out: &mut String, tree: &mut Tree<'_>, k: usize, piece: &Piece, more: &s
 
 fn equality(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
     let mut lines = String::new();
-    for (first, second, ratio, offset) in tree.gears() {
+    for (first, second, coefficients) in tree.gears() {
         lines += &format!(
-            "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n",
+            "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{}\"/>\n",
             escaped(&second),
             escaped(&first),
-            plain(offset),
-            plain(ratio)
+            numbers(&coefficients)
         );
     }
     for closure in tree.scene.model.constraints().loop_joints.clone() {

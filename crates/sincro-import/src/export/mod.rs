@@ -279,8 +279,8 @@ impl<'a> Tree<'a> {
         Some(file)
     }
 
-    /// Gears between joints, by the names of those.
-    fn gears(&self) -> Vec<(String, String, f64, f64)> {
+    /// Gears between joints, by the names of those: first, second, and the coefficients of the powers 0 to 4 of first.
+    fn gears(&self) -> Vec<(String, String, [f64; 5])> {
         let names = self.scene.model.names();
         let name = |dof: usize| {
             let path = &names.joint_info(names.dof_joint[dof]).name;
@@ -288,7 +288,12 @@ impl<'a> Tree<'a> {
             all.clone().find(|j| j.path == *path).map(|j| j.name.clone())
         };
         let gears = self.scene.model.constraints().gears.iter();
-        gears.filter_map(|g| Some((name(g.dofs[0])?, name(g.dofs[1])?, g.ratio, g.offset))).collect()
+        gears
+            .filter_map(|g| {
+                let [c2, c3, c4] = g.higher;
+                Some((name(g.dofs[0])?, name(g.dofs[1])?, [g.offset, g.ratio, c2, c3, c4]))
+            })
+            .collect()
     }
 }
 

@@ -79,7 +79,7 @@ fn joint_text(
     parent: &str,
     child: &str,
     origin: &Pose<f64>,
-    gears: &[(String, String, f64, f64)],
+    gears: &[(String, String, [f64; 5])],
 ) {
     let kind = match joint.kind {
         JointKind::Revolute { .. } if joint.is_limited() => "revolute",
@@ -123,8 +123,11 @@ fn joint_text(
     if joint.motor.is_some() {
         tree.note(&joint.path, "URDF has no motors: the largest torque and speed alone are written");
     }
-    for (first, second, ratio, offset) in gears.iter().filter(|g| g.1 == joint.name) {
-        let _ = second;
+    for (first, _, [offset, ratio, higher @ ..]) in gears.iter().filter(|g| g.1 == joint.name) {
+        if *higher != [0.0; 3] {
+            tree.note(&joint.path, "URDF couples joints linearly only: the polynomial is not written");
+            continue;
+        }
         *out += &format!(
             "    <mimic joint=\"{}\" multiplier=\"{}\" offset=\"{}\"/>\n",
             escaped(first),

@@ -138,7 +138,7 @@ impl<'d> Reader<'d> {
         Ok(Softness { stiffness, damping, rotation: 0.25 * torque_scale * torque_scale, bodies, is_moved })
     }
 
-    /// q₁ − q₁₀ = c₀ + c₁·(q₂ − q₂₀)
+    /// q₁ − q₁₀ = Σ cₖ (q₂ − q₂₀)ᵏ, k = 0 to 4.
     fn coupled(&mut self, e: Element<'d>, robot: &mut Robot) -> Result<(), Diagnostic> {
         let find = |key: &str| -> Result<Option<usize>, Diagnostic> {
             let Some(name) = e.attribute(key) else { return Ok(None) };
@@ -151,9 +151,6 @@ impl<'d> Reader<'d> {
         let (Some(first), Some(second)) = (first, second) else {
             return Err(e.error("a joint that is held at a position has no counterpart").with_help("remove the joint"));
         };
-        if (2..5).any(|k| get(k) != 0.0) {
-            return Err(e.error("joints coupled by a polynomial have no counterpart").with_help("a linear one has"));
-        }
         let n = |j: usize| robot.joints[j].kind.dofs();
         if n(first) != 1 || n(second) != 1 {
             return Err(e.error("coupled joints have one degree of freedom each"));
@@ -161,7 +158,8 @@ impl<'d> Reader<'d> {
         // coordinates here are zero at the reference
         e.change("a gear between two joints: a [[coupling]]");
         let name = format!("{}-follows", robot.joints[first].name);
-        robot.gears.push(Gear { name, at: e.location(), joints: [second, first], ratio: get(1), offset: get(0) });
+        let (at, joints, higher) = (e.location(), [second, first], [get(2), get(3), get(4)]);
+        robot.gears.push(Gear { name, at, joints, ratio: get(1), offset: get(0), higher });
         Ok(())
     }
 }

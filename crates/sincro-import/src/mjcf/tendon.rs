@@ -196,7 +196,8 @@ impl<'d> Reader<'d> {
         self.tendons.get(name).map(Some).ok_or_else(|| e.error(format!("there is no tendon `{name}`")))
     }
 
-    /// ℓ₁ − ℓ₁₀ = c₀ + c₁·(ℓ₂ − ℓ₂₀), as a stiff tendon.
+    /// ℓ₁ − ℓ₁₀ = Σ cₖ (ℓ₂ − ℓ₂₀)ᵏ: a linear one as a stiff tendon, a polynomial between the lengths of one joint each
+    /// as a coupling of these.
     pub(super) fn held_tendon(
         &mut self,
         e: Element<'d>,
@@ -218,9 +219,21 @@ impl<'d> Reader<'d> {
                     return Err(e.error("two tendons through sites that are coupled have no counterpart"));
                 };
                 if (2..5).any(|k| get(k) != 0.0) {
-                    return Err(e
-                        .error("tendons coupled by a polynomial have no counterpart")
-                        .with_help("a linear one has"));
+                    let (&[(first, a)], &[(second, b)]) = (&one[..], &two[..]) else {
+                        return Err(e
+                            .error("tendons of several joints coupled by a polynomial have no counterpart")
+                            .with_help("a linear one has, and one between tendons of one joint each"));
+                    };
+                    if a == 0.0 || b == 0.0 || first == second {
+                        return Err(e.error("the lengths of the tendons that it couples are not those of two joints"));
+                    }
+                    // a q₁ = Σ cₖ (b q₂)ᵏ from the references
+                    let [offset, ratio, higher @ ..]: [f64; 5] = std::array::from_fn(|k| get(k) * b.powi(k as i32) / a);
+                    e.change("a gear between the joints of two tendons: a [[coupling]]");
+                    let name = format!("{}-follows", robot.joints[first].name);
+                    let (at, joints) = (e.location(), [second, first]);
+                    robot.gears.push(crate::robot::Gear { name, at, joints, ratio, offset, higher });
+                    return Ok(());
                 }
                 length -= get(1) * (second.reference - second.offset);
                 let mut shares = one.clone();

@@ -292,5 +292,12 @@ fn gearbox(
     }
     let (first, second) = (found[0], found[1]);
     let ratio = -ratio * first.1 * second.1;
-    Ok(Gear { name: name.to_owned(), at: element.location(), joints: [first.0, second.0], ratio, offset: 0.0 })
+    Ok(Gear {
+        name: name.to_owned(),
+        at: element.location(),
+        joints: [first.0, second.0],
+        ratio,
+        offset: 0.0,
+        higher: [0.0; 3],
+    })
 }

@@ -187,5 +187,5 @@ fn mimic(
     }
     element.change("a gear between the two joints: a [[coupling]]");
     let name = format!("{}-follows", joint.name);
-    Ok(Some(Gear { name, at: element.location(), joints: [first, second], ratio, offset }))
+    Ok(Some(Gear { name, at: element.location(), joints: [first, second], ratio, offset, higher: [0.0; 3] }))
 }

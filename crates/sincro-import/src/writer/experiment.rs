@@ -81,7 +81,7 @@ fn coordinates(writer: &Writer<'_>, keyframe: &Keyframe) -> Result<Vec<(usize, V
     }
     for _ in 0..robot.gears.len() {
         for gear in &robot.gears {
-            starts[gear.joints[1]] = gear.ratio * starts[gear.joints[0]] + gear.offset;
+            starts[gear.joints[1]] = gear.second(starts[gear.joints[0]]);
         }
     }
     let beyond = |k: &usize| robot.joints[*k].limits.is_some_and(|[low, high]| starts[*k] < low || starts[*k] > high);

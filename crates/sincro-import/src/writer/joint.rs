@@ -26,7 +26,7 @@ pub(super) fn starts(robot: &mut Robot, context: &Context<'_>) -> Vec<f64> {
     // gears may drive gears: as many rounds as there are
     for _ in 0..robot.gears.len() {
         for gear in &robot.gears {
-            starts[gear.joints[1]] = gear.ratio * starts[gear.joints[0]] + gear.offset;
+            starts[gear.joints[1]] = gear.second(starts[gear.joints[0]]);
         }
     }
     for (joint, start) in robot.joints.iter_mut().zip(&starts) {

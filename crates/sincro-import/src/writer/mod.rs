@@ -318,6 +318,9 @@ impl Writer<'_> {
             if gear.offset != 0.0 {
                 self.line(&format!("offset = {}", number(gear.offset)));
             }
+            if gear.higher != [0.0; 3] {
+                self.line(&format!("polynomial = {}", list(&gear.higher)));
+            }
             self.line("");
         }
     }

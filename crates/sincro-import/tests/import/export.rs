@@ -340,3 +340,20 @@ fn activations_come_back_from_mjcf() {
     let left_out = notes.iter().filter(|(_, words)| words.contains("the activation of its motor is not written"));
     assert_eq!(left_out.count(), 2, "{notes:?}");
 }
+
+#[test]
+fn polynomial_couplings_come_back_from_mjcf_and_are_noted_elsewhere() {
+    let folder = Folder::new();
+    let coupling = "[[coupling]]\nname = \"cam\"\njoints = [\"/base/turn\", \"/base/turn/arm/slide\"]\nratio = -0.2\npolynomial = [0.3, 0.0, -0.05]\n";
+    folder.file("own/scene.toml", format!("{SCENE}\n{coupling}"));
+    folder.file("own/experiment.toml", EXPERIMENT);
+    let loaders = sincro_scene::fmu::Loaders::default();
+    let own = sincro_scene::open::open(&folder.path().join("own"), &[], loaders, true).unwrap().scene;
+    let exported = export(&own, "own", Format::Mjcf).unwrap();
+    assert!(exported.text.contains("polycoef=\"0 -0.2 0.3 0 -0.05\""), "{}", exported.text);
+    let imported = folder.import("r.xml", &exported.text).unwrap_or_else(|found| panic!("{found}"));
+    let (back, gear) = (folder.open(&imported).scene.model, &own.model.constraints().gears[0]);
+    assert_eq!(back.constraints().gears[0].higher, gear.higher);
+    let urdf = export(&own, "own", Format::Urdf).unwrap();
+    assert!(!urdf.text.contains("<mimic") && urdf.notes.iter().any(|(_, words)| words.contains("polynomial")));
+}

@@ -129,7 +129,7 @@ fn features_without_counterpart_are_refused_by_name() {
             "polynomial",
         ),
         ("<tendon><fixed name=\"t\"><joint joint=\"nee\" coef=\"1\"/></fixed></tendon>", "", "there is no joint `nee`"),
-        ("<equality><joint joint1=\"knee\" joint2=\"pitch\" polycoef=\"0 1 2 0 0\"/></equality>", "", "polynomial"),
+        ("<equality><joint joint1=\"knee\" polycoef=\"0.5\"/></equality>", "", "held at a position"),
         ("", "<flexcomp name=\"f\"/>", "flexcomp"),
     ] {
         let text = HOPPER
@@ -461,4 +461,30 @@ fn a_reference_shifts_the_activation_of_a_servo() {
     let own = scene.model.activations()[0];
     assert_eq!((own.initial, own.range), (-0.25, [-1.25, 1.75]));
     assert_eq!(scene.initial.rotors, [-0.25]);
+}
+
+#[test]
+fn equalities_with_a_polynomial_are_couplings() {
+    let folder = Folder::new();
+    let with = |equality: &str| {
+        actuated("").replace("</mujoco>", &format!("<equality>{equality}</equality></mujoco>")).replace(
+            "</tendon>",
+            r#"<fixed name="one"><joint joint="j0" coef="2"/></fixed><fixed name="two"><joint joint="j1" coef="0.5"/></fixed></tendon>"#,
+        )
+    };
+    let gear = |equality: &str| {
+        let imported = folder.import("m.xml", &with(equality)).unwrap_or_else(|found| panic!("{found}"));
+        let opened = folder.open(&imported).scene;
+        let gear = opened.model.constraints().gears[0].clone();
+        assert!(gear.residual::<f64>(&opened.initial.q).abs() < 1e-15, "{:?}", opened.initial.q);
+        (gear.dofs, gear.offset, gear.ratio, gear.higher)
+    };
+    let joints = gear(r#"<joint joint1="j2" joint2="j0" polycoef="0.1 -0.5 0.25 0.02 -0.3"/>"#);
+    assert_eq!(joints, ([0, 2], 0.1, -0.5, [0.25, 0.02, -0.3]));
+    // 2 q₀ = 0.2 + 0.5 (q₁/2) − (q₁/2)³
+    let tendons = gear(r#"<tendon tendon1="one" tendon2="two" polycoef="0.2 0.5 0 -1 0"/>"#);
+    assert_eq!(tendons, ([1, 0], 0.1, 0.125, [0.0, -0.0625, 0.0]));
+    let refused = folder.import("m.xml", &with(r#"<tendon tendon1="t" tendon2="two" polycoef="0 1 0.5"/>"#));
+    let refused = refused.map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("tendons of several joints coupled by a polynomial"), "{refused}");
 }

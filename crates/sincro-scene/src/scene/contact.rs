@@ -302,8 +302,15 @@ impl Joiner<'_> {
             let diagnostic = Diagnostic::error(&at, format!("the ratio of coupling `{}` is 0", file.name));
             self.diagnostics.push(diagnostic.with_help("give the rate of the second joint over that of the first"));
         }
+        let given = file.polynomial.as_deref().unwrap_or_default();
+        if file.stiffness.is_some() && file.polynomial.is_some() {
+            let at = self.document.key_at(&format!("{pointer}/polynomial"));
+            let message = format!("`polynomial` has no meaning for the elastic coupling `{}`", file.name);
+            self.diagnostics.push(Diagnostic::error(&at, message).with_help("leave it out, or `stiffness`"));
+        }
         let [Some(a), Some(b)] = joints else { return None };
-        Some(GearSpec { joints: [a, b], ratio: file.ratio, offset: file.offset })
+        let higher = std::array::from_fn(|k| given.get(k).copied().unwrap_or(0.0));
+        Some(GearSpec { joints: [a, b], ratio: file.ratio, offset: file.offset, higher })
     }
 
     fn find(&mut self, path: &str, pointer: &str, fits: impl Fn(&Object) -> bool, what: &str) -> Option<NodeId> {

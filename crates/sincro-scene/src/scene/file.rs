@@ -304,7 +304,7 @@ pub(crate) enum ClosureKindFile {
     Distance,
 }
 
-/// Two joints of one degree of freedom that move together: second = ratio·first + offset; exactly, or with a `stiffness` through an elastic mesh with backlash.
+/// Two joints of one degree of freedom that move together: second = ratio·first + offset, with higher powers of first by `polynomial`; exactly, or with a `stiffness` through an elastic mesh with backlash.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -318,6 +318,9 @@ pub(crate) struct CouplingFile {
     /// Coordinate of the second where that of the first is zero [rad] or [m].
     #[serde(default)]
     pub offset: f64,
+    /// Coefficients c₂, c₃, c₄ of first², first³ and first⁴ (or the first of them), which are added to second; only of a rigid gear.
+    #[cfg_attr(test, schemars(length(min = 1, max = 3)))]
+    pub polynomial: Option<Vec<f64>>,
     /// Stiffness of the teeth at the second joint, above 0; without it the gear is rigid [N·m/rad] or [N/m].
     #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
     pub stiffness: Option<f64>,
