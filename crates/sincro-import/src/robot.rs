@@ -62,6 +62,34 @@ impl Placement {
         degrees.iter().all(|a| (a * 1e6).round() / 1e6 == *a).then_some(degrees)
     }
 
+    /// Placement whose rotation a scene reads as exactly that of `pose`, angles or a quaternion; the nearest, with
+    /// false, if none of those within two units in the last place does.
+    pub fn exactly(pose: &Pose<f64>) -> (Self, bool) {
+        let own = Self::of_pose(pose);
+        let mut wxyz = [0.0; 4];
+        Quat::from_matrix(&pose.rot).write(&mut wxyz);
+        let moved = |x: f64, ulps: i64| if x == 0.0 { x } else { f64::from_bits((x.to_bits() as i64 + ulps) as u64) };
+        let nearby = (0..625_i64).map(|k| {
+            let steps = [k % 5, k / 5 % 5, k / 25 % 5, k / 125].map(|n| (n + 1) / 2 * if n % 2 == 0 { -1 } else { 1 });
+            let rotation = Rotation::Quaternion(std::array::from_fn(|c| moved(wxyz[c], steps[c])));
+            Self { position: pose.pos.0, rotation }
+        });
+        let found = std::iter::once(own).chain(nearby).find(|placement| placement.rotation_in_scene() == pose.rot);
+        found.map_or((own, false), |placement| (placement, true))
+    }
+
+    /// Rotation that a scene reads from this one as it is written: round angles, or a quaternion.
+    fn rotation_in_scene(&self) -> Mat3<f64> {
+        match (self.rotation, self.round_angles()) {
+            (Rotation::Quaternion(q), None) => {
+                let largest = q.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+                Quat::from_slice(&q.map(|x| x / largest)).normalized().matrix()
+            }
+            (Rotation::Quaternion(_), Some(degrees)) => rotation_matrix(degrees.map(f64::to_radians)),
+            (Rotation::RollPitchYaw(rpy), _) => rotation_matrix(rpy),
+        }
+    }
+
     /// As a pose.
     pub fn pose(&self) -> Pose<f64> {
         let rot = match self.rotation {
@@ -172,6 +200,8 @@ pub(crate) struct Link {
     pub collisions: Vec<Geometry>,
     /// Only there between two joints of one body: it has no name in the source.
     pub is_virtual: bool,
+    /// Contact group in the scene, if the source says: bodies of one group other than 0 do not touch each other.
+    pub group: Option<usize>,
 }
 
 /// Mass properties in the link's frame.

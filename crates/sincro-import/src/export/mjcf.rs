@@ -2,13 +2,17 @@
 
 use sincro_dynamics::actuation::{Activation, MotorMode};
 use sincro_dynamics::constraint::LoopJointKind;
-use sincro_dynamics::contact::Surface;
+use sincro_dynamics::contact::{Material, Surface};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
-use super::mjcf_tendon::{self, Tendons};
+use super::mjcf_tendon::{self, Tendons, name_of};
 use super::{Joint, Piece, Tree, escaped, numbers, solid, wxyz};
 use crate::number::plain;
+use crate::robot::Placement;
+
+/// End of a range that MuJoCo takes for none: its largest number (`mjMAXVAL`).
+pub(crate) const UNLIMITED: f64 = 1e10;
 
 /// Text of the file.
 pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
@@ -50,6 +54,7 @@ pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
     tendons.write(&mut out, tree);
     equality(&mut out, tree, &tendons);
     actuators(&mut out, tree, &tendons);
+    out += &super::mjcf_frames::section(tree);
     out += "</mujoco>\n";
     Ok(out)
 }
@@ -97,13 +102,24 @@ fn body(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons, k: usize, dept
     tendons.sites_of(Some(k), out, &format!("{pad}  "));
     let (shown, touching) = tree.pieces(k);
     let own = tree.object(k).visuals.is_empty();
-    let (group, friction) = tree.object(k).contact.as_ref().map_or((0, 1.0), |c| (c.group, c.friction));
+    let material = tree.object(k).contact.unwrap_or(Material { friction: 1.0, ..Material::default() });
+    let (group, rolls) = (material.group, material.spinning_friction != 0.0 || material.rolling_friction != 0.0);
+    let friction = numbers(&[material.friction, material.spinning_friction, material.rolling_friction]);
+    let friction = format!("friction=\"{friction}\"{}", if rolls { " condim=\"6\"" } else { "" });
+    if !touching.is_empty() && (material.restitution != 0.0 || material.stiffness.is_finite()) {
+        let path = tree.object(k).path.clone();
+        tree.note(&path, "the restitution and compliance of its contact are not written");
+    }
     if !own || touching.is_empty() {
         for piece in shown {
             geom(out, tree, k, &piece, "contype=\"0\" conaffinity=\"0\" group=\"1\"", &pad);
         }
     }
     for piece in touching {
+        if !Placement::exactly(&piece.pose).1 {
+            let path = tree.object(k).path.clone();
+            tree.note(&path, "the rotation of its geometry is written to rounding");
+        }
         // bodies of one group do not touch each other: their bits do not meet
         let bits = if group == 0 {
             "contype=\"1\" conaffinity=\"3\"".to_owned()
@@ -111,7 +127,7 @@ fn body(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons, k: usize, dept
             "contype=\"2\" conaffinity=\"1\"".to_owned()
         };
         let hidden = if own { "" } else { " group=\"3\"" };
-        geom(out, tree, k, &piece, &format!("{bits} friction=\"{} 0 0\"{hidden}", plain(friction)), &pad);
+        geom(out, tree, k, &piece, &format!("{bits} {friction}{hidden}"), &pad);
     }
     let children: Vec<usize> = (0..tree.links.len()).filter(|c| tree.links[*c].parent == Some(k)).collect();
     for child in children {
@@ -140,7 +156,7 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
         text
     };
     let range = if joint.is_limited() {
-        format!(" range=\"{}\"", numbers(&joint.limits.map(|x| x.clamp(-1e9, 1e9))))
+        format!(" range=\"{}\"", numbers(&joint.limits.map(|x| x.clamp(-UNLIMITED, UNLIMITED))))
     } else {
         String::new()
     };
@@ -198,22 +214,26 @@ fn geom(out: &mut String, tree: &mut Tree<'_>, k: usize, piece: &Piece, more: &s
 
 fn equality(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
     let mut lines = String::new();
-    for (first, second, coefficients) in tree.gears() {
+    let names: Vec<String> = tree.scene.model.constraints().gears.iter().map(|gear| gear.name.clone()).collect();
+    for ((first, second, coefficients), name) in tree.gears().into_iter().zip(names) {
         lines += &format!(
-            "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{}\"/>\n",
+            "    <joint name=\"{}\" joint1=\"{}\" joint2=\"{}\" polycoef=\"{}\"/>\n",
+            name_of(&name),
             escaped(&second),
             escaped(&first),
             numbers(&coefficients)
         );
     }
-    for closure in tree.scene.model.constraints().loop_joints.clone() {
-        let end = |path: &str| {
-            tree.links.iter().find(|l| tree.scene.objects[l.object].path == path).map(|l| escaped(&l.name))
-        };
-        let (a, b) = (end(&closure.a.name), end(&closure.b.name));
-        let words = match (closure.kind, a, b) {
-            (LoopJointKind::Point, Some(a), Some(b)) => format!("<connect site1=\"{a}\" site2=\"{b}\"/>"),
-            (LoopJointKind::Weld, Some(a), Some(b)) => format!("<weld site1=\"{a}\" site2=\"{b}\"/>"),
+    for (k, closure) in tree.scene.model.constraints().loop_joints.clone().into_iter().enumerate() {
+        let (name, [a, b]) = (name_of(&closure.name), tendons.of_loop(k));
+        for (end, site) in [(&closure.a.name, a), (&closure.b.name, b)] {
+            if site.starts_with(&format!("{name}-")) {
+                tree.note(&closure.name, &format!("its end `{end}` is a site of its own in MJCF"));
+            }
+        }
+        let words = match closure.kind {
+            LoopJointKind::Point => format!("<connect name=\"{name}\" site1=\"{a}\" site2=\"{b}\"/>"),
+            LoopJointKind::Weld => format!("<weld name=\"{name}\" site1=\"{a}\" site2=\"{b}\"/>"),
             _ => {
                 tree.note(&closure.name, "MJCF closes loops by points and welds of frames only");
                 continue;
@@ -274,7 +294,7 @@ pub(super) fn activation_keys(tree: &mut Tree<'_>, path: &str, own: &Activation<
     };
     for (key, range) in [("actrange", own.range), ("ctrlrange", own.input_range)] {
         if range.iter().any(|x| x.is_finite()) {
-            keys += &format!(" {key}=\"{}\"", numbers(&range.map(|x| x.clamp(-1e9, 1e9))));
+            keys += &format!(" {key}=\"{}\"", numbers(&range.map(|x| x.clamp(-UNLIMITED, UNLIMITED))));
         }
     }
     if own.initial != 0.0 {

@@ -53,10 +53,12 @@ pub(super) struct Tendons {
     of_elements: Vec<Vec<usize>>,
     /// Sites of each bushing of the model.
     of_bushings: Vec<[usize; 2]>,
+    /// Names of the sites at the ends of each loop joint of the model.
+    of_loops: Vec<[String; 2]>,
 }
 
 /// Name of an element in the file.
-fn name_of(path: &str) -> String {
+pub(super) fn name_of(path: &str) -> String {
     escaped(path.trim_start_matches('/'))
 }
 
@@ -94,7 +96,21 @@ impl Tendons {
                 site(format!("{}-{}", name_of(path), k + 1), end.link, end.pose)
             }));
         }
-        Self { sites, of_elements, of_bushings }
+        let mut of_loops = Vec::new();
+        for closure in &model.constraints().loop_joints {
+            of_loops.push([(0, &closure.a), (1, &closure.b)].map(|(k, end)| {
+                let named = |l: &usize| tree.scene.objects[tree.links[*l].object].path == end.name;
+                // a frame at the end is a site already
+                if let Some(l) = (0..tree.links.len()).find(named).filter(|l| is_site(tree, *l)) {
+                    return escaped(&tree.links[l].name);
+                }
+                let name = format!("{}-{}", name_of(&closure.name), k + 1);
+                let link = model.names().frame(&end.name).and_then(|frame| frame.link);
+                sites.push(site(name.clone(), link, end.pose));
+                name
+            }));
+        }
+        Self { sites, of_elements, of_bushings, of_loops }
     }
 
     /// Centre of mass of the body that carries a site, as a frame of its link in the model; MuJoCo takes the position
@@ -144,6 +160,11 @@ impl Tendons {
             );
         }
         lines
+    }
+
+    /// Names of the sites at the ends of loop joint `k` of the model.
+    pub fn of_loop(&self, k: usize) -> &[String; 2] {
+        &self.of_loops[k]
     }
 
     /// Writes the sites on a link, or in the world.
@@ -199,6 +220,13 @@ impl Tendons {
                     }
                 }
                 Some(_) => tree.note(path, "its law or table is not written"),
+            }
+            if element.shares().is_empty() {
+                tree.note(path, "its points are sites of their own in MJCF");
+            } else if element.actuator.is_some()
+                && (law.stiffness != 0.0 || law.damping != 0.0 || law.nonlinear.is_some())
+            {
+                tree.note(path, "MJCF drives it by an element of its own");
             }
             let parts: String = if element.shares().is_empty() {
                 let site = |s: &usize| format!("      <site site=\"{}\"/>\n", self.sites[*s].name);

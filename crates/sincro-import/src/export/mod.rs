@@ -4,13 +4,14 @@
 //! from the link above, at zero coordinates. A writer a format does the rest.
 
 mod mjcf;
+mod mjcf_frames;
 mod mjcf_tendon;
 mod sdf;
 mod urdf;
 
 use std::collections::BTreeMap;
 
-use sincro_dynamics::contact::Surface;
+use sincro_dynamics::contact::{PairLaw, Surface, pairs};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, MassProperties, Shape};
 use sincro_dynamics::spatial::Pose;
@@ -18,6 +19,8 @@ use sincro_scene::scene::{Object, ObjectKind, Scene};
 
 use crate::mesh::{Part, stl};
 use crate::number;
+pub(crate) use mjcf::UNLIMITED;
+pub(crate) use mjcf_frames::PREFIX;
 
 /// Robot description format that [`export()`] writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -242,8 +245,41 @@ impl<'a> Tree<'a> {
                 self.note(scene.model.names().dof_name(motor.dof), "the activation of its motor is not written");
             }
         }
+        self.note_forces();
         for script in &scene.scripts {
             self.note(&script.path, "a script is not written");
+        }
+    }
+
+    /// Notes forces and laws that no format takes.
+    fn note_forces(&mut self) {
+        let (model, names) = (&self.scene.model, self.scene.model.names());
+        for applied in model.applied() {
+            self.note(names.dof_name(applied.dof), "a torque over time is not written");
+        }
+        for (k, dof) in model.dofs().iter().enumerate() {
+            if dof.torque != 0.0 {
+                self.note(names.dof_name(k), "its constant torque is not written");
+            }
+            let friction = dof.friction;
+            if friction.at_rest != friction.sliding || friction.load_coefficient != 0.0 {
+                self.note(names.dof_name(k), "its friction is written as that in motion, without load");
+            }
+        }
+        let set = model.constraints();
+        for limit in set.limits.iter().filter(|limit| limit.restitution != 0.0) {
+            self.note(names.dof_name(limit.dof), "the restitution of its limits is not written");
+        }
+        for gear in &names.elastic_gears {
+            self.note(gear, "an elastic coupling is not written");
+        }
+        let carries = |a: u32, b: u32| model.links()[a as usize].parent() == Some(b as usize);
+        let plain = pairs(&set.colliders, |a, b| carries(a, b) || carries(b, a), |_, _| PairLaw::default());
+        if plain != set.pairs {
+            self.note("/", "laws of contact of pairs of bodies are not written");
+        }
+        if model.wind().is_some() || model.gravity_field().is_some() {
+            self.note("/", "wind, and gravity that depends on the position, are not written");
         }
     }
 
@@ -318,11 +354,16 @@ fn rpy(pose: &Pose<f64>) -> [f64; 3] {
     }
 }
 
-/// Quaternion w, x, y, z of a pose.
+/// Quaternion w, x, y, z of a pose, one that is read as exactly its rotation if there is one.
 fn wxyz(pose: &Pose<f64>) -> [f64; 4] {
-    let mut q = [0.0; 4];
-    sincro_dynamics::spatial::Quat::from_matrix(&pose.rot).write(&mut q);
-    q
+    match crate::robot::Placement::exactly(pose).0.rotation {
+        crate::robot::Rotation::Quaternion(q) => q,
+        crate::robot::Rotation::RollPitchYaw(_) => {
+            let mut q = [0.0; 4];
+            sincro_dynamics::spatial::Quat::from_matrix(&pose.rot).write(&mut q);
+            q
+        }
+    }
 }
 
 /// A text in XML.

@@ -4,6 +4,7 @@
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
+use crate::export::UNLIMITED;
 use crate::findings::Findings;
 use crate::number::list;
 use crate::robot::{Activation, CommandedForce, Motor, MotorLaw, Robot, Tendon};
@@ -251,10 +252,15 @@ impl<'d> Reader<'d> {
             _ => self.settings.autolimits,
         };
         Ok(match range.as_deref() {
-            Some(&[low, high]) if on => Some([low, high]),
+            Some(&[low, high]) if on => Some([low, high].map(without_limit)),
             _ => None,
         })
     }
+}
+
+/// End of a range, infinite where MuJoCo's largest number stands for none.
+pub(super) fn without_limit(x: f64) -> f64 {
+    if x.abs() >= UNLIMITED { x * f64::INFINITY } else { x }
 }
 
 /// Words for a motor that has an activation.

@@ -4,6 +4,7 @@ use sincro_dynamics::spatial::Quat;
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
+use super::actuator::without_limit;
 use super::orientation::{placement, rotation};
 use crate::findings::Findings;
 use crate::path_mass::tendon_mass;
@@ -341,7 +342,7 @@ impl<'d> Reader<'d> {
         }
         match range.as_deref() {
             Some([low, high]) if limited && joint.kind.dofs() == 1 => {
-                let (low, high) = (angle(*low) - reference, angle(*high) - reference);
+                let [low, high] = [*low, *high].map(|x| angle(without_limit(x)) - reference);
                 if low < high {
                     joint.limits = Some([low, high]);
                 } else {
@@ -481,5 +482,6 @@ fn empty_link(name: &str, element: Element<'_>) -> Link {
         visuals: Vec::new(),
         collisions: Vec::new(),
         is_virtual: false,
+        group: None,
     }
 }

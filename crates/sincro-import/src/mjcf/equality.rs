@@ -157,7 +157,7 @@ impl<'d> Reader<'d> {
         }
         // coordinates here are zero at the reference
         e.change("a gear between two joints: a [[coupling]]");
-        let name = format!("{}-follows", robot.joints[first].name);
+        let name = e.peek("name").map_or_else(|| format!("{}-follows", robot.joints[first].name), str::to_owned);
         let (at, joints, higher) = (e.location(), [second, first], [get(2), get(3), get(4)]);
         robot.gears.push(Gear { name, at, joints, ratio: get(1), offset: get(0), higher });
         Ok(())

@@ -8,6 +8,7 @@ mod actuator;
 mod body;
 mod defaults;
 mod equality;
+mod frames;
 mod geom;
 mod include;
 mod orientation;
@@ -176,6 +177,7 @@ pub(crate) fn read<'d>(
         keyframe.keep();
         reader.keyframes(keyframe, &mut robot, findings);
     }
+    reader.frames(&all("custom"), &mut robot, findings);
     robot.has_own_motors = true;
     robot.may_overlap = robot.links.iter().any(|link| !link.collisions.is_empty());
     robot

@@ -230,7 +230,8 @@ impl<'d> Reader<'d> {
                     // a q₁ = Σ cₖ (b q₂)ᵏ from the references
                     let [offset, ratio, higher @ ..]: [f64; 5] = std::array::from_fn(|k| get(k) * b.powi(k as i32) / a);
                     e.change("a gear between the joints of two tendons: a [[coupling]]");
-                    let name = format!("{}-follows", robot.joints[first].name);
+                    let follows = || format!("{}-follows", robot.joints[first].name);
+                    let name = e.peek("name").map_or_else(follows, str::to_owned);
                     let (at, joints) = (e.location(), [second, first]);
                     robot.gears.push(crate::robot::Gear { name, at, joints, ratio, offset, higher });
                     return Ok(());

@@ -29,6 +29,7 @@ pub(super) fn link(element: Element<'_>, name: &str, findings: &mut Findings) ->
         visuals,
         collisions,
         is_virtual: false,
+        group: None,
     }
 }
 

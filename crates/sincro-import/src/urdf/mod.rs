@@ -88,6 +88,7 @@ fn link(element: Element<'_>, name: &str, colors: &geometry::Colors, findings: &
         visuals,
         collisions,
         is_virtual: false,
+        group: None,
     }
 }
 

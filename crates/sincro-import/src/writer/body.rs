@@ -141,7 +141,7 @@ impl Writer<'_> {
 
     fn contact(&mut self, k: usize, link: &Link) {
         let given: Vec<_> = link.collisions.iter().filter_map(|c| c.surface).collect();
-        let group = match self.groups[k] {
+        let group = match link.group.unwrap_or(self.groups[k]) {
             n if n > 0 && !self.robot.self_contact => format!(", group = {n}"),
             _ => String::new(),
         };

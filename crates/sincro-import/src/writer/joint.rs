@@ -61,7 +61,9 @@ pub(super) fn activation(own: &Activation) -> String {
         None => "kind = \"integrator\"".to_owned(),
     };
     let range = |key: &str, range: Option<[f64; 2]>| {
-        range.map(|[lower, upper]| format!(", {key} = {{ lower = {}, upper = {} }}", number(lower), number(upper)))
+        let ends = range.map(|[lower, upper]| [("lower", lower), ("upper", upper)])?;
+        let ends = ends.into_iter().filter(|(_, x)| x.is_finite()).map(|(end, x)| format!("{end} = {}", number(x)));
+        Some(format!(", {key} = {{ {} }}", ends.collect::<Vec<_>>().join(", ")))
     };
     let ranges = [range("range", own.range), range("input_range", own.input_range)].into_iter().flatten();
     let initial = if own.initial == 0.0 { String::new() } else { format!(", initial = {}", number(own.initial)) };

@@ -45,6 +45,10 @@ impl Writer<'_> {
             let mut ends = Vec::new();
             for (k, (link, placement)) in closure.ends.iter().enumerate() {
                 let parent = link.and_then(|l| self.link_paths[l].clone()).unwrap_or_else(|| "/".into());
+                if placement.is_identity() && link.is_some() {
+                    ends.push(parent);
+                    continue;
+                }
                 let path = self.unique(&parent, &format!("{base}-{}", ["a", "b"][k]));
                 self.line("[[frame]]");
                 self.line(&format!("name = {}", quoted(last(&path))));

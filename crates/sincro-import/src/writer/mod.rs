@@ -128,14 +128,13 @@ impl Writer<'_> {
             self.line("");
         }
         self.choices();
-        let roots: Vec<usize> = (0..self.robot.links.len()).filter(|k| self.robot.joint_of(*k).is_none()).collect();
-        for root in roots {
-            self.root(root);
-        }
-        let of_world: Vec<usize> =
-            (0..self.robot.joints.len()).filter(|k| self.robot.joints[*k].parent.is_none()).collect();
-        for joint in of_world {
-            self.branch(joint);
+        // what stands in the world, in the order of the source
+        for link in 0..self.robot.links.len() {
+            match self.robot.joint_of(link) {
+                None => self.root(link),
+                Some(joint) if self.robot.joints[joint].parent.is_none() => self.branch(joint),
+                Some(_) => {}
+            }
         }
         self.sensors();
         self.forces();

@@ -4,5 +4,6 @@ mod bad_input;
 mod export;
 mod folder;
 mod mjcf;
+mod round_trip;
 mod sdf;
 mod urdf;
