@@ -258,6 +258,14 @@ pub(crate) enum Shape {
     Ellipsoid([f64; 3]),
     /// Half-space below z = 0.
     Plane,
+    /// Heights over a grid centred on its frame, rows along x from the least y on `[m]`, and its extent along x and y
+    /// `[m]`.
+    HeightField {
+        /// Rows of heights.
+        rows: std::sync::Arc<Vec<Vec<f64>>>,
+        /// Distance from the first height to the last.
+        size: [f64; 2],
+    },
     /// Mesh of a file: as it is named, and its scale.
     Mesh {
         /// URI or path in the source.

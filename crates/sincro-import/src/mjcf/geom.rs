@@ -59,6 +59,13 @@ impl<'d> Reader<'d> {
                         self.meshes.insert(name, mesh);
                     }
                 }
+                "hfield" => {
+                    element.keep();
+                    let read = self.height_field(element);
+                    if let Some((name, field)) = findings.take(read) {
+                        self.fields.insert(name, field);
+                    }
+                }
                 "material" => {
                     element.keep();
                     element.attribute("class");
@@ -72,8 +79,9 @@ impl<'d> Reader<'d> {
         }
     }
 
-    fn mesh_asset(&self, e: Element<'d>) -> Result<(String, MeshAsset), Diagnostic> {
-        let file = e.attribute("file").map(|file| {
+    /// Path of the file of a mesh or height field; none if it names none.
+    pub(super) fn asset_file(&self, e: Element<'d>) -> Option<String> {
+        e.attribute("file").map(|file| {
             let file = if self.settings.strip_path { file.rsplit(['/', '\\']).next().unwrap_or(file) } else { file };
             let folder = &self.settings.mesh_folder;
             if folder.is_empty() || file.starts_with('/') {
@@ -81,12 +89,12 @@ impl<'d> Reader<'d> {
             } else {
                 format!("{}/{file}", folder.trim_end_matches('/'))
             }
-        });
-        let stem = |file: &str| {
-            let last = file.rsplit(['/', '\\']).next().unwrap_or(file);
-            last.rsplit_once('.').map_or(last, |(stem, _)| stem).to_owned()
-        };
-        let name = e.attribute("name").map(str::to_owned).or_else(|| file.as_deref().map(stem)).unwrap_or_default();
+        })
+    }
+
+    fn mesh_asset(&self, e: Element<'d>) -> Result<(String, MeshAsset), Diagnostic> {
+        let file = self.asset_file(e);
+        let name = asset_name(e, file.as_deref());
         let scale = self.defaults.vector(e, "main", "scale")?.unwrap_or([1.0; 3]);
         let position = e.vector("refpos")?.unwrap_or_default();
         let rotation = match e.numbers("refquat")?.as_deref() {
@@ -209,7 +217,13 @@ impl<'d> Reader<'d> {
                 let pose = if asset.reference.is_identity() { pose } else { pose.then(&inverse) };
                 return Ok(Ok((Shape::Mesh { uri: file.clone(), scale: asset.scale }, pose)));
             }
-            "hfield" => return Ok(Err("height fields are not read".into())),
+            "hfield" => {
+                let name = d.text(e, class, "hfield").unwrap_or("");
+                let Some(field) = self.fields.get(name) else {
+                    return Err(e.error(format!("there is no height field `{name}`")));
+                };
+                return Ok(field.clone().map(|shape| (shape, pose)));
+            }
             other => return Ok(Err(format!("a `{other}` has no counterpart"))),
         };
         Ok(Ok((shape, pose)))
@@ -243,7 +257,7 @@ impl<'d> Reader<'d> {
             Shape::Sphere(radius) => Solid::Sphere { radius: *radius },
             Shape::Cylinder(radius, length) => Solid::Cylinder { radius: *radius, length: *length },
             Shape::Capsule(radius, length) => Solid::Capsule { radius: *radius, length: *length },
-            Shape::Plane => return Ok(None),
+            Shape::Plane | Shape::HeightField { .. } => return Ok(None),
             Shape::Ellipsoid([a, b, c]) => {
                 let mass = 4.0 / 3.0 * std::f64::consts::PI * a * b * c;
                 let moment = |p: &f64, q: &f64| mass / 5.0 * (p * p + q * q);
@@ -299,6 +313,15 @@ impl<'d> Reader<'d> {
             Err(e.error(format!("the mesh `{uri}` has no volume")))
         }
     }
+}
+
+/// Name of an asset: its own, or that of its file without the ending.
+pub(super) fn asset_name(e: Element<'_>, file: Option<&str>) -> String {
+    let stem = |file: &str| {
+        let last = file.rsplit(['/', '\\']).next().unwrap_or(file);
+        last.rsplit_once('.').map_or(last, |(stem, _)| stem).to_owned()
+    };
+    e.attribute("name").map(str::to_owned).or_else(|| file.map(stem)).unwrap_or_default()
 }
 
 /// Mass properties at density 1 by MuJoCo's older rule: tetrahedra from a centre to the triangles, each counted as

@@ -10,6 +10,7 @@ mod defaults;
 mod equality;
 mod frames;
 mod geom;
+mod height_field;
 mod include;
 mod orientation;
 mod state;
@@ -42,7 +43,6 @@ pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
         _ if path.contains(&"sensor") => Some("its quantity can be recorded, or measured by a [[sensor]]"),
         [.., "exclude"] => Some("the bodies of one tree do not touch each other"),
         _ if path.contains(&"contact") => Some("pairs follow from the bodies"),
-        [.., "hfield"] => Some("height fields of images are not read"),
         [.., "@user"] | [.., "@group"] => Some("data of other programs"),
         [.., "site", "@rgba" | "@size" | "@type" | "@material"] => Some("a frame does not show"),
         [.., "compiler", _] => Some("setting of MuJoCo's compiler that changes nothing here"),
@@ -61,6 +61,8 @@ struct Reader<'d> {
     settings: Settings,
     /// Meshes of the assets by name.
     meshes: BTreeMap<String, geom::MeshAsset>,
+    /// Height fields of the assets by name; the reason where one is not read.
+    fields: BTreeMap<String, Result<crate::robot::Shape, String>>,
     /// Mass properties at density 1 of meshes that were read, by file and bits of the factors.
     mesh_masses: geom::MeshMasses,
     /// Colours of materials by name.
@@ -118,6 +120,7 @@ pub(crate) fn read<'d>(
         angles,
         settings,
         meshes: BTreeMap::new(),
+        fields: BTreeMap::new(),
         mesh_masses: geom::MeshMasses::default(),
         materials: BTreeMap::new(),
         bodies: BTreeMap::new(),

@@ -219,6 +219,16 @@ impl Writer<'_> {
             Shape::Ellipsoid(axes) => Err(format!("its size {axes:?} is not positive")),
             Shape::Plane if shows => Err("a plane shows by its contact".into()),
             Shape::Plane => Ok(vec![("plane = {}".into(), None)]),
+            Shape::HeightField { .. } if shows => Err("a height field shows by its contact".into()),
+            Shape::HeightField { rows, size } => {
+                self.context.ledger.judge_place(
+                    piece.element,
+                    ElementStatus::Changed,
+                    "a height field: its triangles may be split along the other diagonal",
+                );
+                let rows = rows.iter().map(|row| list(row)).collect::<Vec<_>>().join(", ");
+                Ok(vec![(format!("height_field = {{ heights = [{rows}], size = {} }}", list(size)), None)])
+            }
             Shape::Mesh { uri, scale } => {
                 let path = self.context.resolver.find(uri)?;
                 let placed =

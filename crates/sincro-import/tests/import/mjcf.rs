@@ -488,3 +488,49 @@ fn equalities_with_a_polynomial_are_couplings() {
     let refused = refused.map(|_| ()).unwrap_err().to_string();
     assert!(refused.contains("tendons of several joints coupled by a polynomial"), "{refused}");
 }
+
+#[test]
+fn height_fields_stand_in_the_world_with_their_elevations() {
+    use sincro_dynamics::contact::Surface;
+    let folder = Folder::new();
+    let mut bytes = Vec::new();
+    bytes.extend([2_i32, 3].into_iter().flat_map(i32::to_le_bytes));
+    bytes.extend([4.0_f32, 5.0, 7.0, 1.0, 2.0, 3.0].into_iter().flat_map(f32::to_le_bytes));
+    folder.file("ground.bin", bytes);
+    let text = |asset: &str| {
+        format!(
+            r#"<mujoco><asset><hfield name="h" size="1 2 0.6 0.1" {asset}/></asset><worldbody>
+<geom type="hfield" hfield="h" pos="0 0 0.5" friction="0.7 0 0"/>
+<body name="b" pos="0 0 3"><freejoint/><geom size="0.1"/></body></worldbody></mujoco>"#
+        )
+    };
+    let field = |asset: &str| {
+        let imported = folder.import("m.xml", &text(asset)).unwrap_or_else(|found| panic!("{found}"));
+        let colliders = folder.open(&imported).scene.model.constraints().colliders.clone();
+        let found = colliders.iter().find_map(|collider| match &collider.surface {
+            Surface::HeightField { columns, heights, size } => {
+                Some((*columns, heights.clone(), *size, collider.pose.pos.0))
+            }
+            _ => None,
+        });
+        found.unwrap_or_else(|| panic!("{}", imported.scene()))
+    };
+    // from the least y on; from 0 at the lowest to 0.6 m
+    let expected: Vec<f64> = [3.0, 4.0, 6.0, 0.0, 1.0, 2.0].iter().map(|h| h * (0.6 / 6.0)).collect();
+    let place = [0.0, 0.0, 0.5];
+    assert_eq!(field(r#"nrow="2" ncol="3" elevation="1 2 3 4 5 7""#), (3, expected.clone(), [2.0, 4.0], place));
+    assert_eq!(field(r#"file="ground.bin""#), (3, expected, [2.0, 4.0], place));
+    assert_eq!(field(r#"nrow="200" ncol="300""#), (2, vec![0.0; 4], [2.0, 4.0], place));
+    let image = folder.import("m.xml", &text(r#"file="ground.png""#)).unwrap();
+    assert!(entry(&image, "geom").words.contains("its heights are an image"), "{}", entry(&image, "geom").words);
+    folder.file("short.bin", [0_u8; 21]);
+    let short = folder.import("m.xml", &text(r#"file="short.bin""#)).unwrap();
+    assert!(entry(&short, "geom").words.contains("no grid of 0 by 0"), "{}", entry(&short, "geom").words);
+    for (asset, words) in [
+        (r#"nrow="2" ncol="3" elevation="1 2 3""#, "`elevation` has 3 numbers, not 2 by 3"),
+        (r#"nrow="1" ncol="3""#, "1 by 3 heights spans no ground"),
+    ] {
+        let refused = folder.import("m.xml", &text(asset)).map(|_| ()).unwrap_err().to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
+}
