@@ -148,10 +148,11 @@ def joints_of_mujoco(model, head):
 
 def without_soft_constraints(folder):
     """Takes stops of tendons, and tendons and bushings that stand for equalities, out of a scene: they are soft
-    constraints there."""
+    constraints there. Springs and dampers of actuators on tendons go, too: actuation is off there."""
     with open(os.path.join(folder, "import-report.json")) as text:
         elements = json.load(text)["elements"]
-    held = {str(e["line"]) for e in elements if e["words"].startswith("a stiff [[tendon]]")}
+    words = ("a stiff [[tendon]]", "a spring and damper with an actuator")
+    held = {str(e["line"]) for e in elements if e["words"].startswith(words)}
     path = os.path.join(folder, "scene.toml")
     with open(path) as text:
         blocks = text.read().split("\n\n")
