@@ -15,8 +15,11 @@ fn scene(name: &str) -> PathBuf {
 }
 
 fn exported(name: &str, integrator: &str) -> Exported {
-    let overrides = [Override::new("integrator", integrator)];
-    let loaded = load(&scene(name), &overrides, Extensions::default()).unwrap_or_else(|found| panic!("{found}"));
+    exported_with(name, &[Override::new("integrator", integrator)])
+}
+
+fn exported_with(name: &str, overrides: &[Override]) -> Exported {
+    let loaded = load(&scene(name), overrides, Extensions::default()).unwrap_or_else(|found| panic!("{found}"));
     let method = method_for(&loaded).0;
     let mut run = LockStep::new(&loaded, method, false);
     run.start().unwrap();
@@ -71,6 +74,19 @@ fn exported_scenes_have_the_bits_of_the_run() {
             let (said, is_good) = self_test(&exported, name, &["-O1"]);
             assert!(is_good && said.contains("as expected"), "{name}, {integrator}: {said}");
         }
+    }
+}
+
+/// An activation that reaches the end of its range, among the states of elements.
+#[test]
+fn activations_are_exported_with_the_bits_of_the_run() {
+    let motor = "{ mode = \"torque\", command = 2.0, activation = { kind = \"integrator\", range = { upper = 0.3 } } }";
+    for integrator in ["rk4", "semi-implicit-euler", "implicit"] {
+        let overrides = [Override::new("integrator", integrator), Override::new("/upper.motor", motor)];
+        let exported = exported_with("double-pendulum", &overrides);
+        assert!(exported.missing.is_empty(), "{integrator}: {:?}", exported.missing);
+        let (said, is_good) = self_test(&exported, &format!("activation-{integrator}"), &["-O1"]);
+        assert!(is_good && said.contains("as expected"), "{integrator}: {said}");
     }
 }
 

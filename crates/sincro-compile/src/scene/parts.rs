@@ -308,6 +308,8 @@ fn rates(model: &Model<f64>) -> Result<Function, Obstacle> {
             mechanism.mark_locked();
             mechanism.slope(0.0, &y, &mut slope);
             let layout = mechanism.layout();
+            let states = layout.rotor_states();
+            mechanism.model().stop_activations(&y[states.clone()], &mut slope[states]);
             [&slope[layout.velocities()], &slope[layout.rotor_states()]].concat()
         })?,
     })
