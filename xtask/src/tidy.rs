@@ -20,6 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-motion", &[]),
     ("sincro-vision", &["sincro-math"]),
     ("sincro-values", &[]),
+    ("sincro-conventions", &["sincro-math", "sincro-geometry"]),
     (
         "sincro-dynamics",
         &[
@@ -43,6 +44,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-motion",
             "sincro-vision",
             "sincro-values",
+            "sincro-conventions",
             "sincro-dynamics",
             "sincro-scene",
             "sincro-sim",

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `handle.rs`, `value.rs`, `error.rs` | [`Handle`], [`Value`] and [`Arguments`], [`ApiError`]: what functions take and give |
 //! | `cbor.rs`, `unpack.rs` | values as bytes and back |
+//! | `fields.rs` | maps that functions take and give back |
 //! | `stored.rs` | data under tags |
 //! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
 //! | `clouds.rs` | contents of octrees and point clouds |
@@ -12,6 +13,7 @@
 pub mod cbor;
 pub mod clouds;
 mod error;
+pub mod fields;
 mod handle;
 mod ports;
 pub mod radio;

@@ -334,7 +334,7 @@ impl SimApi<'_> {
     ///
     /// The first group that cannot be solved: an object of it was removed, say.
     pub(crate) fn handle_implicit_groups(&mut self) -> Result<(), ApiError> {
-        if self.registry.switched_off.contains(&super::program::IK_HANDLING) {
+        if self.registry.switched_off.contains(&sincro_conventions::simulator::IK_HANDLING) {
             return Ok(());
         }
         let environments = self.registry.environments.iter().enumerate();

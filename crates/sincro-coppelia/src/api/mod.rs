@@ -12,9 +12,7 @@ mod added_scripts;
 mod bodies;
 mod change;
 mod collections;
-pub mod constants;
 mod contacts;
-pub mod convention;
 mod distances;
 mod drawings;
 mod filters;
@@ -58,6 +56,7 @@ pub(crate) use registry::Request;
 pub use registry::{Entry, Handle, JointEntry, Kind, LogLine, ObjectRegistry};
 pub use sim_api::{Reference, SimApi};
 
+pub use sincro_conventions::{constants, poses as convention};
 pub use sincro_dynamics::spatial::{Pose, Vec3};
 pub use sincro_values::stored::check_name;
 pub use sincro_values::{ApiError, Arguments, LegacyPorts, PortRequest, Signals, Value, cbor};

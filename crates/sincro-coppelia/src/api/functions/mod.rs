@@ -13,7 +13,6 @@ mod collections;
 mod control;
 mod distances;
 mod drawings;
-mod fields;
 mod filters;
 mod graphs;
 pub mod ik;
@@ -22,7 +21,6 @@ mod images;
 mod joints;
 mod motions;
 mod moves;
-mod names;
 mod objects;
 mod old_windows;
 mod partly;
@@ -53,8 +51,8 @@ use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 pub use absent::{absent, why_absent};
 pub(crate) use images::check_file_name;
-pub use names::{old_names, present_name};
 pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
+pub use sincro_conventions::names::{old_names, present_name};
 pub use waiting::{MOVES, Move};
 pub use windows::is_display_only;
 

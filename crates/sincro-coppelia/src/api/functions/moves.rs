@@ -6,14 +6,13 @@
 
 use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 
-use super::fields::Fields;
 use super::motions::{MIN_ACCELERATION, MIN_VELOCITY, synchronization};
-use super::rotations::rotation_vector;
 use super::{Function, Outcome, done, plain};
-use crate::api::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers};
+use crate::api::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers, rotation_vector};
 use crate::api::ik::Element;
 use crate::api::{ApiError, Arguments, Handle, Motion, Reference, SimApi, Value};
 use sincro_motion::{Axis, Goal, Limits, Point};
+use sincro_values::fields::Fields;
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {

@@ -3,11 +3,11 @@
 
 use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
 
-use super::paths::{Curve, POSE, Path, closest};
 use super::{Function, Outcome, handle, list, objects, one};
 use crate::api::convention::{euler_of, numbers_of_pose, pose_of_numbers, quaternion_of, rotation_of_euler};
 use crate::api::stored::Stored;
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
+use sincro_conventions::paths::{Curve, POSE, Path, closest};
 
 /// Data of a path: its points.
 const POINTS: &str = "PATH";
@@ -191,7 +191,7 @@ fn sampled(control: &[f64], shape: &Shape) -> Result<Vec<f64>, ApiError> {
         0.0 => Curve::Linear,
         strength => Curve::Bezier { strength, is_open: !shape.is_closed },
     };
-    let mut points = Path::new(&control, &lengths)?.resampled(shape.n, curve, &POSE);
+    let mut points = Path::new(&control, &lengths).map_err(ApiError::new)?.resampled(shape.n, curve, &POSE);
     if shape.is_oriented {
         orient(&mut points, shape);
     }
@@ -304,7 +304,11 @@ fn place_at(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<Pose<f64>, ApiErro
     if !share.is_finite() {
         return Err(ApiError::new("argument 2 is not finite"));
     }
-    let at = Path::new(&points.numbers, &points.lengths)?.config(share * points.total(), Curve::Linear, &POSE);
+    let at = Path::new(&points.numbers, &points.lengths).map_err(ApiError::new)?.config(
+        share * points.total(),
+        Curve::Linear,
+        &POSE,
+    );
     let pose = <[f64; 7]>::try_from(at).ok().and_then(pose_of_numbers);
     let pose = pose.ok_or_else(|| ApiError::new("a point of the path has no orientation"))?;
     Ok(sim.pose(own, Reference::World)?.compose(&pose))
@@ -314,6 +318,6 @@ fn closest_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (own, points) = (path(sim, a)?, points_of(sim, a)?);
     let point = sim.pose(own, Reference::World)?.inverse().point(Vec3(a.reals(1)?));
     let positions: Vec<f64> = points.numbers.chunks_exact(7).flat_map(|p| [p[0], p[1], p[2]]).collect();
-    let at = closest(&Path::new(&positions, &points.lengths)?, &point.0);
+    let at = closest(&Path::new(&positions, &points.lengths).map_err(ApiError::new)?, &point.0);
     one(if points.total() > 0.0 { at / points.total() } else { 0.0 })
 }

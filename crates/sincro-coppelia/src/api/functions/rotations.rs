@@ -1,11 +1,10 @@
 //! Functions: turning about axes, and half-way between two poses.
 
-use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
-use sincro_math::elementary::atan2;
+use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 
 use super::transforms::any;
 use super::{Function, Outcome, list};
-use crate::api::convention::{matrix_of, numbers_of_pose};
+use crate::api::convention::{matrix_of, numbers_of_pose, rotation_vector};
 use crate::api::{ApiError, Arguments, Value};
 
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -30,17 +29,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |_, a| rotate(a),
     },
 ];
-
-/// Axis times angle `[rad]` of a rotation, the shorter way round.
-pub(super) fn rotation_vector(rot: &Mat3<f64>) -> Vec3<f64> {
-    let q = Quat::from_matrix(rot);
-    let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
-    let sine = q.xyz.norm();
-    if sine == 0.0 {
-        return Vec3([0.0; 3]);
-    }
-    q.xyz.scale(sign * 2.0 * atan2(sine, q.w.abs()).0 / sine)
-}
 
 /// Positions on a line, rotations at constant rate about one axis.
 fn between(a: Arguments<'_>) -> Result<Pose<f64>, ApiError> {

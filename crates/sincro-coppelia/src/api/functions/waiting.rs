@@ -7,10 +7,10 @@
 //! | `rmlMoveToJointPositions`, `rmlMoveToPosition` of V-REP | the same two |
 //! | `moveToPosition` of V-REP | `moveToPose_…` |
 
-use super::fields::Fields;
 use super::motions::{MIN_ACCELERATION, MIN_VELOCITY};
 use crate::api::convention::{numbers_of_pose, pose_of_matrix, quaternion_of, rotation_of_euler};
 use crate::api::{ApiError, Arguments, Reference, SimApi, Value};
+use sincro_values::fields::Fields;
 
 /// Function that moves joints or an object and returns when the motion has ended. An adapter, which alone can wait,
 /// makes it of the functions `…_init`, `…_step` and `…_cleanup` of [`Move::stem`], with [`Move::parameters`] and

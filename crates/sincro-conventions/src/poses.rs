@@ -2,7 +2,7 @@
 //! Euler angles (α, β, γ) mean R = Rx(α)·Ry(β)·Rz(γ); quaternions are x, y, z, w; matrices are the upper 3×4 part row
 //! by row; poses are position, then quaternion. Lengths `[m]`, angles `[rad]`.
 
-use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
+use sincro_geometry::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_math::elementary::{asin, atan2, sin_cos};
 
 /// |sin β| above which α and γ cannot be told apart; the others then have it so.
@@ -12,7 +12,7 @@ const GIMBAL: f64 = 0.999_995;
 /// cos β is almost zero, α and γ cannot be told apart: α is then 0.
 ///
 /// ```
-/// use sincro_coppelia::api::convention::{euler_of, rotation_of_euler};
+/// use sincro_conventions::poses::{euler_of, rotation_of_euler};
 ///
 /// let angles = euler_of(&rotation_of_euler([0.1, -0.2, 0.3]));
 /// assert!(angles.iter().zip([0.1, -0.2, 0.3]).all(|(got, want)| (got - want).abs() < 1e-15));
@@ -61,28 +61,28 @@ pub fn matrix_of(pose: &Pose<f64>) -> [f64; 12] {
 
 /// Pose of the twelve numbers of [`matrix_of`], positions in `[m]`; the rotation is taken as it is given.
 #[must_use]
-pub(crate) fn pose_of_matrix(m: &[f64; 12]) -> Pose<f64> {
+pub fn pose_of_matrix(m: &[f64; 12]) -> Pose<f64> {
     let rot = Mat3([[m[0], m[1], m[2]], [m[4], m[5], m[6]], [m[8], m[9], m[10]]]);
     Pose { rot, pos: Vec3([m[3], m[7], m[11]]) }
 }
 
 /// Seven numbers of a pose: position `[m]`, then the quaternion x, y, z, w.
 #[must_use]
-pub(crate) fn numbers_of_pose(pose: &Pose<f64>) -> [f64; 7] {
+pub fn numbers_of_pose(pose: &Pose<f64>) -> [f64; 7] {
     let (p, q) = (&pose.pos, quaternion_of(&pose.rot));
     [p[0], p[1], p[2], q[0], q[1], q[2], q[3]]
 }
 
 /// Pose of seven numbers, position `[m]` and quaternion x, y, z, w; none if the quaternion has no direction.
 #[must_use]
-pub(crate) fn pose_of_numbers([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Option<Pose<f64>> {
+pub fn pose_of_numbers([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Option<Pose<f64>> {
     let rot = rotation_of_quaternion([qx, qy, qz, qw])?;
     Some(Pose { rot, pos: Vec3([x, y, z]) })
 }
 
 /// The shortest rotation that takes z to a direction: V-REP's joints turn about their own z.
 #[must_use]
-pub(crate) fn rotation_to(axis: [f64; 3]) -> Mat3<f64> {
+pub fn rotation_to(axis: [f64; 3]) -> Mat3<f64> {
     let a = Vec3(axis);
     let a = a.scale(1.0 / a.norm());
     if a[2] < -1.0 + 1e-12 {
@@ -93,6 +93,18 @@ pub(crate) fn rotation_to(axis: [f64; 3]) -> Mat3<f64> {
     let square = skew.mul(&skew);
     let square = Mat3(square.0.map(|row| row.map(|x| x * k)));
     Mat3::identity().plus(&skew).plus(&square)
+}
+
+/// Axis times angle `[rad]` of a rotation, the shorter way round.
+#[must_use]
+pub fn rotation_vector(rot: &Mat3<f64>) -> Vec3<f64> {
+    let q = Quat::from_matrix(rot);
+    let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+    let sine = q.xyz.norm();
+    if sine == 0.0 {
+        return Vec3([0.0; 3]);
+    }
+    q.xyz.scale(sign * 2.0 * atan2(sine, q.w.abs()).0 / sine)
 }
 
 #[cfg(test)]

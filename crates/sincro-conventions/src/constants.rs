@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use super::program;
+use crate::simulator;
 
 /// Constants of the API that clients and scripts see as `sim.NAME`, each name once: the name without `sim.` (or `sim_`)
 /// and its value, a number without unit: a code, handle or bit mask.
@@ -20,7 +20,7 @@ pub fn constants() -> impl Iterator<Item = (&'static str, i64)> {
 }
 
 fn own() -> impl Iterator<Item = (&'static str, i64)> {
-    CONSTANTS.iter().copied().chain(program::names())
+    CONSTANTS.iter().copied().chain(simulator::names())
 }
 
 /// The rows of `constants.txt`: a prefix, then names with their values.
@@ -53,11 +53,11 @@ const CONSTANTS: &[(&str, i64)] = &[
 
 /// Flag that a client adds to the first handle of a call about poses: the reference is the joint's frame on the side of
 /// its parent.
-pub(crate) const HANDLE_JOINT_BASE: i32 = 0x0040_0000;
+pub const HANDLE_JOINT_BASE: i32 = 0x0040_0000;
 /// Flag that a client adds to the first handle of a call about poses: quaternions are in the order w, x, y, z.
-pub(crate) const HANDLE_WXYZ: i32 = 0x0100_0000;
+pub const HANDLE_WXYZ: i32 = 0x0100_0000;
 /// Bound of handles: all bits from it on are flags.
-pub(crate) const HANDLE_FLAGS: i32 = 0x0010_0000;
+pub const HANDLE_FLAGS: i32 = 0x0010_0000;
 
 #[cfg(test)]
 mod tests {
