@@ -214,7 +214,8 @@ body = [{ name = "lamp", parent = "/hook", mass = 2.0, shape = [{ sphere = { rad
     let force = call(&mut session, "sim.readForceSensor", std::slice::from_ref(&hook))[1].as_reals().unwrap();
     assert!((force[2].abs() - 2.0 * G).abs() < 1e-9, "{force:?} N");
     assert!(session.call("sim.breakForceSensor", std::slice::from_ref(&lamp)).is_err());
-    call(&mut session, "sim.breakForceSensor", &[hook]);
+    call(&mut session, "sim.breakForceSensor", std::slice::from_ref(&hook));
+    assert_eq!(call(&mut session, "sim.readForceSensor", &[hook])[0], Value::Int(3), "it says that it is broken");
     let n = 20;
     for _ in 0..n {
         session.step().unwrap();
@@ -255,4 +256,67 @@ fn friction_of_an_engine_is_that_of_the_contact() {
     assert!(refused(&mut session, damping, 0.1).contains("friction and restitution of shapes are offered"));
     assert!(refused(&mut session, restitution, 1.5).contains("expected 0 to 1"));
     assert!(refused(&mut session, friction, -0.1).contains("expected 0 or more"));
+}
+
+#[test]
+fn a_shape_that_hangs_on_a_static_one_of_its_batch_falls() {
+    // the same if something looks at a body in between, which makes two batches of them
+    for looks in [false, true] {
+        let mut session = open();
+        let shelf = cube(&mut session, [3.0, 0.0, 1.0]);
+        let box_of = cube(&mut session, [3.0, 0.0, 2.0]);
+        call(&mut session, "sim.setObjectParent", &[box_of.clone(), shelf.clone(), true.into()]);
+        set(&mut session, &shelf, RESPONDABLE, 1);
+        if looks {
+            call(&mut session, "sim.getObjectVelocity", std::slice::from_ref(&shelf));
+        }
+        set(&mut session, &box_of, STATIC, 0);
+        session.start().unwrap();
+        for _ in 0..10 {
+            session.step().unwrap();
+        }
+        let t = 10.0 * session.registry().sample_time();
+        let z = height(&mut session, &box_of);
+        assert!((z - (2.0 - 0.5 * G * t * t)).abs() < 1e-9, "z = {z} m, looks: {looks}");
+        assert!((height(&mut session, &shelf) - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn joints_on_a_force_sensor_are_not_left_in_the_air() {
+    let scene = r#"
+joint = [
+  { name = "wrist", kind = "fixed", force_sensor = true, position = [0.0, 0.0, 2.0] },
+  { name = "finger", parent = "/wrist", kind = "revolute" },
+]
+body = [{ name = "tip", parent = "/wrist/finger", mass = 2.0, shape = [{ sphere = { radius = 0.05 } }] }]
+"#;
+    let mut session = OpenSession::open(SceneFolder::of(scene, EXPERIMENT), &[], Extensions::default(), None);
+    session.start().unwrap();
+    session.step().unwrap();
+    let wrist = Value::from(session.registry().find("/wrist", Search::default()).unwrap());
+    let state = |session: &mut Session| call(session, "sim.readForceSensor", std::slice::from_ref(&wrist)).remove(0);
+    let refused = session.call("sim.breakForceSensor", std::slice::from_ref(&wrist)).unwrap_err();
+    assert!(format!("{refused:?}").contains("put a body between"), "{refused:?}");
+    assert_eq!(state(&mut session), Value::Int(1));
+}
+
+#[test]
+fn masses_of_shapes_are_kept_in_groups_copies_and_scales() {
+    let mut session = open();
+    let (a, b) = (cube(&mut session, [3.0, 0.0, 1.0]), cube(&mut session, [3.1, 0.0, 1.0]));
+    call(&mut session, "sim.setShapeMass", &[a.clone(), 5.0.into()]);
+    call(&mut session, "sim.setShapeMass", &[b.clone(), 3.0.into()]);
+    let mass = |session: &mut Session, own: &Value| number(session, "sim.getShapeMass", std::slice::from_ref(own));
+    let copied = call(&mut session, "sim.copyPasteObjects", &[Value::List(vec![b.clone()]), 0_i64.into()]).remove(0);
+    let Value::List(copies) = copied else { panic!("{copied:?}") };
+    assert_eq!(mass(&mut session, &copies[0]), 3.0);
+    let group = call(&mut session, "sim.groupShapes", &[Value::List(vec![a, b])]).remove(0);
+    assert_eq!(mass(&mut session, &group), 8.0);
+    call(&mut session, "sim.scaleObject", &[group.clone(), 0.5.into(), 0.5.into(), 0.5.into()]);
+    assert_eq!(mass(&mut session, &group), 1.0);
+    set(&mut session, &group, STATIC, 0);
+    session.start().unwrap();
+    session.step().unwrap();
+    assert_eq!(mass(&mut session, &group), 1.0);
 }

@@ -67,7 +67,7 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object, or the model was changed 10,000 times already.
-    fn check_change(&self, handle: Handle, quantity: &str) -> Result<(), ApiError> {
+    pub(super) fn check_change(&self, handle: Handle, quantity: &str) -> Result<(), ApiError> {
         let object = &self.registry.entry(handle)?.path;
         if self.registry.can_keep(self.acts_at(), object, quantity) { Ok(()) } else { Err(too_many()) }
     }

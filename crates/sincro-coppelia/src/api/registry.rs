@@ -309,6 +309,8 @@ pub struct ObjectRegistry {
     pub(super) joint_modes: BTreeMap<Handle, StaticMode>,
     /// Parts of the step that are switched off, by the numbers of their truth values.
     pub(super) switched_off: BTreeSet<i64>,
+    /// Force sensors that were broken in this run.
+    pub(super) broken: BTreeSet<Handle>,
     /// True if clients may give scripts texts.
     pub(crate) takes_script_texts: bool,
     /// Parser of the scripts of models that are loaded; none if no scripts can be run.
@@ -403,6 +405,7 @@ impl ObjectRegistry {
             belts: BTreeMap::new(),
             joint_modes: BTreeMap::new(),
             switched_off: BTreeSet::new(),
+            broken: BTreeSet::new(),
             script_parser: loaded.extensions.scripts.map(|engine| engine as &dyn ScriptParser),
         };
         new.take_objects(scene, &scene.model);
@@ -846,6 +849,7 @@ impl ObjectRegistry {
         (self.looks, self.component_colors) = (before.looks, before.component_colors);
         (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
+        self.broken = before.broken;
         (self.has_stepped, self.has_begun) = (false, false);
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
         self.windows = before.windows;

@@ -184,6 +184,10 @@ impl SimApi<'_> {
             self.runtime_shape(*shape)?;
         }
         self.finish_pictures();
+        if shapes.iter().any(|shape| self.registry.masses.contains_key(shape)) {
+            let masses: Vec<f64> = shapes.iter().map(|shape| self.shape_mass(*shape)).collect::<Result<_, _>>()?;
+            self.registry.masses.insert(*first, masses.iter().sum());
+        }
         let frame = self.registry.entry(*first)?.frame;
         let x_wf = self.pose(*first, Reference::World)?;
         for other in others {
@@ -221,7 +225,8 @@ impl SimApi<'_> {
         Ok(all)
     }
 
-    /// Scales a shape in all directions, about its own origin, by a dimensionless factor.
+    /// Scales a shape in all directions, about its own origin, by a dimensionless factor; a mass that it was given by its
+    /// cube, as that of a body of the same density.
     ///
     /// # Errors
     ///
@@ -237,6 +242,9 @@ impl SimApi<'_> {
         });
         let scaled = scaled.collect::<Result<Vec<_>, ApiError>>()?;
         self.finish_pictures();
+        if let Some(mass) = self.registry.masses.get_mut(&shape) {
+            *mass *= factor * factor * factor;
+        }
         self.registry.senses.forget_parts(shape);
         for (geometry, place, color) in scaled {
             self.registry.senses.add(shape, &frame, geometry, place);

@@ -314,6 +314,12 @@ impl<'a> SimApi<'a> {
         let pose = self.pose(handle, Reference::World)?;
         let copy = self.registry.create(&name, kind, super::registry::WORLD)?;
         self.registry.copy_senses(handle, copy);
+        if let Some(mass) = self.registry.masses.get(&handle).copied() {
+            self.registry.masses.insert(copy, mass);
+        }
+        if let Some(material) = self.registry.materials.get(&handle).cloned() {
+            self.registry.materials.insert(copy, material);
+        }
         self.set_pose(copy, &pose, Reference::World)?;
         self.set_parent(copy, parent, true)?;
         Ok(copy)

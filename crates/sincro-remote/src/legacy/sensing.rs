@@ -4,10 +4,11 @@ use sincro_coppelia::api::{ApiError, Entity, Handle, SimApi, functions};
 
 use super::functions::{Call, Reply, done, ints, reals};
 
-/// State (bit 0: there are data), force, torque; the numbers are not aligned.
+/// State (bit 0: there are data; bit 1: it is broken), force, torque; the numbers are not aligned.
 pub(super) fn force_sensor(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
-    let (force, torque) = sim.force_sensor(call.handle()?)?;
-    let mut data = vec![1];
+    let sensor = call.handle()?;
+    let (force, torque) = sim.force_sensor(sensor)?;
+    let mut data = vec![sim.force_sensor_state(sensor) as u8];
     data.extend(reals(force.into_iter().chain(torque))?);
     Ok(data)
 }

@@ -76,9 +76,9 @@ fn contact(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     ))
 }
 
-/// Bit 0 says that there is a value: from the first step on.
+/// Bit 0 says that there is a value: from the first step on; bit 1 that the sensor is broken.
 fn force_sensor(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     let (force, torque) = sim.force_sensor(own)?;
-    Ok(vec![Value::Int(1), Value::reals(force), Value::reals(torque)])
+    Ok(vec![Value::Int(sim.force_sensor_state(own)), Value::reals(force), Value::reals(torque)])
 }

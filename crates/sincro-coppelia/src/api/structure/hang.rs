@@ -164,14 +164,34 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// The object is no force sensor.
+    /// The object is no force sensor, or a joint or frame that carries bodies hangs on it.
     pub(crate) fn break_force_sensor(&mut self, sensor: Handle) -> Result<(), ApiError> {
         let entry = self.registry.entry(sensor)?;
         if !matches!(entry.kind, Kind::ForceSensor(_)) {
             return Err(ApiError(format!("`{}` is no force sensor", entry.path)));
         }
+        let is_body = |handle: &Handle| matches!(self.registry.entry(*handle).map(|e| &e.kind), Ok(Kind::Body(_)));
         let carried: Vec<Handle> = self.registry.visible_children(Some(sensor)).map(|entry| entry.handle).collect();
-        carried.into_iter().try_for_each(|body| self.set_parent(body, None, true))
+        let (bodies, others): (Vec<_>, Vec<_>) = carried.into_iter().partition(is_body);
+        // what would be fixed in the air; frames and dummies that carry nothing stay where they are
+        if let Some(other) = others.into_iter().find(|other| self.registry.tree(*other).iter().any(is_body)) {
+            let (sensor, other) = (&entry.path, &self.registry.entry(other)?.path);
+            return Err(ApiError(format!(
+                "`{other}` carries bodies on `{sensor}`: put a body between to break it there"
+            )));
+        }
+        bodies.into_iter().try_for_each(|body| self.set_parent(body, None, true))?;
+        self.registry.broken.insert(sensor);
+        Ok(())
+    }
+
+    /// State of a force sensor as clients read it: bit 0, it has values; bit 1, it is broken and carries nothing.
+    #[must_use]
+    pub fn force_sensor_state(&self, sensor: Handle) -> i64 {
+        let is_body = |entry: &super::super::registry::Entry| matches!(entry.kind, Kind::Body(_));
+        let is_broken =
+            self.registry.broken.contains(&sensor) && !self.registry.visible_children(Some(sensor)).any(is_body);
+        1 + 2 * i64::from(is_broken)
     }
 
     /// Makes a body fixed in the world where it is, or free.

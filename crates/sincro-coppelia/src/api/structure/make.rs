@@ -272,7 +272,7 @@ impl SimApi<'_> {
         if role.is_respondable {
             keys.insert("contact".into(), self.contact_keys(shape));
         }
-        let is_carried = edit.joined.contains_key(&parent) || self.moves(&parent);
+        let is_carried = !edit.fixed.contains(&parent) && (edit.joined.contains_key(&parent) || self.moves(&parent));
         let (parent, pose) = if role.is_static || is_carried {
             (parent, x_wp.inverse().compose(&place))
         } else {
@@ -282,6 +282,9 @@ impl SimApi<'_> {
         keys.insert("parent".into(), parent.into());
         keys.extend(pose_keys(&pose));
         let path = edit.draft.add("body", keys);
+        if role.is_static && !is_carried {
+            edit.fixed.insert(path.clone());
+        }
         edit.joined.insert(path, shape);
         Ok(())
     }

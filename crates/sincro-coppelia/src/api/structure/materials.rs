@@ -73,8 +73,10 @@ impl SimApi<'_> {
             return Ok(());
         }
         contact.insert(quantity.key().into(), value.into());
+        self.check_change(object, quantity.key())?;
         edit.draft.replace(&path, "body", keys);
-        self.rebuild(edit)
+        self.rebuild(edit)?;
+        self.change(object, quantity.key(), vec![value])
     }
 
     /// Friction or restitution of a shape or body, by the number of an engine's parameter.

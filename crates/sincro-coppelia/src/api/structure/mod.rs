@@ -25,7 +25,7 @@ pub(crate) use make::Role;
 pub(super) use materials::Material;
 pub(super) use needed::Needed;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value};
 use sincro_dynamics::joint::JointKind;
@@ -52,6 +52,8 @@ struct Rebuild {
     copies: BTreeMap<String, Handle>,
     /// Handles of objects that are part of the model from now on, by their paths.
     joined: BTreeMap<String, Handle>,
+    /// Paths of those of them that are bodies fixed in the world.
+    fixed: BTreeSet<String>,
     /// True if velocities of bodies that are joined or parted follow from their momenta.
     conserves_momentum: bool,
     /// True if objects are put elsewhere and nothing else is changed.
@@ -66,8 +68,8 @@ impl SimApi<'_> {
     fn draft(&self) -> Result<Rebuild, ApiError> {
         let draft = SceneDraft::new(self.registry.scene());
         let draft = draft.ok_or_else(|| ApiError::new("the scene's file is not known: its structure stays"))?;
-        let (copies, joined) = (BTreeMap::new(), BTreeMap::new());
-        Ok(Rebuild { draft, copies, joined, conserves_momentum: true, is_placement: false })
+        let (copies, joined, fixed) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
+        Ok(Rebuild { draft, copies, joined, fixed, conserves_momentum: true, is_placement: false })
     }
 
     /// Compiles an edited scene and lets the world go on with it.
@@ -76,7 +78,7 @@ impl SimApi<'_> {
     ///
     /// The scene cannot be: nothing has changed then.
     fn rebuild(&mut self, edit: Rebuild) -> Result<(), ApiError> {
-        let Rebuild { mut draft, copies, joined, conserves_momentum, is_placement } = edit;
+        let Rebuild { mut draft, copies, joined, conserves_momentum, is_placement, .. } = edit;
         for (path, handle) in &joined {
             draft.set_id(path, handle.0 as usize - 1);
         }
