@@ -54,8 +54,10 @@ impl<'d> Reader<'d> {
             let gear = d.number(e, "main", "gear")?.unwrap_or(1.0);
             return Ok(match self.activated_law(e, None)? {
                 Ok(law) => {
-                    let limits = self.force_limits(e, &law, gear)?;
-                    self.tendon_actuator(e, (&law, gear), limits)?.map(Made::Tendon)
+                    let (force, control) = self.force_limits(e, &law, gear)?;
+                    // the control of one with an activation is no force
+                    let control = control.filter(|_| law.activation.is_none());
+                    self.tendon_actuator(e, (&law, gear), (force, control))?.map(Made::Tendon)
                 }
                 Err(why) => Err(why),
             });

@@ -147,7 +147,7 @@ impl<'d> Reader<'d> {
         };
         let (first, second) = (find("joint1")?, find("joint2")?);
         let c = self.defaults.numbers(e, "main", "polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
-        let get = |k: usize| c.get(k).copied().unwrap_or(0.0);
+        let get = |k: usize| c.get(k).copied().unwrap_or(if k == 1 { 1.0 } else { 0.0 });
         let (Some(first), Some(second)) = (first, second) else {
             return Err(e.error("a joint that is held at a position has no counterpart").with_help("remove the joint"));
         };

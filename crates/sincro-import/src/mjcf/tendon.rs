@@ -205,7 +205,7 @@ impl<'d> Reader<'d> {
         findings: &mut Findings,
     ) -> Result<(), Diagnostic> {
         let c = self.defaults.numbers(e, "main", "polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
-        let get = |k: usize| c.get(k).copied().unwrap_or(0.0);
+        let get = |k: usize| c.get(k).copied().unwrap_or(if k == 1 { 1.0 } else { 0.0 });
         let Some(first) = self.tendon_of(e, "tendon1")? else { return Err(e.error("it names no tendon")) };
         let second = self.tendon_of(e, "tendon2")?;
         let no_path = |why: &String| e.error(format!("a tendon that is held has no counterpart: {why}"));
