@@ -263,12 +263,12 @@ fn a_shape_that_hangs_on_a_static_one_of_its_batch_falls() {
     // the same if something looks at a body in between, which makes two batches of them
     for looks in [false, true] {
         let mut session = open();
-        let shelf = cube(&mut session, [3.0, 0.0, 1.0]);
+        let table = cube(&mut session, [3.0, 0.0, 1.0]);
         let box_of = cube(&mut session, [3.0, 0.0, 2.0]);
-        call(&mut session, "sim.setObjectParent", &[box_of.clone(), shelf.clone(), true.into()]);
-        set(&mut session, &shelf, RESPONDABLE, 1);
+        call(&mut session, "sim.setObjectParent", &[box_of.clone(), table.clone(), true.into()]);
+        set(&mut session, &table, RESPONDABLE, 1);
         if looks {
-            call(&mut session, "sim.getObjectVelocity", std::slice::from_ref(&shelf));
+            call(&mut session, "sim.getObjectVelocity", std::slice::from_ref(&table));
         }
         set(&mut session, &box_of, STATIC, 0);
         session.start().unwrap();
@@ -278,7 +278,7 @@ fn a_shape_that_hangs_on_a_static_one_of_its_batch_falls() {
         let t = 10.0 * session.registry().sample_time();
         let z = height(&mut session, &box_of);
         assert!((z - (2.0 - 0.5 * G * t * t)).abs() < 1e-9, "z = {z} m, looks: {looks}");
-        assert!((height(&mut session, &shelf) - 1.0).abs() < 1e-12);
+        assert!((height(&mut session, &table) - 1.0).abs() < 1e-12);
     }
 }
 

@@ -225,8 +225,8 @@ impl SimApi<'_> {
         Ok(all)
     }
 
-    /// Scales a shape in all directions, about its own origin, by a dimensionless factor; a mass that it was given by its
-    /// cube, as that of a body of the same density.
+    /// Scales a shape in all directions, about its own origin, by a dimensionless factor; a mass that it was given, by
+    /// its cube, as that of a body of the same density.
     ///
     /// # Errors
     ///
