@@ -99,18 +99,20 @@ impl<R: Real> DormandPrince<R> {
             let (done, rest) = self.k.split_at_mut(s);
             self.stage.copy_from_slice(y);
             for (k, a) in done.iter().zip(A[s]) {
-                for i in 0..y.len() {
-                    self.stage[i] += R::splat(h * a) * k[i];
+                for (stage, k) in self.stage.iter_mut().zip(k) {
+                    *stage += R::splat(h * a) * *k;
                 }
             }
             system.slope(t + C[s] * h, &self.stage, &mut rest[0]);
         }
-        for i in 0..y.len() {
-            let mut sum = R::zero();
-            for (k, e) in self.k.iter().zip(E) {
-                sum += R::splat(e) * k[i];
+        self.error.fill(R::zero());
+        for (k, e) in self.k.iter().zip(E) {
+            for (error, k) in self.error.iter_mut().zip(k) {
+                *error += R::splat(e) * *k;
             }
-            self.error[i] = R::splat(h) * sum;
+        }
+        for error in &mut self.error {
+            *error = R::splat(h) * *error;
         }
     }
 }

@@ -12,8 +12,10 @@ use crate::model::Model;
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
     n_v: usize,
-    n_totals: usize,
-    n_rotor_states: usize,
+    /// Start of totals, of the states of elements, and the end of all.
+    totals: usize,
+    rotor_states: usize,
+    dim: usize,
 }
 
 impl Layout {
@@ -21,14 +23,16 @@ impl Layout {
     #[must_use]
     pub fn new<R: Real>(model: &Model<R>, tracks_totals: bool) -> Self {
         let n_totals = if tracks_totals { 2 + model.motors().len() } else { 0 };
-        Self { n_v: model.n_v(), n_totals, n_rotor_states: model.n_rotor_states() }
+        let (n_v, totals) = (model.n_v(), 2 * model.n_v());
+        let rotor_states = totals + n_totals;
+        Self { n_v, totals, rotor_states, dim: rotor_states + model.n_rotor_states() }
     }
 
     /// Number of entries.
     #[inline(always)]
     #[must_use]
     pub fn dim(self) -> usize {
-        2 * self.n_v + self.n_totals + self.n_rotor_states
+        self.dim
     }
 
     /// Displacement of the coordinates in the chart of the step (n_v).
@@ -42,7 +46,7 @@ impl Layout {
     #[inline(always)]
     #[must_use]
     pub fn velocities(self) -> Range<usize> {
-        self.n_v..2 * self.n_v
+        self.n_v..self.totals
     }
 
     /// Velocity of one degree of freedom.
@@ -55,52 +59,52 @@ impl Layout {
     /// Displacement and velocities.
     #[must_use]
     pub fn motion(self) -> Range<usize> {
-        0..2 * self.n_v
+        0..self.totals
     }
 
     /// Returns true if work, dissipation and motor impulses are integrated.
     #[inline(always)]
     #[must_use]
     pub fn tracks_totals(self) -> bool {
-        self.n_totals > 0
+        self.rotor_states > self.totals
     }
 
     /// Totals: work `[J]`, dissipation `[J]`, impulse of each motor [N·m·s] or [N·s]; empty if they are not tracked.
     #[inline(always)]
     #[must_use]
     pub fn totals(self) -> Range<usize> {
-        2 * self.n_v..2 * self.n_v + self.n_totals
+        self.totals..self.rotor_states
     }
 
     /// Work `[J]`, if totals are tracked.
     #[must_use]
     pub fn work(self) -> usize {
-        2 * self.n_v
+        self.totals
     }
 
     /// Dissipation `[J]`, if totals are tracked.
     #[must_use]
     pub fn dissipation(self) -> usize {
-        2 * self.n_v + 1
+        self.totals + 1
     }
 
     /// Impulse of a motor, if totals are tracked.
     #[must_use]
     pub fn motor_impulse(self, motor: MotorId) -> usize {
-        2 * self.n_v + 2 + motor.index()
+        self.totals + 2 + motor.index()
     }
 
     /// Returns true if elements have states.
     #[inline(always)]
     #[must_use]
     pub fn has_element_states(self) -> bool {
-        self.n_rotor_states > 0
+        self.dim > self.rotor_states
     }
 
     /// States of elements: of rotors, then of windings, then of activations.
     #[inline(always)]
     #[must_use]
     pub fn rotor_states(self) -> Range<usize> {
-        2 * self.n_v + self.n_totals..self.dim()
+        self.rotor_states..self.dim
     }
 }

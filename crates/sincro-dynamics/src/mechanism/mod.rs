@@ -529,9 +529,10 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     fn total_rates(&mut self, t: f64, (v_at, elements): (&[R], &[R]), v: &[R], steps: (R, R), rates: &mut [R]) {
         let (mut work, mut dissipation) = (R::zero(), R::zero());
-        for (k, dof) in self.model.dofs.iter().enumerate() {
-            work += dof.torque * v[k];
-            dissipation += damper::dissipation(dof, v[k]);
+        let v = &v[..self.model.dofs.len()];
+        for (dof, &v) in self.model.dofs.iter().zip(v) {
+            work += dof.torque * v;
+            dissipation += damper::dissipation(dof, v);
         }
         if self.has_special {
             for spring in &self.model.nonlinear_springs {
@@ -542,9 +543,9 @@ impl<R: Real> Mechanism<R> {
             for gear in &self.model.elastic_gears {
                 dissipation += gear.dissipation(gear.error(&self.q, v_at).0, gear.rate(v));
             }
-            for applied in &self.model.applied {
-                work += applied.torque::<R>(t) * v[applied.dof];
-            }
+        }
+        for applied in &self.model.applied {
+            work += applied.torque::<R>(t) * v[applied.dof];
         }
         for (link, wrench) in self.scratch.links.iter().zip(&self.external) {
             work += link.v.dot(wrench);
@@ -609,9 +610,10 @@ impl<R: Real> Mechanism<R> {
     /// velocities over a linearly implicit step.
     #[inline(always)]
     pub(crate) fn find_motor_torques(&mut self, (v, elements): (&[R], &[R]), mean: &[R], steps: (R, R)) {
+        let commands = acting(&self.model, &self.commands, &self.actuations);
         for (i, motor) in self.model.params.motors.iter().enumerate() {
             let q = self.model.dofs[motor.dof].coordinate_in(&self.q);
-            self.motor_torque[i] = motor.torque(q, v[motor.dof], self.acting_commands()[i], steps).0;
+            self.motor_torque[i] = motor.torque(q, v[motor.dof], commands[i], steps).0;
         }
         if self.has_special {
             for winding in self.model.active_windings() {
@@ -744,7 +746,9 @@ impl<R: Real> System<R> for Mechanism<R> {
         displace(&self.model, &self.base, &y[displacement.clone()], &mut self.q);
         core::mem::swap(&mut self.base, &mut self.q);
         y[displacement].fill(R::zero());
-        self.model.limit_activations(&mut y[self.layout.rotor_states()]);
+        if self.layout.has_element_states() {
+            self.model.limit_activations(&mut y[self.layout.rotor_states()]);
+        }
     }
 
     fn magnitude(&self, y: &[R], k: usize) -> f64 {

@@ -74,14 +74,49 @@ impl<R: Real> Mechanism<R> {
 
     #[inline(always)]
     fn find_explicit_slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        self.place_stage(y);
+        if R::IS_SCALAR && self.singular.is_near {
+            self.find_projected_slope(t, None, y, slope);
+        } else {
+            self.find_placed_slope(t, y, &y[self.layout.velocities()], slope);
+        }
+    }
+
+    #[inline(always)]
+    fn find_linearly_implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+        self.place_stage(y);
+        // a step of semi-implicit Euler is one at velocity level
+        if R::IS_SCALAR && self.singular.is_near && implicit != Implicit::Dampers {
+            self.find_projected_slope(t, Some((h, implicit)), y, slope);
+        } else {
+            self.find_placed_implicit_slope((t, h, implicit), y, &y[self.layout.velocities()], slope);
+        }
+    }
+
+    /// Places the mechanism at the displacement of a stage.
+    #[inline(always)]
+    fn place_stage(&mut self, y: &[R]) {
+        displace(&self.model, &self.base, &y[self.layout.displacement()], &mut self.q);
+    }
+
+    /// Slope at the stage placed, which is near a singular position: projected onto the loops.
+    #[cold]
+    #[inline(never)]
+    fn find_projected_slope(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
+        let v = self.project_stage(&y[self.layout.velocities()]);
+        match implicit {
+            None => self.find_placed_slope(t, y, &v, slope),
+            Some((h, implicit)) => self.find_placed_implicit_slope((t, h, implicit), y, &v, slope),
+        }
+        self.singular.v = v;
+    }
+
+    /// Slope of an explicit stage at the coordinates placed with the velocities `v`.
+    #[inline(always)]
+    fn find_placed_slope(&mut self, t: f64, y: &[R], v: &[R], slope: &mut [R]) {
         let n = self.model.n_v();
-        let (delta, rest) = y.split_at(n);
-        let v = &rest[..n];
-        displace(&self.model, &self.base, delta, &mut self.q);
+        let (delta, rotors) = (&y[..n], &y[self.layout.rotor_states()]);
         let (rate, rest) = slope.split_at_mut(n);
-        let rotors = &y[self.layout.rotor_states()];
-        let projected = (R::IS_SCALAR && self.singular.is_near).then(|| self.project_stage(v));
-        let v = projected.as_deref().unwrap_or(v);
         self.chart_rate(delta, v, rate);
         self.accelerations(t, v, rotors, None, &mut rest[..n]);
         self.note_evaluation(t, v, &rest[..n]);
@@ -89,45 +124,41 @@ impl<R: Real> Mechanism<R> {
             self.total_rates(t, (v, rotors), v, (R::zero(), R::zero()), &mut rest[n..]);
         }
         self.element_rates(y, 0.0, slope);
-        if let Some(v) = projected {
-            self.singular.v = v;
-        }
     }
 
+    /// Slope of a linearly implicit stage at the coordinates placed with the velocities `v`.
     #[inline(always)]
-    fn find_linearly_implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
+    fn find_placed_implicit_slope(
+        &mut self,
+        (t, h, implicit): (f64, f64, Implicit),
+        y: &[R],
+        v: &[R],
+        slope: &mut [R],
+    ) {
         let n = self.model.n_v();
-        let (delta, rest) = y.split_at(n);
-        let v = &rest[..n];
-        displace(&self.model, &self.base, delta, &mut self.q);
+        let (delta, rotors) = (&y[..n], &y[self.layout.rotor_states()]);
         let (rate, rest) = slope.split_at_mut(n);
-        let rotors = &y[self.layout.rotor_states()];
-        // a step of semi-implicit Euler is one at velocity level
-        let projects = R::IS_SCALAR && self.singular.is_near && implicit != Implicit::Dampers;
-        let projected = projects.then(|| self.project_stage(v));
-        let v = projected.as_deref().unwrap_or(v);
         self.accelerations(t, v, rotors, Some((h, implicit)), &mut rest[..n]);
         self.note_evaluation(t, v, &rest[..n]);
         // the position moves with the new velocity; forces do their work over the mean of old and new
         let step = R::splat(h);
-        let mut over = core::mem::take(&mut self.step_velocity);
+        let (over, v_dot, v) = (&mut self.step_velocity[..n], &rest[..n], &v[..n]);
         for k in 0..n {
-            over[k] = v[k] + step * rest[k];
+            over[k] = v[k] + step * v_dot[k];
         }
-        self.chart_rate(delta, &over, rate);
+        self.chart_rate(delta, &self.step_velocity, rate);
         if self.layout.tracks_totals() {
             let half = R::splat(0.5);
+            let over = &mut self.step_velocity[..n];
             for k in 0..n {
                 over[k] = half * (over[k] + v[k]);
             }
+            let mean = core::mem::take(&mut self.step_velocity);
             let of_springs = R::splat(implicit.steps(h).1);
-            self.total_rates(t, (v, rotors), &over, (step, of_springs), &mut rest[n..]);
+            self.total_rates(t, (v, rotors), &mean, (step, of_springs), &mut rest[n..]);
+            self.step_velocity = mean;
         }
-        self.step_velocity = over;
         self.element_rates(y, h, slope);
-        if let Some(v) = projected {
-            self.singular.v = v;
-        }
     }
 
     /// Notes the conditioning of the loops and the laws of limited drives in an evaluation; not those of drives where

@@ -23,8 +23,8 @@ pub(crate) struct TorqueInput<'a, R> {
     pub loads: &'a [R],
     /// Step of a linearly implicit method, and which terms it takes at the new state; none: all at this one.
     pub implicit: Option<(f64, Implicit)>,
-    /// False if the joints have linear springs, dampers, motors and drives alone: the lists of all other elements are
-    /// empty and need not be looked at.
+    /// False if the joints have linear springs, dampers, functions of time, motors and drives alone: the lists of all
+    /// other elements are empty and need not be looked at.
     pub has_special: bool,
 }
 
@@ -50,6 +50,9 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     if at.has_special {
         special_torques(model, at, steps, torque, diagonal);
     }
+    for applied in &model.applied {
+        torque[applied.dof] += applied.torque(at.t);
+    }
     for (motor, &command) in model.params.motors.iter().zip(at.commands) {
         let k = motor.dof;
         let q = model.dofs[k].coordinate_in(at.q);
@@ -68,7 +71,7 @@ pub(crate) fn joint_torques<R: Real>(model: &Model<R>, at: &TorqueInput<'_, R>, 
     }
 }
 
-/// Adds the torques of nonlinear springs, elastic gears, fixed tendons and functions of time.
+/// Adds the torques of nonlinear springs, elastic gears and fixed tendons.
 #[inline(always)]
 fn special_torques<R: Real>(
     model: &Model<R>,
@@ -102,9 +105,6 @@ fn special_torques<R: Real>(
         for share in shares {
             torque[share.dof] += share.coefficient * force;
         }
-    }
-    for applied in &model.applied {
-        torque[applied.dof] += applied.torque(at.t);
     }
 }
 

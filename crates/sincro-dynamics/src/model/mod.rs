@@ -326,12 +326,11 @@ impl<R: Real> Model<R> {
         !self.wrenches.is_empty() || self.feels_air() || self.has_lines() || self.gravity_field.is_some()
     }
 
-    /// Returns true if joints have nonlinear springs, elastic gears, fixed tendons, torques that are functions of time,
-    /// or windings.
+    /// Returns true if joints have nonlinear springs, elastic gears, fixed tendons or windings.
     pub(crate) fn has_special_joint_elements(&self) -> bool {
         let has_laws = !self.nonlinear_springs.is_empty() || !self.elastic_gears.is_empty();
         let has_shares = self.spring_dampers.iter().any(|element| !element.shares().is_empty());
-        has_laws || has_shares || !self.applied.is_empty() || !self.windings.is_empty()
+        has_laws || has_shares || !self.windings.is_empty()
     }
 
     /// Drives: joints with Coulomb friction, then motors in velocity and position mode, then locked force sensors.

@@ -137,7 +137,10 @@ impl World {
                 self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities[i];
             }
         }
-        self.handle_coupled_events(t + h, system).map(|_| ())
+        if system.zero_crossing_count().is_some() {
+            self.handle_coupled_events(t + h, system)?;
+        }
+        Ok(())
     }
 
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is
@@ -169,8 +172,9 @@ impl World {
             };
             method.step(system, t, h, &mut world.y);
         };
-        if self.target_velocities.is_empty() && !self.is_constrained() {
-            // no modes to decide
+        if !self.is_constrained() && !self.has_limited_drives() {
+            // no modes to decide: what is locked ends at its target velocity
+            self.mark_targets(h);
             step(self);
         } else {
             self.solve_step_modes(h, |world| {

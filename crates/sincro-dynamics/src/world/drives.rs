@@ -104,11 +104,15 @@ impl World {
     }
 
     pub(super) fn has_limited_drives(&self) -> bool {
-        (0..self.target_velocities.len()).any(|i| !self.is_unlimited(i))
+        let model = self.model();
+        model.params.drives.iter().any(|drive| model.drive_limit(drive).is_some())
     }
 
     /// Prescribes the accelerations by which locked drives reach their target velocity within `h`.
     pub(super) fn mark_targets(&mut self, h: f64) {
+        if self.target_velocities.is_empty() {
+            return;
+        }
         self.mechanism.mark_locked();
         let layout = self.layout();
         for i in 0..self.target_velocities.len() {

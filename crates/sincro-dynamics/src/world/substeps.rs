@@ -278,7 +278,9 @@ impl World {
     pub(super) fn save_step_start(&mut self) {
         self.before.copy_from_slice(&self.y);
         self.base_before.copy_from_slice(self.mechanism.base());
-        self.report_before = self.solver_report().unwrap_or_default();
+        if let Some(report) = self.solver_report() {
+            self.report_before = report;
+        }
     }
 
     pub(super) fn restore(&mut self) {
