@@ -1,6 +1,6 @@
 //! Linearisation of force elements with states or formulas of their own, against closed forms.
 
-use sincro_analysis::linearize::{Request, linearize, operating_point};
+use sincro_analysis::linearize::{Request, TrimRequest, linearize, operating_point, trim};
 use sincro_testing::SceneFolder;
 
 const EXPERIMENT: &str = "title = \"Element\"\nduration = 1.0\nstep = 0.01\nrecord = [\"energy.total\"]\n";
@@ -55,4 +55,60 @@ inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }
     let (poles, _) = linear(scene);
     assert_eq!(poles.len(), 2);
     assert!(poles.iter().all(|(re, im)| re.abs() < 1e-12 && (im.abs() - 3.0).abs() < 1e-12), "{poles:?}");
+}
+
+/// A shaft with a spring, whose motor has an activation that the command drives against the end of its range.
+fn with_activation(activation: &str) -> sincro_sim::Loaded {
+    let scene = format!(
+        r#"gravity = [0.0, 0.0, 0.0]
+[[joint]]
+name = "shaft"
+kind = "revolute"
+damping = 0.2
+spring = {{ stiffness = 2.0 }}
+motor = {{ mode = "torque", command = 3.0, activation = {{ {activation} }} }}
+[[body]]
+name = "wheel"
+parent = "/shaft"
+mass = 1.0
+inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}
+"#
+    );
+    SceneFolder::of(&scene, EXPERIMENT).load(&[]).unwrap()
+}
+
+#[test]
+fn activations_stop_at_the_ends_of_their_ranges() {
+    for activation in [
+        "kind = \"integrator\", range = { upper = 0.5 }, initial = 0.5",
+        "kind = \"filter\", time_constant = 0.1, range = { upper = 0.5 }, initial = 0.5",
+    ] {
+        let loaded = with_activation(activation);
+        let linear = linearize(&loaded, &operating_point(&loaded, 0.0).unwrap(), &Request::default()).unwrap();
+        let k = linear.system.states.iter().position(|axis| axis.name == "/shaft.activation").unwrap();
+        assert_eq!(linear.rate[k], 0.0, "{activation}");
+        assert!(linear.system.poles().iter().any(|mode| mode.pole.re == 0.0 && mode.pole.im == 0.0), "{activation}");
+        assert!(linear.system.b.row(k).iter().all(|x| *x == 0.0), "{activation}");
+    }
+}
+
+/// The equilibrium is at the end of the range, where the dynamics stays, too.
+#[test]
+fn a_trim_ends_where_activations_stop() {
+    for (activation, end) in [
+        ("kind = \"filter\", time_constant = 0.1, range = { upper = 0.5 }", 0.5),
+        ("kind = \"filter\", time_constant = 0.1, range = { upper = 0.5 }, initial = 0.5", 0.5),
+        ("kind = \"filter\", time_constant = 0.1, range = { upper = 5.0 }", 3.0),
+        ("kind = \"integrator\", range = { upper = 0.5 }, initial = 0.5", 0.5),
+    ] {
+        let loaded = with_activation(activation);
+        let mut found = trim(&loaded, &operating_point(&loaded, 0.0).unwrap(), &TrimRequest::default())
+            .unwrap_or_else(|why| panic!("{activation}: {why}"));
+        let close = |state: &[f64], q: f64| (state[0] - end).abs() < 1e-9 && (q - end / 2.0).abs() < 1e-9;
+        let state = found.at.state();
+        assert!(close(&state.rotors, state.q[0]), "{activation}: {:?} {:?}", state.rotors, state.q);
+        (0..20).for_each(|_| found.at.advance().unwrap());
+        let state = found.at.state();
+        assert!(close(&state.rotors, state.q[0]), "{activation}: {:?} {:?}", state.rotors, state.q);
+    }
 }

@@ -37,6 +37,8 @@ pub(super) struct Lens<R: Number> {
     values: Vec<f64>,
     /// Locked degrees of freedom and what holds each.
     locks: Vec<Lock>,
+    /// Full states that rest at an end of their range, where they were last evaluated: activations.
+    stopped: Vec<usize>,
     t: f64,
     y: Vec<R>,
     slope: Vec<R>,
@@ -123,6 +125,7 @@ impl<R: Number + CompiledNumber> Lens<R> {
             values,
             places,
             locks: locks(at, names),
+            stopped: Vec::new(),
             t: at.t(),
             y: vec![R::zero(); own + z.len()],
             slope: vec![R::zero(); own + z.len()],
@@ -231,6 +234,7 @@ impl<R: Number + CompiledNumber> Lens<R> {
             negated_jacobian_diagonal: &mut self.decay,
         };
         R::evaluate(&mut coupled, self.t, &self.y, &mut self.slope);
+        self.stop_activations();
         let of_mechanism = self.mechanism.active_constraints(&self.y[n_v..2 * n_v]);
         let equations = of_mechanism.into_iter().map(|row| Equation {
             source: EquationSource::Constraint(row.source),
@@ -244,6 +248,23 @@ impl<R: Number + CompiledNumber> Lens<R> {
             outputs: self.watch.values.clone(),
             equations,
         }
+    }
+
+    /// Full states that rest at an end of their range where they were last evaluated: activations.
+    pub fn stopped(&self) -> &[usize] {
+        &self.stopped
+    }
+
+    /// Stops activations at the ends of their ranges, as the dynamics does.
+    fn stop_activations(&mut self) {
+        let states = self.mechanism.layout().rotor_states();
+        let driven: Vec<bool> = self.slope[states.clone()].iter().map(|rate| rate.lane(0) != 0.0).collect();
+        self.mechanism.model().stop_activations(&self.y[states.clone()], &mut self.slope[states.clone()]);
+        let is_stopped = |place: usize| {
+            let state = place.checked_sub(states.start).filter(|state| *state < driven.len());
+            state.is_some_and(|state| driven[state] && self.slope[place].lane(0) == 0.0)
+        };
+        self.stopped = (0..self.places.len()).filter(|k| is_stopped(self.places[*k])).collect();
     }
 
     /// Equations of the locked degrees of freedom at y, with the acceleration that each prescribes.
@@ -330,6 +351,10 @@ impl Lens<f64> {
             } else {
                 z.push(self.values[k] + change[k]);
             }
+        }
+        for activation in self.mechanism.model().activations() {
+            let own = &mut state.rotors[activation.state];
+            *own = activation.saturated(*own);
         }
         for (k, input) in self.inputs.iter().enumerate() {
             if let InputKind::Command(m) = *input {

@@ -320,6 +320,8 @@ impl Search<'_> {
             for (share, column) in step.iter().zip(&unknowns) {
                 direction.iter_mut().zip(column).for_each(|(d, c)| *d += share * c);
             }
+            // not by rounding either
+            duals.stopped().iter().for_each(|k| direction[*k] = 0.0);
             // farther than this the loops may close on another branch
             let largest = direction[..values.n_v()].iter().fold(0.0_f64, |most, d| most.max(d.abs()));
             let share = if manifold.rows.is_empty() { 1.0 } else { (MAX_MOVE / largest).min(1.0) };
@@ -388,7 +390,10 @@ impl Search<'_> {
         let mut columns: Vec<f64> = Vec::new();
         for direction in &unknowns {
             let found = duals.along(direction);
-            self.each(&found, n_v, |x, _| columns.push(x.partials[0]));
+            let stopped = duals.stopped();
+            // what rests at an end of its range stays there, as a − end = 0
+            let stays = |k: Option<usize>| k.filter(|k| stopped.contains(k)).map(|k| direction[k]);
+            self.each(&found, n_v, |x, k| columns.push(stays(k).unwrap_or(x.partials[0])));
         }
         let n_rows = if unknowns.is_empty() { 0 } else { columns.len() / unknowns.len() };
         (unknowns.clone(), DMatrix::from_column_slice(n_rows, unknowns.len(), &columns))
