@@ -213,6 +213,16 @@ fn stops_and_couplings_are_moved_as_in_a_scene_that_has_them_there() {
 }
 
 #[test]
+fn a_coupling_by_a_polynomial_keeps_it() {
+    let mut session = session(&[("coupling.0.polynomial", "[0.5]"), ("/follower.initial.position", "1.125")]);
+    let hinge = Value::from(session.sim().registry.find("/hinge", Search::default()).unwrap());
+    let before = session.sim().world.model().constraints().gears[0].clone();
+    let told = call(&mut session, "sim.setJointDependency", "/follower", &[hinge, Value::Real(0.25), Value::Real(3.0)]);
+    assert!(told.as_ref().is_err_and(|why| why.contains("follows `/hinge` by a polynomial")), "{told:?}");
+    assert_eq!(session.sim().world.model().constraints().gears[0], before);
+}
+
+#[test]
 fn a_body_may_pass_through_all_others_and_begin_with_a_velocity() {
     let mut session = session(&[]);
     let plain = run(&mut session).trace;

@@ -212,6 +212,13 @@ impl SimApi<'_> {
             let help = "couplings are changed, not made: add a [[coupling]] to the scene";
             return Err(ApiError(format!("the scene does not couple `{path}` with `{master}`: {help}")));
         };
+        if couplings[k].higher != [0.0; 3] {
+            let master = &self.registry.entry(master)?.path;
+            let help = "change `polynomial` of its [[coupling]] in the scene";
+            return Err(ApiError(format!(
+                "`{path}` follows `{master}` by a polynomial, which has no one factor: {help}"
+            )));
+        }
         self.check_change(handle, "coupling")?;
         let q = &mut self.world.state.q;
         let wanted = factor * q[of.q_idx] + offset;

@@ -123,3 +123,42 @@ impl Motion {
         Self { linear: momentum.lin, angular: momentum.ang, energy }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::joint::JointKind;
+    use crate::model::{BodySpec, GearSpec, JointSpec, ModelBuilder, NodeId};
+    use crate::spatial::Pose;
+
+    /// Two wheels, of which the second follows the first.
+    fn geared(ratio: f64, higher: [f64; 3]) -> Model<f64> {
+        let mut builder = ModelBuilder::new([0.0; 3]);
+        let joints = ["first", "second"].map(|name| {
+            let kind = JointKind::Revolute { axis: [0.0, 0.0, 1.0] };
+            let joint = builder.joint(name, NodeId::WORLD, Pose::identity(), JointSpec::new(kind));
+            let mass = crate::model::Shape::Sphere { radius: 0.1 }.mass_properties(1000.0);
+            builder.body(&format!("{name} wheel"), joint, Pose::identity(), BodySpec { mass });
+            joint
+        });
+        builder.gear("gear", GearSpec { joints, ratio, offset: 0.0, higher });
+        builder.build().unwrap().0
+    }
+
+    #[test]
+    fn the_ratio_of_a_coupling_stays_with_its_polynomial() {
+        let same = |name: &str| Some(Origin { name: name.to_owned(), is_same: true });
+        let set = |model: &mut Model<f64>| Arc::make_mut(&mut model.params.constraints).gears[0].offset = 0.3;
+        for (higher, offset) in [([0.5, 0.0, 0.0], 0.3), ([0.0; 3], 0.0), ([0.5, 0.0, 0.1], 0.0)] {
+            let (mut former, mut model) = (geared(2.0, [0.5, 0.0, 0.0]), geared(3.0, higher));
+            set(&mut former);
+            let (before, initial) = (State::new(&former), State::new(&model));
+            let _ = transfer((&former, &before), (&mut model, initial), &same, false);
+            let gear = &model.constraints().gears[0];
+            let ratio = if offset == 0.0 { 3.0 } else { 2.0 };
+            assert_eq!((gear.ratio, gear.offset, gear.higher), (ratio, offset, higher));
+        }
+    }
+}

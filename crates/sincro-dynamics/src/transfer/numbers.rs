@@ -119,7 +119,8 @@ pub(super) fn transfer_params(former: &Model<f64>, model: &mut Model<f64>, names
     }
     for gear in &mut set.gears {
         let dofs = gear.dofs.map(dof_of);
-        let same = |old: &&crate::model::GearConstraint| old.dofs.map(Some) == dofs;
+        // another polynomial is another law: its ratio and offset go with its higher powers
+        let same = |old: &&crate::model::GearConstraint| old.dofs.map(Some) == dofs && old.higher == gear.higher;
         if let Some(old) = former.constraints().gears.iter().find(same) {
             (gear.ratio, gear.offset) = (old.ratio, old.offset);
         }
