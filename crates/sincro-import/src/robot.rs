@@ -261,6 +261,8 @@ pub(crate) enum Shape {
     /// Heights over a grid centred on its frame, rows along x from the least y on `[m]`, and its extent along x and y
     /// `[m]`.
     HeightField {
+        /// Name in the source.
+        name: String,
         /// Rows of heights.
         rows: std::sync::Arc<Vec<Vec<f64>>>,
         /// Distance from the first height to the last.
@@ -498,7 +500,7 @@ pub(crate) struct Activation {
 }
 
 impl Activation {
-    /// The activation of a command that is `scale` times this one plus `offset`.
+    /// The activation of a command that is `scale` times this one plus `offset`; it starts within its range.
     pub fn scaled(&self, scale: f64, offset: f64) -> Self {
         let of = |range: Option<[f64; 2]>, offset: f64| {
             let ends = range.map(|range| range.map(|x| scale * x + offset));
@@ -506,12 +508,14 @@ impl Activation {
         };
         // the command of an integrator is a rate
         let of_input = if self.time_constant.is_some() { offset } else { 0.0 };
-        Self {
-            input_range: of(self.input_range, of_input),
-            range: of(self.range, offset),
-            initial: scale * self.initial + offset,
-            ..*self
-        }
+        let range = of(self.range, offset);
+        let scaled = Self { input_range: of(self.input_range, of_input), range, ..*self };
+        Self { initial: scaled.saturated(scale * self.initial + offset), ..scaled }
+    }
+
+    /// The end of the range that is nearest to `x`, or `x` within it.
+    pub fn saturated(&self, x: f64) -> f64 {
+        self.range.map_or(x, |[low, high]| x.max(low).min(high))
     }
 }
 
@@ -585,6 +589,19 @@ pub(crate) struct Keyframe {
     pub element: (usize, u32),
     /// Index of a joint and its coordinates.
     pub positions: Vec<(usize, Vec<f64>)>,
+    /// Actuators with their commands, in the unit of these.
+    pub commands: Vec<(Actuator, f64)>,
+    /// Actuators with their activations at the start, in the unit of their commands.
+    pub activations: Vec<(Actuator, f64)>,
+}
+
+/// An actuator of the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Actuator {
+    /// The motor of the joint with this index.
+    Motor(usize),
+    /// That of the tendon with this index.
+    Tendon(usize),
 }
 
 impl Joint {

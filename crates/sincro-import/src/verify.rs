@@ -35,6 +35,15 @@ pub(crate) fn compare(
                 Diagnostic::without_location(format!("the mesh `{}` cannot be read: {e}", from.display()))
             })?),
         };
+        if name.ends_with(".csv") {
+            // heights are text, which is read from the folder
+            let path = folder.0.join(name);
+            let parent = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+            parent
+                .and_then(|()| std::fs::write(&path, &**bytes))
+                .map_err(|e| Diagnostic::without_location(format!("the heights `{name}` cannot be written: {e}")))?;
+            continue;
+        }
         files.keep(name, bytes);
     }
     let opened = sincro_scene::open::open_in(&files, &[], Loaders::default(), true).map_err(refused)?;

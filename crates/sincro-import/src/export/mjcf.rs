@@ -185,9 +185,22 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
         }
         JointKind::Free => *out += &format!("{pad}  <freejoint name=\"{name}\"/>\n"),
     }
-    if joint.kind != JointKind::Free && joint.start.iter().any(|x| *x != 0.0) && joint.dofs.len() == 1 {
+    let kind = joint.kind;
+    let is_zero = match joint.start[..] {
+        [w, ref rest @ ..] if kind == JointKind::Ball => w.abs() == 1.0 && rest.iter().all(|x| *x == 0.0),
+        ref all => all.iter().all(|x| *x == 0.0),
+    };
+    if kind != JointKind::Free && !is_zero {
         tree.note(&joint.path, "MJCF starts it at zero");
     }
+    if matches!(kind, JointKind::Universal { .. } | JointKind::Planar) {
+        let words = format!("MJCF has no {} joints: its {} axes are joints each", kind_word(kind), joint.dofs.len());
+        tree.note(&joint.path, &words);
+    }
+}
+
+fn kind_word(kind: JointKind) -> &'static str {
+    if kind == JointKind::Planar { "planar" } else { "universal" }
 }
 
 fn geom(out: &mut String, tree: &mut Tree<'_>, k: usize, piece: &Piece, more: &str, pad: &str) {
@@ -276,6 +289,12 @@ fn actuators(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
             MotorMode::Spring => {
                 let (kp, kv) = (plain(motor.stiffness), plain(motor.damping));
                 lines += &format!("    <position name=\"{name}\" joint=\"{name}\" kp=\"{kp}\" kv=\"{kv}\"{limit}/>\n");
+            }
+            MotorMode::Voltage => {
+                tree.note(&joint.path, "MJCF has no motors with a resistance that take a voltage: none is written");
+                if joint.activation.is_some() {
+                    tree.note(&joint.path, "the activation of its motor is not written");
+                }
             }
             _ => tree.note(&joint.path, "MJCF has no ideal motors: none is written"),
         }

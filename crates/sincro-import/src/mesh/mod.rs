@@ -121,7 +121,17 @@ pub(crate) struct Meshes {
     /// Those that were converted and have no names yet.
     converted: BTreeMap<UseKey, Result<Converted, String>>,
     known: BTreeMap<UseKey, Result<Placed, String>>,
+    /// Height fields that were written, with their files.
+    fields: Vec<(Heights, String)>,
+    /// Heights of all uses of height fields.
+    n_heights: usize,
 }
+
+/// Rows of heights along x, from the least y on `[m]`.
+type Heights = Arc<Vec<Vec<f64>>>;
+
+/// Heights of all uses of height fields in a robot at most: each use has its own in a scene.
+const MAX_HEIGHTS: usize = 1 << 20;
 
 impl Meshes {
     /// Converts the meshes of these uses ahead, several files at a time: path, true if it shows, and factors. Names are
@@ -188,6 +198,24 @@ impl Meshes {
             self.files.insert(file.clone(), Content::Bytes(Arc::new(stl(&hull::ball(), [1.0; 3]))));
         }
         file
+    }
+
+    /// File of heights, which is written once however often they are used; the reason if there are too many.
+    pub fn heights(&mut self, name: &str, rows: &Heights) -> Result<String, String> {
+        let n = self.n_heights + rows.iter().map(Vec::len).sum::<usize>();
+        if n > MAX_HEIGHTS {
+            return Err(format!("all uses of height fields together have more than {MAX_HEIGHTS} heights"));
+        }
+        self.n_heights = n;
+        if let Some((_, file)) = self.fields.iter().find(|(known, _)| Arc::ptr_eq(known, rows)) {
+            return Ok(file.clone());
+        }
+        let line = |row: &Vec<f64>| row.iter().map(|x| number::plain(*x)).collect::<Vec<_>>().join(",") + "\n";
+        let text: String = rows.iter().map(line).collect();
+        let file = self.new_name(Path::new(&format!("{}.csv", number::name(name))), "", "csv");
+        self.files.insert(file.clone(), Content::Bytes(Arc::new(text.into_bytes())));
+        self.fields.push((rows.clone(), file.clone()));
+        Ok(file)
     }
 
     fn copy(&mut self, path: &Path) -> String {

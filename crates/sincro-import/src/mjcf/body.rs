@@ -209,7 +209,7 @@ impl<'d> Reader<'d> {
         let (mut carrier, n) = (carrier, made.len());
         let mut before = [0.0; 3];
         for (k, (made, wanted)) in made.into_iter().enumerate() {
-            let JointRead { mut joint, position, reference, tuned } = made;
+            let JointRead { mut joint, position, reference, range, tuned } = made;
             let last = k + 1 == n;
             let step: [f64; 3] = std::array::from_fn(|c| position[c] - before[c]);
             joint.pose =
@@ -236,6 +236,7 @@ impl<'d> Reader<'d> {
             }
             self.order.push(robot.joints.len());
             self.references.push(reference);
+            self.ranges.extend(range.map(|range| (robot.joints.len(), range)));
             self.tuned.extend(tuned.map(|tuned| (robot.joints.len(), tuned)));
             robot.joints.push(joint);
             before = position;
@@ -270,7 +271,7 @@ impl<'d> Reader<'d> {
         }
         joint.axis = axis;
         if free {
-            return Ok(JointRead { joint, position, reference: 0.0, tuned: None });
+            return Ok(JointRead { joint, position, reference: 0.0, range: None, tuned: None });
         }
         let angle = |x: f64| if kind == JointKind::Revolute { self.angles.radians(x) } else { x };
         let reference = angle(d.number(e, class, "ref")?.unwrap_or(0.0));
@@ -299,8 +300,8 @@ impl<'d> Reader<'d> {
             Some(&[time, ratio]) if time > 0.0 && ratio > 0.0 => Some(Tuned { element: e, time, ratio, rest }),
             _ => None,
         };
-        self.limits(e, class, &mut joint, reference, &angle)?;
-        Ok(JointRead { joint, position, reference, tuned })
+        let range = self.limits(e, class, &mut joint, reference, &angle)?;
+        Ok(JointRead { joint, position, reference, range, tuned })
     }
 
     /// Gives joints with `springdamper` the stiffness and damping of their inertia at the reference.
@@ -321,6 +322,7 @@ impl<'d> Reader<'d> {
         }
     }
 
+    /// Gives a joint its limits; returns its range in the source's coordinates, whether it limits or not.
     fn limits(
         &self,
         e: Element<'d>,
@@ -328,7 +330,7 @@ impl<'d> Reader<'d> {
         joint: &mut Joint,
         reference: f64,
         angle: &dyn Fn(f64) -> f64,
-    ) -> Result<(), Diagnostic> {
+    ) -> Result<Option<[f64; 2]>, Diagnostic> {
         let d = &self.defaults;
         let range = d.numbers(e, class, "range")?;
         let limited = match d.text(e, class, "limited") {
@@ -352,7 +354,10 @@ impl<'d> Reader<'d> {
             Some(_) if limited => e.change("limits of a joint that has not one degree of freedom are left out"),
             _ => {}
         }
-        Ok(())
+        Ok(match range.as_deref() {
+            Some(&[low, high]) => Some([low, high].map(angle)),
+            _ => None,
+        })
     }
 
     fn inertial(&self, e: Element<'d>) -> Result<Inertial, Diagnostic> {
@@ -458,6 +463,8 @@ struct JointRead<'d> {
     joint: Joint,
     position: [f64; 3],
     reference: f64,
+    /// Range in the source's coordinates.
+    range: Option<[f64; 2]>,
     tuned: Option<Tuned<'d>>,
 }
 

@@ -77,6 +77,20 @@ impl<'d> Defaults<'d> {
         None
     }
 
+    /// The elements that set an actuator, one after the other: of its class, the outermost one first, and itself.
+    pub fn actuators(&self, element: Element<'d>) -> Vec<Element<'d>> {
+        let mut all = vec![element];
+        let mut class = element.attribute("class").unwrap_or("main").to_owned();
+        for _ in 0..MAX_DEPTH {
+            let Some(known) = self.classes.get(&class) else { break };
+            all.extend(known.elements.iter().rev().filter(|e| ACTUATORS.contains(&e.name())));
+            let Some(above) = known.parent.clone() else { break };
+            class = above;
+        }
+        all.reverse();
+        all
+    }
+
     /// Text of an attribute.
     pub fn text(&self, element: Element<'d>, class: &str, attribute: &str) -> Option<&'d str> {
         self.holder(element, class, attribute)?.attribute(attribute)

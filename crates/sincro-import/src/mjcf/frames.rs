@@ -8,7 +8,7 @@ use sincro_dynamics::spatial::{Pose, Quat, Vec3};
 use super::Reader;
 use crate::export::PREFIX;
 use crate::findings::Findings;
-use crate::robot::{Joint, JointKind, Placement, Robot, Rotation};
+use crate::robot::{Joint, JointKind, Keyframe, Placement, Robot, Rotation};
 use crate::source::Element;
 
 /// Largest difference of what is written twice `[m]`, (dimensionless).
@@ -107,6 +107,12 @@ fn chain(robot: &Robot, link: usize) -> Vec<usize> {
     joints
 }
 
+/// Coordinates of a joint in all keyframes.
+fn coordinates(keyframes: &mut [Keyframe], joint: usize) -> impl Iterator<Item = &mut Vec<f64>> {
+    let all = keyframes.iter_mut().flat_map(|keyframe| &mut keyframe.positions);
+    all.filter(move |(k, _)| *k == joint).map(|(_, q)| q)
+}
+
 /// Gives a body and the joints before it their frames and names; false if these contradict those that they have.
 fn place(robot: &mut Robot, link: usize, own: Frame, data: &Custom<'_>) -> bool {
     let joints = chain(robot, link);
@@ -138,21 +144,25 @@ fn place(robot: &mut Robot, link: usize, own: Frame, data: &Custom<'_>) -> bool 
     {
         // where the body stands is the coordinate
         let [frame] = &frames[..] else { return false };
-        let joint = &mut robot.joints[k];
-        if let Some(&[x, y, z, w, i, j, l]) = joint.initial.as_deref() {
-            let start = Placement { position: [x, y, z], rotation: Rotation::Quaternion([w, i, j, l]) }.pose();
-            let inner = frame.placement.pose().inverse().compose(&start).compose(&own.placement.pose().inverse());
-            let mut q = inner.pos.0.to_vec();
-            q.extend([0.0; 4]);
-            Quat::from_matrix(&inner.rot).write(&mut q[3..]);
-            joint.initial = Some(q);
+        let (outer, inner) = (frame.placement.pose().inverse(), own.placement.pose().inverse());
+        let starts = robot.joints[k].initial.iter_mut();
+        for q in starts.chain(coordinates(&mut robot.keyframes, k)) {
+            if let [x, y, z, w, i, j, l] = q[..] {
+                let stands = Placement { position: [x, y, z], rotation: Rotation::Quaternion([w, i, j, l]) }.pose();
+                let moved = outer.compose(&stands).compose(&inner);
+                q[..3].copy_from_slice(&moved.pos.0);
+                Quat::from_matrix(&moved.rot).write(&mut q[3..]);
+            }
         }
+        let joint = &mut robot.joints[k];
         (joint.pose, joint.name) = (frame.placement, frame.name.clone());
         (robot.links[link].pose, robot.links[link].name) = (own.placement, own.name);
         return true;
     }
     let axis = |joint: &Joint| data.axis(&joint.name).unwrap_or(joint.axis);
     let (mut present, mut wanted) = (Pose::identity(), Pose::identity());
+    // rotations from the axes that a joint has to those that it gets
+    let mut turns = Vec::new();
     for ((k, inner), frame) in joints.iter().zip(links()).zip(&frames) {
         let joint = &robot.joints[*k];
         present = present.compose(&joint.pose.pose());
@@ -166,12 +176,17 @@ fn place(robot: &mut Robot, link: usize, own: Frame, data: &Custom<'_>) -> bool 
         if !is_axis || (present.pos - wanted.pos).norm() > SAME {
             return false;
         }
+        turns.push(wanted.rot.transpose().mul(&present.rot));
         present = present.compose(&inner);
     }
     if !same(&present, &wanted.compose(&own.placement.pose())) {
         return false;
     }
-    for (k, frame) in joints.into_iter().zip(frames) {
+    for ((k, frame), turn) in joints.into_iter().zip(frames).zip(turns) {
+        for q in coordinates(&mut robot.keyframes, k).filter(|q| q.len() == 4) {
+            let rotation = Quat::from_slice(q).normalized().matrix();
+            Quat::from_matrix(&turn.mul(&rotation).mul(&turn.transpose())).write(q);
+        }
         let joint = &mut robot.joints[k];
         joint.axis = axis(joint);
         (joint.pose, joint.name) = (frame.placement, frame.name);

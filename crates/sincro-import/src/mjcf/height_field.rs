@@ -64,7 +64,8 @@ impl<'d> Reader<'d> {
         // a flat one is at its bottom
         let scale = if high > low { height / (high - low) } else { 0.0 };
         let rows = rows.iter().map(|row| row.iter().map(|h| (h - low) * scale).collect()).collect();
-        Ok((name, Ok(Shape::HeightField { rows: Arc::new(rows), size: [2.0 * x, 2.0 * y] })))
+        let shape = Shape::HeightField { name: name.clone(), rows: Arc::new(rows), size: [2.0 * x, 2.0 * y] };
+        Ok((name, Ok(shape)))
     }
 
     /// Rows of a binary file, from the least y on; the reason if it is none.

@@ -12,6 +12,7 @@ mod frames;
 mod geom;
 mod height_field;
 mod include;
+mod law;
 mod orientation;
 mod state;
 mod tendon;
@@ -80,8 +81,12 @@ struct Reader<'d> {
     mocap: BTreeSet<usize>,
     /// Tendons by name.
     tendons: BTreeMap<String, tendon::KnownTendon>,
+    /// Actuators in the order of the file.
+    actuators: Vec<actuator::KnownActuator>,
     /// Reference coordinate of each joint of the robot.
     references: Vec<f64>,
+    /// Ranges of joints of the robot in the source's coordinates, whether they limit or not.
+    ranges: BTreeMap<usize, [f64; 2]>,
     /// Joints of the robot whose springs follow from their inertia.
     tuned: Vec<(usize, body::Tuned<'d>)>,
     /// Joints of the tree in the order of the coordinates.
@@ -129,7 +134,9 @@ pub(crate) fn read<'d>(
         positions: BTreeMap::new(),
         mocap: BTreeSet::new(),
         tendons: BTreeMap::new(),
+        actuators: Vec::new(),
         references: Vec::new(),
+        ranges: BTreeMap::new(),
         tuned: Vec::new(),
         order: Vec::new(),
     };

@@ -2,7 +2,7 @@
 
 use super::Reader;
 use crate::findings::Findings;
-use crate::robot::{JointKind, Keyframe, Placement, Robot, Sensor, SensorKind};
+use crate::robot::{Actuator, JointKind, Keyframe, Placement, Robot, Sensor, SensorKind};
 use crate::source::Element;
 
 impl<'d> Reader<'d> {
@@ -32,33 +32,100 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// Keyframes as named positions.
+    /// Keyframes as named positions, commands and activations.
     pub(super) fn keyframes(&self, keyframes: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
         for (k, key) in self.files.elements(keyframes).into_iter().enumerate() {
             key.keep();
             let name = key.attribute("name").map_or_else(|| format!("key{}", k + 1), str::to_owned);
-            let Some(Some(q)) = findings.take(key.numbers("qpos")) else { continue };
-            let width = |joint: usize| match robot.joints[joint].kind {
-                JointKind::Free => 7,
-                JointKind::Ball => 4,
-                _ => 1,
+            let [Some(q), Some(controls), Some(activations)] =
+                ["qpos", "ctrl", "act"].map(|list| findings.take(key.numbers(list)))
+            else {
+                continue;
             };
-            if q.len() != self.order.iter().map(|j| width(*j)).sum::<usize>() {
+            let Some(positions) = self.positions_of(q.as_deref(), robot) else {
                 key.drop("the number of its coordinates is not that of the model");
                 continue;
-            }
-            let (mut at, mut positions) = (0, Vec::new());
-            for joint in &self.order {
-                let n = width(*joint);
-                let mut own = q[at..at + n].to_vec();
-                if n == 1 {
-                    own[0] -= self.references[*joint];
-                }
-                at += n;
-                positions.push((*joint, own));
-            }
+            };
             key.change("a variant of the experiment");
-            robot.keyframes.push(Keyframe { name, element: key.id(), positions });
+            robot.keyframes.push(Keyframe {
+                name,
+                element: key.id(),
+                positions,
+                commands: controls.map_or_else(Vec::new, |list| self.commands_of(key, &list)),
+                activations: activations.map_or_else(Vec::new, |list| self.activations_of(key, &list)),
+            });
         }
+    }
+
+    /// Joints with their coordinates, none where the file gives none: those of the reference. `None` if their number is
+    /// not that of the model.
+    fn positions_of(&self, q: Option<&[f64]>, robot: &Robot) -> Option<Vec<(usize, Vec<f64>)>> {
+        let Some(q) = q else { return Some(Vec::new()) };
+        let width = |joint: usize| match robot.joints[joint].kind {
+            JointKind::Free => 7,
+            JointKind::Ball => 4,
+            _ => 1,
+        };
+        if q.len() != self.order.iter().map(|j| width(*j)).sum::<usize>() {
+            return None;
+        }
+        let (mut at, mut positions) = (0, Vec::new());
+        for joint in &self.order {
+            let n = width(*joint);
+            let mut own = q[at..at + n].to_vec();
+            if n == 1 {
+                own[0] -= self.references[*joint];
+            }
+            at += n;
+            positions.push((*joint, own));
+        }
+        Some(positions)
+    }
+
+    /// Actuators with the commands of controls.
+    fn commands_of(&self, key: Element<'d>, controls: &[f64]) -> Vec<(Actuator, f64)> {
+        if controls.len() != self.actuators.len() {
+            key.change(&format!("`ctrl` has {} numbers, not {}: it is left out", controls.len(), self.actuators.len()));
+            return Vec::new();
+        }
+        let mut commands = Vec::new();
+        for (known, control) in self.actuators.iter().zip(controls) {
+            match known.made {
+                Some((actuator, unit)) => {
+                    // the command of an integrator is a rate
+                    let is_rate = known.activation.is_some_and(|own| own.time_constant.is_none());
+                    let offset = if is_rate { 0.0 } else { unit.offset };
+                    commands.push((actuator, unit.scale * control + offset));
+                }
+                None if *control != 0.0 => key.change("`ctrl` of an actuator that is no motor here is left out"),
+                None => {}
+            }
+        }
+        commands
+    }
+
+    /// Actuators with activations, which start within their ranges.
+    fn activations_of(&self, key: Element<'d>, given: &[f64]) -> Vec<(Actuator, f64)> {
+        let activated: Vec<_> = self.actuators.iter().filter(|known| known.is_activated).collect();
+        if given.len() != activated.len() {
+            key.change(&format!("`act` has {} numbers, not {}: it is left out", given.len(), activated.len()));
+            return Vec::new();
+        }
+        let mut activations = Vec::new();
+        for (known, x) in activated.into_iter().zip(given) {
+            match (known.made, known.activation) {
+                (Some((actuator, unit)), Some(own)) => {
+                    let wanted = unit.scale * x + unit.offset;
+                    let start = own.saturated(wanted);
+                    if start != wanted {
+                        key.change("an activation of `act` is beyond its range: it starts at the end");
+                    }
+                    activations.push((actuator, start));
+                }
+                _ if *x != 0.0 => key.change("`act` of an actuator without activation here is left out"),
+                _ => {}
+            }
+        }
+        activations
     }
 }

@@ -9,7 +9,8 @@
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::actuator::Law;
+use super::actuator::no_force;
+use super::law::Law;
 use crate::findings::Findings;
 use crate::path_mass::tendon_mass;
 use crate::robot::{Robot, Tendon, TendonLimits, TendonPath};
@@ -26,16 +27,49 @@ pub(super) struct KnownTendon {
     pub offset: f64,
     /// Length at the reference of the source `[m]`.
     pub reference: f64,
+    /// Range of lengths in the source, whether it limits or not `[m]`.
+    pub range: Option<[f64; 2]>,
 }
 
 impl<'d> Reader<'d> {
     /// All tendons. One without force only measures, and is kept for actuators on it.
     pub(super) fn tendons(&mut self, tendons: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
+        // masses along the tendons have their armatures
+        for element in self.files.elements(tendons) {
+            let done = self.joint_properties(element, robot);
+            findings.take(done);
+        }
         for element in self.files.elements(tendons) {
             element.keep();
             let made = self.tendon(element, robot, findings);
             findings.take(made);
         }
+    }
+
+    /// Friction and armature of a tendon of one joint, which are those of the joint.
+    fn joint_properties(&self, e: Element<'d>, robot: &mut Robot) -> Result<(), Diagnostic> {
+        for key in ["frictionloss", "armature"] {
+            let Some(x) = self.defaults.number(e, "main", key)?.filter(|x| *x != 0.0) else { continue };
+            if x < 0.0 {
+                return Err(e.error(format!("`{key}` of a tendon is negative")));
+            }
+            let Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), .. }) = self.known_tendon(e, robot) else {
+                return Err(e.error(format!("`{key}` of a tendon through sites has no counterpart")));
+            };
+            let &[(joint, coefficient)] = &shares[..] else {
+                return Err(e
+                    .error(format!("`{key}` of a tendon of several joints has no counterpart"))
+                    .with_help("of a tendon of one joint it has: that of the joint"));
+            };
+            let joint = &mut robot.joints[joint];
+            let (list, own) = match key {
+                "armature" => (&mut joint.armature, x * coefficient * coefficient),
+                _ => (&mut joint.friction, x * coefficient.abs()),
+            };
+            *list = vec![list.first().copied().unwrap_or(0.0) + own];
+            e.change(&format!("its `{key}` is that of joint `{}`, by {own}", joint.name));
+        }
+        Ok(())
     }
 
     fn tendon(&mut self, e: Element<'d>, robot: &mut Robot, findings: &mut Findings) -> Result<(), Diagnostic> {
@@ -66,13 +100,6 @@ impl<'d> Reader<'d> {
                     let [low, high] = [lengths[0], *lengths.last().unwrap_or(&lengths[0])];
                     tendon.free_length = [low - known.offset, high.max(low) - known.offset];
                 }
-                for key in ["frictionloss", "armature"] {
-                    if self.defaults.number(e, "main", key)?.is_some_and(|x| x != 0.0) {
-                        let words = format!("`{key}` of tendons has no counterpart: it is left out");
-                        findings.warn(e.error(format!("tendon `{name}`: {words}")));
-                        e.change(&words);
-                    }
-                }
                 if let Some([low, high]) = self.tendon_range(e)? {
                     match tendon_mass(robot, path) {
                         Some(mass) => {
@@ -99,7 +126,7 @@ impl<'d> Reader<'d> {
 
     /// The key by which a tendon exerts a force of its own.
     fn acting(&self, e: Element<'d>) -> Result<Option<&'static str>, Diagnostic> {
-        for key in ["stiffness", "damping", "frictionloss", "armature"] {
+        for key in ["stiffness", "damping"] {
             if self.defaults.numbers(e, "main", key)?.is_some_and(|n| n.iter().any(|x| *x != 0.0)) {
                 return Ok(Some(key));
             }
@@ -146,6 +173,10 @@ impl<'d> Reader<'d> {
     fn known_tendon(&self, e: Element<'d>, robot: &Robot) -> Result<KnownTendon, Diagnostic> {
         let parts = self.files.elements(e);
         parts.iter().for_each(|part| part.keep());
+        let range = match self.defaults.numbers(e, "main", "range")?.as_deref() {
+            Some(&[low, high]) => Some([low, high]),
+            _ => None,
+        };
         if e.name() == "fixed" {
             let mut shares: Vec<(usize, f64)> = Vec::new();
             let mut offset = 0.0;
@@ -164,7 +195,7 @@ impl<'d> Reader<'d> {
                     None => shares.push((joint, coefficient)),
                 }
             }
-            return Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), offset, reference: offset });
+            return Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), offset, reference: offset, range });
         }
         let mut through = Vec::new();
         let mut reason = None;
@@ -188,10 +219,10 @@ impl<'d> Reader<'d> {
         let places: Vec<_> = through.iter().map(|site| robot.link_pose(Some(*site), &[]).pos).collect();
         let reference = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
         let path = reason.map_or_else(|| Ok(TendonPath::Through(through)), Err);
-        Ok(KnownTendon { path, offset: 0.0, reference })
+        Ok(KnownTendon { path, offset: 0.0, reference, range })
     }
 
-    fn tendon_of(&self, e: Element<'d>, key: &str) -> Result<Option<&KnownTendon>, Diagnostic> {
+    pub(super) fn tendon_of(&self, e: Element<'d>, key: &str) -> Result<Option<&KnownTendon>, Diagnostic> {
         let Some(name) = e.attribute(key) else { return Ok(None) };
         self.tendons.get(name).map(Some).ok_or_else(|| e.error(format!("there is no tendon `{name}`")))
     }
@@ -283,11 +314,19 @@ impl<'d> Reader<'d> {
             Ok(path) => path.clone(),
             Err(why) => return Ok(Err(format!("its tendon has no counterpart: {why}"))),
         };
+        if gear == 0.0 || (law.gain == 0.0 && law.bias == [0.0; 3]) {
+            return Ok(Err(no_force(gear).into()));
+        }
         let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
         if stiffness < 0.0 || damping < 0.0 {
             return Ok(Err(format!("its bias {:?} is no spring and damper", law.bias)));
         }
         let (force, control) = limits;
+        let scale = law.gain * gear;
+        let activation = law.activation.filter(|_| scale != 0.0).map(|own| own.scaled(scale, 0.0));
+        if activation.is_some_and(|own| own.initial != 0.0) {
+            e.change("its activation starts at the end of its range, since zero is outside");
+        }
         let is_servo = law.bias != [0.0; 3];
         let max_force = if is_servo { control } else { force.into_iter().chain(control).reduce(f64::min) };
         let what = if is_servo { "a spring and damper with an actuator" } else { "an actuator" };
@@ -305,7 +344,7 @@ impl<'d> Reader<'d> {
             free_length: [-known.offset; 2],
             limits: None,
             actuator: Some(max_force.unwrap_or(f64::INFINITY)),
-            activation: law.activation.map(|own| own.scaled(law.gain * gear, 0.0)),
+            activation,
         }))
     }
 }

@@ -220,14 +220,14 @@ impl Writer<'_> {
             Shape::Plane if shows => Err("a plane shows by its contact".into()),
             Shape::Plane => Ok(vec![("plane = {}".into(), None)]),
             Shape::HeightField { .. } if shows => Err("a height field shows by its contact".into()),
-            Shape::HeightField { rows, size } => {
+            Shape::HeightField { name, rows, size } => {
+                let file = self.meshes.heights(name, rows)?;
                 self.context.ledger.judge_place(
                     piece.element,
                     ElementStatus::Changed,
                     "a height field: its triangles may be split along the other diagonal",
                 );
-                let rows = rows.iter().map(|row| list(row)).collect::<Vec<_>>().join(", ");
-                Ok(vec![(format!("height_field = {{ heights = [{rows}], size = {} }}", list(size)), None)])
+                Ok(vec![(format!("height_field = {{ file = {}, size = {} }}", quoted(&file), list(size)), None)])
             }
             Shape::Mesh { uri, scale } => {
                 let path = self.context.resolver.find(uri)?;

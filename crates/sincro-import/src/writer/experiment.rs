@@ -3,7 +3,7 @@
 use super::loops::OPEN;
 use super::{Writer, one_line};
 use crate::number::{list, number, quoted};
-use crate::robot::Keyframe;
+use crate::robot::{Actuator, Keyframe};
 use crate::source::ElementStatus;
 
 /// Joints that are recorded at most; more can be added by hand.
@@ -52,7 +52,7 @@ pub(super) fn text(writer: &Writer<'_>) -> String {
             let value = if let [x] = q[..] { number(x) } else { list(q) };
             Some(format!("{} = {value}", quoted(&format!("{path}.initial.position"))))
         });
-        let settings: Vec<String> = settings.collect();
+        let settings: Vec<String> = settings.chain(actuation(writer, keyframe)).collect();
         if settings.is_empty() || !used.insert(name.clone()) {
             writer.context.ledger.judge_place(
                 keyframe.element,
@@ -68,6 +68,21 @@ pub(super) fn text(writer: &Writer<'_>) -> String {
         settings.into_iter().for_each(&mut line);
     }
     out
+}
+
+/// Commands and activations of a keyframe.
+fn actuation(writer: &Writer<'_>, keyframe: &Keyframe) -> Vec<String> {
+    let path = |actuator: &Actuator| match *actuator {
+        Actuator::Motor(joint) => writer.joint_paths[joint].as_ref().map(|path| format!("{path}.motor")),
+        Actuator::Tendon(k) => writer.tendon_paths[k].as_ref().map(|path| format!("{path}.actuator")),
+    };
+    let keys = |list: &[(Actuator, f64)], key: &str| -> Vec<String> {
+        let one = |(actuator, x): &(Actuator, f64)| {
+            Some(format!("{} = {}", quoted(&format!("{}.{key}", path(actuator)?)), number(*x)))
+        };
+        list.iter().filter_map(one).collect()
+    };
+    [keys(&keyframe.commands, "command"), keys(&keyframe.activations, "activation.initial")].concat()
 }
 
 /// Coordinates of a keyframe with gears as they are coupled; the reason if a run cannot start there.

@@ -67,6 +67,7 @@ pub(crate) fn write(robot: &mut Robot, context: &Context<'_>) -> Written {
         starts,
         link_paths: vec![None; robot.links.len()],
         joint_paths: vec![None; robot.joints.len()],
+        tendon_paths: vec![None; robot.tendons.len()],
         taken: BTreeSet::new(),
         written: Written {
             scene: String::new(),
@@ -98,6 +99,8 @@ struct Writer<'a> {
     /// Path of each link that has been written.
     link_paths: Vec<Option<String>>,
     joint_paths: Vec<Option<String>>,
+    /// Path of each tendon that has been written.
+    tendon_paths: Vec<Option<String>>,
     /// All paths so far.
     taken: BTreeSet<String>,
     written: Written,

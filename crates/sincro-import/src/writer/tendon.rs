@@ -8,7 +8,7 @@ use crate::robot::TendonPath;
 impl Writer<'_> {
     /// Writes all tendons whose path is in the scene.
     pub(super) fn tendons(&mut self) {
-        for tendon in &self.robot.tendons {
+        for (k, tendon) in self.robot.tendons.iter().enumerate() {
             let keys = match &tendon.path {
                 TendonPath::Through(links) => {
                     let paths: Option<Vec<_>> = links.iter().map(|link| self.link_paths[*link].as_ref()).collect();
@@ -26,6 +26,7 @@ impl Writer<'_> {
                 }
             };
             let path = self.unique("/", &tendon.name);
+            self.tendon_paths[k] = Some(path.clone());
             self.line(&format!("# {}", place(&tendon.at)));
             self.line("[[tendon]]");
             self.line(&format!("name = {}", quoted(last(&path))));

@@ -357,3 +357,44 @@ fn polynomial_couplings_come_back_from_mjcf_and_are_noted_elsewhere() {
     let urdf = export(&own, "own", Format::Urdf).unwrap();
     assert!(!urdf.text.contains("<mimic") && urdf.notes.iter().any(|(_, words)| words.contains("polynomial")));
 }
+
+#[test]
+fn what_mjcf_says_otherwise_of_joints_and_motors_is_noted() {
+    let with = |joint: &str| {
+        let folder = Folder::new();
+        let body = "[[body]]\nname = \"b\"\nparent = \"/j\"\nmass = 1.0\ninertia = { xx = 0.1, yy = 0.1, zz = 0.1 }\n";
+        folder.file("own/scene.toml", format!("[[joint]]\nname = \"j\"\n{joint}\n{body}"));
+        folder.file("own/experiment.toml", EXPERIMENT);
+        let path = folder.path().join("own");
+        let opened = sincro_scene::open::open(&path, &[], sincro_scene::fmu::Loaders::default(), true);
+        let scene = opened.unwrap_or_else(|found| panic!("{found}")).scene;
+        export(&scene, "own", Format::Mjcf)
+            .unwrap()
+            .notes
+            .into_iter()
+            .map(|(path, words)| {
+                assert_eq!(path, "/j");
+                words
+            })
+            .collect::<Vec<_>>()
+    };
+    let universal = "kind = \"universal\"\naxis = [1.0, 0.0, 0.0]\naxis2 = [0.0, 1.0, 0.0]\n";
+    let (split, zero) = ("are joints each", "MJCF starts it at zero");
+    for (joint, notes) in [
+        (universal.to_owned(), vec![split]),
+        (format!("{universal}initial = {{ position = [0.1, 0.0] }}"), vec![zero, split]),
+        ("kind = \"planar\"".to_owned(), vec![split]),
+        ("kind = \"planar\"\ninitial = { position = [0.0, 0.0, 0.5] }".to_owned(), vec![zero, split]),
+        ("kind = \"ball\"".to_owned(), vec![]),
+        ("kind = \"ball\"\ninitial = { position = [0.6, 0.8, 0.0, 0.0] }".to_owned(), vec![zero]),
+        ("kind = \"revolute\"\ninitial = { position = 0.1 }".to_owned(), vec![zero]),
+        (
+            "kind = \"revolute\"\nmotor = { mode = \"voltage\", command = 3.0, resistance = 1.0, torque_constant = 0.05, activation = { kind = \"integrator\" } }".to_owned(),
+            vec!["take a voltage: none is written", "the activation of its motor is not written"],
+        ),
+    ] {
+        let found = with(&joint);
+        let is_told = notes.len() == found.len() && notes.iter().zip(&found).all(|(words, note)| note.contains(words));
+        assert!(is_told, "{joint}: {found:?}");
+    }
+}

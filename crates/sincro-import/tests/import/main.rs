@@ -1,5 +1,6 @@
 //! Robots that are imported, as scenes that are read again: what is kept, what is told, what is refused.
 
+mod actuation;
 mod bad_input;
 mod export;
 mod folder;

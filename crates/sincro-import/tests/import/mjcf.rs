@@ -390,7 +390,7 @@ fn an_anchor_on_a_body_that_turns_about_its_centre_of_mass_has_the_mass_there() 
 }
 
 /// A chain of three hinges with a fixed tendon, and actuators.
-fn actuated(actuators: &str) -> String {
+pub fn actuated(actuators: &str) -> String {
     let body = |k: usize| {
         format!(
             r#"<body name="b{k}" pos="0 0 0.2"><joint name="j{k}" axis="0 1 0" range="-1 2"/><inertial pos="0 0 0.1" mass="1" diaginertia="0.01 0.01 0.01"/>"#
