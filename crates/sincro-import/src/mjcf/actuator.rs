@@ -4,11 +4,11 @@
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::law::Law;
+use super::law::{Law, Target};
 use crate::export::UNLIMITED;
 use crate::findings::Findings;
 use crate::number::list;
-use crate::robot::{Actuator, CommandedForce, Motor, MotorLaw, Robot, Tendon};
+use crate::robot::{Actuator, CommandedForce, Motor, MotorLaw, Robot, Tendon, TendonPath};
 use crate::source::Element;
 
 /// Part of the robot that an actuator becomes.
@@ -71,8 +71,10 @@ impl<'d> Reader<'d> {
         let d = &self.defaults;
         if e.peek("tendon").is_some() {
             let gear = d.number(e, "main", "gear")?.unwrap_or(1.0);
-            let range = self.tendon_of(e, "tendon")?.and_then(|tendon| tendon.range);
-            return Ok(match self.law(e, range, "its tendon")? {
+            let known = self.tendon_of(e, "tendon")?;
+            let path = known.and_then(|tendon| tendon.path.clone().ok());
+            let target = Target { range: known.and_then(|tendon| tendon.range), name: "its tendon", path, gear };
+            return Ok(match self.law(e, target, robot)? {
                 Ok(law) => {
                     let (force, control) = self.force_limits(e, &law, gear, true)?;
                     let unit = Unit { scale: law.gain * gear, offset: 0.0 };
@@ -83,7 +85,7 @@ impl<'d> Reader<'d> {
             });
         }
         if e.peek("site").is_some() {
-            return self.on_site(e);
+            return self.on_site(e, robot);
         }
         let Some(name) = e.attribute("joint").or_else(|| e.attribute("jointinparent")) else {
             let on = ["body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
@@ -102,7 +104,12 @@ impl<'d> Reader<'d> {
             return Ok(Err("a joint has one motor, and this one has it already".into()));
         }
         let gear = d.number(e, "main", "gear")?.unwrap_or(1.0);
-        let law = match self.law(e, self.ranges.get(&joint).copied(), &format!("joint `{name}`"))? {
+        let (range, called) = (self.ranges.get(&joint).copied(), format!("joint `{name}`"));
+        let law = match self.law(
+            e,
+            Target { range, name: &called, path: Some(TendonPath::Joints(vec![(joint, 1.0)])), gear },
+            robot,
+        )? {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
@@ -147,13 +154,13 @@ impl<'d> Reader<'d> {
     }
 
     /// Actuator on a site: the force and torque along its axes that one unit of the control gives.
-    fn on_site(&self, e: Element<'d>) -> Result<Result<Made, String>, Diagnostic> {
+    fn on_site(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
         let name = e.attribute("site").unwrap_or_default();
         let Some(&link) = self.sites.get(name) else { return Err(e.error(format!("there is no site `{name}`"))) };
         if e.peek("refsite").is_some() {
             return Ok(Err("it acts between two sites".into()));
         }
-        let law = match self.law(e, None, "a site")? {
+        let law = match self.law(e, Target { range: None, name: "a site", path: None, gear: 1.0 }, robot)? {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };

@@ -355,7 +355,8 @@ impl<'d> Reader<'d> {
             _ => {}
         }
         Ok(match range.as_deref() {
-            Some(&[low, high]) => Some([low, high].map(angle)),
+            // MuJoCo leaves degrees of a range that does not limit as they are, and takes them for radians
+            Some(&[low, high]) => Some([low, high].map(|x| if limited { angle(x) } else { x })),
             _ => None,
         })
     }

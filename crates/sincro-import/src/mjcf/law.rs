@@ -8,7 +8,8 @@ use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
 use super::actuator::without_limit;
-use crate::robot::Activation;
+use crate::path_mass::tendon_mass;
+use crate::robot::{Activation, Robot, TendonPath};
 use crate::source::Element;
 
 /// Force = gain·u + bias₀ + bias₁·length + bias₂·rate, with the activation in the place of the control u if there is
@@ -19,6 +20,17 @@ pub(super) struct Law {
     pub activation: Option<Activation>,
     /// Range of the control.
     pub control: Option<[f64; 2]>,
+}
+
+/// Object that an actuator acts on.
+pub(super) struct Target<'a> {
+    /// Range of its coordinate or length, as MuJoCo measures it.
+    pub range: Option<[f64; 2]>,
+    /// Its name in messages.
+    pub name: &'a str,
+    /// Path along which it acts, and length of the actuator for a unit of that path's; none for forces.
+    pub path: Option<TendonPath>,
+    pub gear: f64,
 }
 
 /// Numbers of an actuator.
@@ -131,13 +143,12 @@ impl Numbers<'_> {
 }
 
 impl<'d> Reader<'d> {
-    /// The law of an actuator, with its activation if it has one; the reason if it has no counterpart. `range` is that
-    /// of the joint or tendon that it acts on, as MuJoCo measures it, and `target` what that is called.
+    /// The law of an actuator, with its activation if it has one; the reason if it has no counterpart.
     pub(super) fn law(
         &self,
         e: Element<'d>,
-        range: Option<[f64; 2]>,
-        target: &str,
+        Target { range, name: target, path, gear }: Target<'_>,
+        robot: &Robot,
     ) -> Result<Result<Law, String>, Diagnostic> {
         let mut settings = Settings::new();
         for element in self.defaults.actuators(e) {
@@ -154,8 +165,14 @@ impl<'d> Reader<'d> {
         }
         match numbers.bias_kind {
             "none" => bias = [0.0; 3],
+            // that of a spring with the mass which MuJoCo's actuator moves
             "affine" if bias[2] > 0.0 && bias[1] == -gain => {
-                return Ok(Err("its damping is a ratio, which needs the inertia at the start".into()));
+                let mass = path.and_then(|path| tendon_mass(robot, &path)).map(|mass| mass / (gear * gear));
+                let Some(mass) = mass.filter(|mass| mass.is_finite()) else {
+                    return Ok(Err("its damping is a ratio, which needs the inertia at the reference".into()));
+                };
+                bias[2] = -2.0 * bias[2] * (gain * mass).max(0.0).sqrt();
+                e.change(&format!("its damping ratio is a damping of {:.6} with the inertia {mass:.6}", -bias[2]));
             }
             "affine" => {}
             other => return Ok(Err(format!("its bias is of type `{other}`"))),

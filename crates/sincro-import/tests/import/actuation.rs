@@ -63,6 +63,17 @@ fn inherited_ranges_are_those_of_what_the_actuator_acts_on() {
     // half of the range of a tendon, as forces of 8 N/m
     let (range, input) = ranges(r#"<intvelocity tendon="t" kp="8" inheritrange="0.5"/>"#);
     assert_eq!((range, input), ([-16.0, 0.0], ALL));
+    // degrees are converted where the range limits
+    for (limited, unit) in [("", std::f64::consts::PI / 180.0), (" limited=\"false\"", 1.0)] {
+        let text = actuated(r#"<intvelocity joint="j1" kp="8" inheritrange="1"/>"#)
+            .replace("radian", "degree")
+            .replace(r#" range="-1 2""#, &format!(" range=\"-1 2\"{limited}"));
+        let folder = Folder::new();
+        let range = folder.open(&folder.import("m.xml", &text).unwrap()).scene.model.activations()[0].range;
+        for (found, end) in range.iter().zip([-1.0, 2.0]) {
+            assert!((found - end * unit).abs() < 1e-15, "{limited}: {range:?}");
+        }
+    }
     let unlimited = ranges(r#"<intvelocity joint="j1" kp="8"/>"#);
     assert_eq!(unlimited, (ALL, ALL));
 
@@ -171,6 +182,29 @@ fn kinds_of_actuators_share_their_defaults() {
         actuated(r#"<general name="m" joint="j0"/>"#).replace("<worldbody>", "<default><muscle/></default><worldbody>");
     let imported = Folder::new().import("m.xml", &text).unwrap();
     assert!(entry(&imported, "general[m]").words.contains("of type `muscle`"), "{}", entry(&imported, "[m]").words);
+}
+
+/// MuJoCo's `actuator_biasprm[2]` of these actuators.
+#[test]
+fn a_damping_ratio_is_a_damping_with_the_inertia_at_the_reference() {
+    for (actuator, damping, gear) in [
+        (r#"<position name="m" joint="j0" kp="3" dampratio="0.7"/>"#, 0.484_974_226_119_286, 1.0),
+        (r#"<position name="m" joint="j1" kp="3" gear="-2" dampratio="1"/>"#, 0.154_919_333_848_296_81, 2.0),
+        (r#"<intvelocity name="m" joint="j2" kp="5" dampratio="1"/>"#, 0.338_061_701_891_406_66, 1.0),
+        (r#"<position name="m" tendon="t" kp="5" gear="2" dampratio="1"/>"#, 0.178_885_438_199_983_2, 2.0),
+        (
+            r#"<general name="m" joint="j0" gainprm="3" biastype="affine" biasprm="0 -3 0.7"/>"#,
+            0.484_974_226_119_286,
+            1.0,
+        ),
+    ] {
+        let (folder, imported) = imported(actuator);
+        let model = folder.open(&imported).scene.model;
+        let motor = model.motors().first().map(|motor| motor.damping);
+        let found = motor.unwrap_or_else(|| model.spring_dampers()[0].law.damping) / (gear * gear);
+        assert!((found - damping).abs() < 1e-12 * damping, "{actuator}: {found}");
+        assert!(entry(&imported, "[m]").words.contains("its damping ratio is a damping of"));
+    }
 }
 
 /// MuJoCo has the coefficients 0.1, 1, 0, 0, 0.

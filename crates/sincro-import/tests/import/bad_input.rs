@@ -95,3 +95,43 @@ fn changed_bytes_never_panic() {
         }
     }
 }
+
+/// Actuators, tendons, equalities, height fields and keyframes with every number replaced by numbers that are too
+/// small, too large or none: each file is refused with a reason, or its scene was read again.
+#[test]
+fn numbers_of_all_sizes_never_panic() {
+    let seed = r#"<mujoco><compiler angle="radian"/><default><position kp="3" kv="1" timeconst="0.2"/></default>
+<asset><hfield name="h" nrow="2" ncol="2" size="1 2 0.5 0.1" elevation="0 1 2 3"/></asset><worldbody>
+<geom type="hfield" hfield="h"/><body name="r" pos="0 0 3"><freejoint/><geom size="0.1"/></body><site name="w"/>
+<body name="a"><joint name="j" axis="0 1 0" range="-1 2" ref="0.25"/><geom size="0.1" pos="0.2 0 0"/><site name="s"/>
+<body name="b"><joint name="k" axis="0 1 0"/><geom size="0.1" pos="0.2 0 0"/></body></body></worldbody>
+<tendon><fixed name="t" range="-1 2" stiffness="3" springlength="0.1 0.2"><joint joint="j" coef="0.5"/><joint joint="k" coef="2"/></fixed>
+<fixed name="u" frictionloss="0.1" armature="0.2"><joint joint="k" coef="-2"/></fixed></tendon>
+<equality><joint joint1="k" joint2="j" polycoef="0.1 0.5 0.2 0.3 0.4"/><tendon tendon1="t" tendon2="u" polycoef="0.1 0.5"/></equality>
+<actuator><general name="g" joint="j" gear="2" gainprm="3" biastype="affine" biasprm="0 -2 -1" dyntype="filter" dynprm="0.1" ctrlrange="-1 2" actrange="-0.5 0.7" forcerange="-3 3"/>
+<intvelocity joint="k" gear="2" kp="3" kv="1" actrange="0.1 0.5"/><position tendon="t" inheritrange="0.5"/>
+<cylinder tendon="u" area="3" diameter="0.4" bias="0 -1 -2" timeconst="0.3"/><motor site="s" gear="1 2 3 4 5 6"/></actuator>
+<keyframe><key name="n" qpos="0 0 3 1 0 0 0 0.3 0.2" ctrl="1 2 3 4 5" act="0.1 0.2 0.3 0.4"/></keyframe></mujoco>"#;
+    let folder = Folder::new();
+    folder.import("whole.xml", seed).unwrap_or_else(|found| panic!("{found}"));
+    let bytes = seed.as_bytes();
+    let mut numbers: Vec<std::ops::Range<usize>> = Vec::new();
+    for (k, byte) in bytes.iter().enumerate() {
+        let is_part = |b: u8| b.is_ascii_digit() || b == b'.' || b == b'-';
+        match numbers.last_mut() {
+            Some(last) if last.end == k && is_part(*byte) => last.end = k + 1,
+            _ if is_part(*byte) && matches!(bytes[k - 1], b'"' | b' ') => numbers.push(k..k + 1),
+            _ => {}
+        }
+    }
+    assert!(numbers.len() > 90, "{}", numbers.len());
+    for range in numbers {
+        for other in ["0", "-1", "1e308", "-1e308", "1e-308", "nan", "inf", "1e400", "", "0 0", "1 -1", "x"] {
+            let text = format!("{}{other}{}", &seed[..range.start], &seed[range.end..]);
+            let _ = import(&folder.file("r.xml", &text), &Options::default());
+        }
+    }
+    for end in (0..seed.len()).step_by(7) {
+        assert!(folder.import("r.xml", &seed[..end]).is_err(), "{end}");
+    }
+}
