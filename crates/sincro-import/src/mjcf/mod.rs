@@ -81,6 +81,8 @@ struct Reader<'d> {
     mocap: BTreeSet<usize>,
     /// Tendons by name.
     tendons: BTreeMap<String, tendon::KnownTendon>,
+    /// Names of tendons whose length an equality holds.
+    held: BTreeSet<String>,
     /// Actuators in the order of the file.
     actuators: Vec<actuator::KnownActuator>,
     /// Reference coordinate of each joint of the robot.
@@ -134,6 +136,7 @@ pub(crate) fn read<'d>(
         positions: BTreeMap::new(),
         mocap: BTreeSet::new(),
         tendons: BTreeMap::new(),
+        held: BTreeSet::new(),
         actuators: Vec::new(),
         references: Vec::new(),
         ranges: BTreeMap::new(),
@@ -167,6 +170,7 @@ pub(crate) fn read<'d>(
         scale_mass(&mut robot, reader.settings.total_mass);
     }
     reader.tune(&mut robot);
+    reader.held = all("equality").into_iter().flat_map(|equality| reader.held_names(equality)).collect();
     for tendon in all("tendon") {
         tendon.keep();
         reader.tendons(tendon, &mut robot, findings);

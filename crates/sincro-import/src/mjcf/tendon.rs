@@ -53,6 +53,10 @@ impl<'d> Reader<'d> {
             if x < 0.0 {
                 return Err(e.error(format!("`{key}` of a tendon is negative")));
             }
+            if key == "frictionloss" && e.peek("name").is_some_and(|name| self.held.contains(name)) {
+                e.change("its `frictionloss` is left out: an equality holds its length");
+                continue;
+            }
             let Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), .. }) = self.known_tendon(e, robot) else {
                 return Err(e.error(format!("`{key}` of a tendon through sites has no counterpart")));
             };
@@ -225,6 +229,16 @@ impl<'d> Reader<'d> {
     pub(super) fn tendon_of(&self, e: Element<'d>, key: &str) -> Result<Option<&KnownTendon>, Diagnostic> {
         let Some(name) = e.attribute(key) else { return Ok(None) };
         self.tendons.get(name).map(Some).ok_or_else(|| e.error(format!("there is no tendon `{name}`")))
+    }
+
+    /// Names of the tendons whose length equalities hold.
+    pub(super) fn held_names(&self, equality: Element<'d>) -> Vec<String> {
+        let holds = |e: &Element<'d>| {
+            let is_active = self.defaults.text(*e, "main", "active") != Some("false");
+            e.name() == "tendon" && e.peek("tendon2").is_none() && is_active
+        };
+        let held = self.files.elements(equality).into_iter().filter(holds);
+        held.filter_map(|e| e.peek("tendon1").map(str::to_owned)).collect()
     }
 
     /// ℓ₁ − ℓ₁₀ = Σ cₖ (ℓ₂ − ℓ₂₀)ᵏ: a linear one as a stiff tendon, a polynomial between the lengths of one joint each

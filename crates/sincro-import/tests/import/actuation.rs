@@ -258,6 +258,14 @@ fn friction_and_armature_of_a_tendon_of_one_joint_are_those_of_the_joint() {
     let dof = folder.open(&imported).scene.model.dofs()[1];
     assert_eq!((dof.armature, dof.friction.sliding), (0.25 + 0.5 * 4.0, 0.75 + 0.3 * 2.0 + 0.1 * 0.5));
     assert!(entry(&imported, "fixed[own]").words.contains("its `armature` is that of joint `j1`, by 2"));
+    // nothing slides along a length that is held
+    let text =
+        with(r#"<fixed name="f" frictionloss="1"><joint joint="j0" coef="1"/><joint joint="j1" coef="1"/></fixed>"#)
+            .replace("</mujoco>", r#"<equality><tendon tendon1="f"/></equality></mujoco>"#);
+    let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    assert!(entry(&imported, "fixed[f]").words.contains("an equality holds its length"));
+    let loose = text.replace("tendon1=\"f\"", "tendon1=\"f\" active=\"false\"");
+    assert!(refused(&loose).contains("of several joints"));
     for (tendon, words) in [
         (
             r#"<fixed name="f" frictionloss="1"><joint joint="j0" coef="1"/><joint joint="j1" coef="1"/></fixed>"#,
