@@ -397,3 +397,18 @@ fn a_height_field_is_one_file_however_often_it_stands() {
     assert!(many.warnings.iter().any(|w| w.to_string().contains("more than 1048576 heights")), "{:?}", many.warnings);
     assert!(many.scene().len() < 100_000);
 }
+
+#[test]
+fn actuators_on_sites_with_activations_or_springs_are_left_out_by_name() {
+    for (actuator, words) in [
+        (r#"<general name="m" site="s" dyntype="integrator"/>"#, "its activation has no counterpart on a site"),
+        (r#"<position name="m" site="s" kp="2"/>"#, "has no counterpart on a site"),
+        (r#"<general name="m" site="s" gainprm="0"/>"#, "its gain is 0"),
+        (r#"<muscle name="m" tendon="t"/>"#, "a `muscle` has no counterpart"),
+    ] {
+        let text = actuated(actuator).replace(r#"<body name="b0""#, r#"<site name="s"/><body name="b0""#);
+        let imported = Folder::new().import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        let told = imported.warnings.iter().map(ToString::to_string).find(|told| told.contains(words));
+        assert!(told.is_some_and(|told| told.contains("m.xml:3:")), "{actuator}: {:?}", imported.warnings);
+    }
+}
