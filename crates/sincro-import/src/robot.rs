@@ -86,7 +86,8 @@ impl Placement {
                 Quat::from_slice(&q.map(|x| x / largest)).normalized().matrix()
             }
             (Rotation::Quaternion(_), Some(degrees)) => rotation_matrix(degrees.map(f64::to_radians)),
-            (Rotation::RollPitchYaw(rpy), _) => rotation_matrix(rpy),
+            // degrees with as few digits as give the same angles to rounding
+            (Rotation::RollPitchYaw(rpy), _) => rotation_matrix(rpy.map(|a| crate::number::degrees(a).to_radians())),
         }
     }
 
