@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 use sincro_dynamics::contact::{PairLaw, Surface, pairs};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{JointInfo, MassProperties, Shape};
+use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
 use sincro_scene::scene::{Object, ObjectKind, Scene};
 
@@ -243,6 +244,18 @@ impl<'a> Tree<'a> {
             // springs between points and tendons are not written at all
             if let Some(motor) = scene.model.motors().get(own.command) {
                 self.note(scene.model.names().dof_name(motor.dof), "the activation of its motor is not written");
+            }
+        }
+        let of_motors = scene.model.motors().iter().map(|motor| scene.model.names().dof_name(motor.dof));
+        for (name, command) in of_motors.zip(&scene.commands) {
+            if *command != Signal::Constant(0.0) {
+                self.note(name, "the command of its motor is not written");
+            }
+        }
+        let lines = scene.model.spring_dampers().iter().zip(&scene.model.names().spring_dampers);
+        for (line, name) in lines.filter(|_| format == Format::Mjcf) {
+            if line.actuator.is_some_and(|own| scene.commands[own.command] != Signal::Constant(0.0)) {
+                self.note(name, "the command of its actuator is not written");
             }
         }
         self.note_forces();

@@ -11,6 +11,7 @@ use sincro_scene::diagnostic::Diagnostic;
 use super::Reader;
 use super::actuator::no_force;
 use super::law::Law;
+use crate::export::UNLIMITED;
 use crate::findings::Findings;
 use crate::path_mass::tendon_mass;
 use crate::robot::{Robot, Tendon, TendonLimits, TendonPath};
@@ -140,17 +141,9 @@ impl<'d> Reader<'d> {
 
     /// Range of lengths, if it is one that limits.
     fn tendon_range(&self, e: Element<'d>) -> Result<Option<[f64; 2]>, Diagnostic> {
-        let Some(range) = self.defaults.numbers(e, "main", "range")? else { return Ok(None) };
-        let limited = match self.defaults.text(e, "main", "limited") {
-            Some("true") => true,
-            Some("false") => false,
-            _ => self.settings.autolimits,
-        };
-        match range[..] {
-            [low, high] if limited && low < high => Ok(Some([low, high])),
-            [_, _] => Ok(None),
-            _ => Err(e.error(format!("`range` has {} numbers, not two", range.len()))),
-        }
+        // a length has two ends
+        let range = self.limiting_range(e, "range", "limited")?;
+        Ok(range.map(|ends| ends.map(|x| x.clamp(-UNLIMITED, UNLIMITED))))
     }
 
     /// A stiffness or damping, which is a polynomial in the source, of which here the first number may be given.

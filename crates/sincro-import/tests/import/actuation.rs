@@ -116,6 +116,22 @@ fn ranges_without_room_limit_nothing_unless_they_are_said_to() {
             Some(words) => assert!(refused(&actuated(actuator)).contains(words), "{actuator}"),
         }
     }
+    let with_tendon = |range: &str| {
+        let text = actuated(r#"<motor name="m" tendon="t"/>"#);
+        text.replace(r#"<fixed name="t""#, &format!(r#"<fixed name="t" {range}"#))
+    };
+    for range in [r#"range="0 0""#, r#"range="1 -1" limited="auto""#, r#"range="-1 1" limited="false""#] {
+        let folder = Folder::new();
+        let imported = folder.import("m.xml", &with_tendon(range)).unwrap_or_else(|found| panic!("{found}"));
+        assert!(!entry(&imported, "fixed[t]").words.contains("stops with"), "{range}");
+    }
+    let stops =
+        Folder::new().import("m.xml", &with_tendon(r#"range="-1 1""#)).unwrap_or_else(|found| panic!("{found}"));
+    assert!(entry(&stops, "fixed[t]").words.contains("stops with"));
+    for range in [r#"range="1 1" limited="true""#, r#"limited="true""#] {
+        let why = refused(&with_tendon(range));
+        assert!(why.contains("`range` is no range, and `limited` says that it limits"), "{why}");
+    }
     let (folder, of_activation) =
         imported(r#"<general name="m" joint="j0" dyntype="integrator" actrange="0 0" ctrlrange="0 0"/>"#);
     let own = folder.open(&of_activation).scene.model.activations()[0];

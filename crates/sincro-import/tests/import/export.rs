@@ -390,7 +390,11 @@ fn what_mjcf_says_otherwise_of_joints_and_motors_is_noted() {
         ("kind = \"revolute\"\ninitial = { position = 0.1 }".to_owned(), vec![zero]),
         (
             "kind = \"revolute\"\nmotor = { mode = \"voltage\", command = 3.0, resistance = 1.0, torque_constant = 0.05, activation = { kind = \"integrator\" } }".to_owned(),
-            vec!["take a voltage: none is written", "the activation of its motor is not written"],
+            vec![
+                "the command of its motor is not written",
+                "take a voltage: none is written",
+                "the activation of its motor is not written",
+            ],
         ),
     ] {
         let found = with(&joint);

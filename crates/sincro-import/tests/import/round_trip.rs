@@ -11,8 +11,14 @@ use crate::folder::Folder;
 
 const EXPERIMENT: &str = "title = \"own\"\nduration = 0.1\nstep = 1e-3\nrecord = [\"energy.total\"]\n";
 
-/// Notes that do not concern the model: its start, what only shows, and the softness of MuJoCo's constraints.
-const BESIDE_THE_MODEL: [&str; 3] = ["MJCF starts it at zero", "a camera is not written", "MJCF's loops are soft"];
+/// Notes that do not concern the model: its start, commands, what only shows, and the softness of MuJoCo's constraints.
+const BESIDE_THE_MODEL: [&str; 5] = [
+    "MJCF starts it at zero",
+    "the command of its motor is not written",
+    "the command of its actuator is not written",
+    "a camera is not written",
+    "MJCF's loops are soft",
+];
 
 /// Folders of a folder of the repository that have a scene, in the order of their names.
 fn folders(name: &str) -> Vec<PathBuf> {
