@@ -320,3 +320,105 @@ fn masses_of_shapes_are_kept_in_groups_copies_and_scales() {
     session.step().unwrap();
     assert_eq!(mass(&mut session, &group), 1.0);
 }
+
+/// An octree with `n` voxels of 0.1 m in a row along x.
+fn octree_of(session: &mut Session, n: usize) -> Value {
+    let octree = call(session, "sim.createOctree", &[0.1.into()]).remove(0);
+    let row = Value::reals((0..n).flat_map(|k| [0.1 * k as f64 + 0.05, 0.05, 0.05]));
+    call(session, "sim.insertVoxelsIntoOctree", &[octree.clone(), 0_i64.into(), row]);
+    octree
+}
+
+fn refusal(session: &mut Session, name: &str, arguments: &[Value]) -> String {
+    session.call(name, arguments).map(|_| ()).expect_err(name).0
+}
+
+#[test]
+fn comparisons_of_points_are_counted_and_limited() {
+    let mut session = open();
+    let cloud = call(&mut session, "sim.createPointCloud", &[0.02.into(), 20_i64.into()]).remove(0);
+    let row = Value::reals((0..20_000).flat_map(|k| [f64::from(k), 0.0, 0.0]));
+    call(&mut session, "sim.insertPointsIntoPointCloud", &[cloud.clone(), 0_i64.into(), row]);
+    let many = Value::reals(vec![0.0; 3 * 60_000]);
+    for name in ["sim.removePointsFromPointCloud", "sim.intersectPointsWithPointCloud"] {
+        let why = refusal(&mut session, name, &[cloud.clone(), 0_i64.into(), many.clone(), 0.1.into()]);
+        assert!(why.contains("1200000000 comparisons of points") && why.contains("give fewer points"), "{why}");
+    }
+    let given = [cloud.clone(), 0_i64.into(), many, Value::Nil, 0.1.into()];
+    assert!(refusal(&mut session, "sim.insertPointsIntoPointCloud", &given).contains("comparisons of points"));
+    // nothing was removed, and a few points are compared with all: eight comparisons are an instruction
+    let few = [cloud, 0_i64.into(), Value::reals(vec![-1.0; 3 * 1_000]), 0.1.into()];
+    let remove = sincro_coppelia::api::functions::function("removePointsFromPointCloud").unwrap();
+    let mut sim = session.sim();
+    let n = remove.call(&mut sim, sincro_coppelia::api::Arguments(&few)).unwrap();
+    assert_eq!(n, [Value::Int(20_000)]);
+    assert!(sim.work() >= 20_000 * 1_000 / 8, "{}", sim.work());
+}
+
+#[test]
+fn octrees_and_clouds_are_no_shapes_and_are_copied_as_what_they_are() {
+    let mut session = open();
+    let octree = octree_of(&mut session, 3);
+    let cloud = call(&mut session, "sim.createPointCloud", &[0.02.into(), 20_i64.into()]).remove(0);
+    let point = Value::reals([1.0, 2.0, 3.0]);
+    call(&mut session, "sim.insertPointsIntoPointCloud", &[cloud.clone(), 0_i64.into(), point.clone()]);
+    let shape = cube(&mut session, [0.0, 0.0, 5.0]);
+    for (own, what) in [(&octree, "is an octree, no shape"), (&cloud, "is a point cloud, no shape")] {
+        let calls: [(&str, Vec<Value>); 5] = [
+            ("sim.groupShapes", vec![Value::List(vec![shape.clone(), own.clone()])]),
+            ("sim.ungroupShape", vec![own.clone()]),
+            ("sim.scaleObject", vec![own.clone(), 2.0.into(), 2.0.into(), 2.0.into()]),
+            ("sim.setShapeMass", vec![own.clone(), 1.0.into()]),
+            ("sim.getShapeMass", vec![own.clone()]),
+        ];
+        for (name, arguments) in calls {
+            let why = refusal(&mut session, name, &arguments);
+            assert!(why.contains(what), "{name}: {why}");
+        }
+    }
+    let both = Value::List(vec![octree.clone(), cloud.clone()]);
+    let copies = call(&mut session, "sim.copyPasteObjects", &[both, 0_i64.into()]).remove(0);
+    let Value::List(copies) = copies else { panic!("{copies:?}") };
+    // the original changes, the copy does not
+    call(&mut session, "sim.removeVoxelsFromOctree", &[octree, 0_i64.into()]);
+    call(&mut session, "sim.removePointsFromPointCloud", &[cloud, 0_i64.into()]);
+    assert_eq!(call(&mut session, "sim.getObjectType", &copies[..1]), [Value::Int(15)]);
+    assert_eq!(call(&mut session, "sim.getObjectType", &copies[1..]), [Value::Int(16)]);
+    assert_eq!(call(&mut session, "sim.getOctreeVoxels", &copies[..1])[0].as_reals().unwrap().len(), 9);
+    assert_eq!(call(&mut session, "sim.getPointCloudPoints", &copies[1..]), [point]);
+}
+
+#[test]
+fn a_shape_that_has_no_room_for_its_parts_stays_whole() {
+    let mut session = open();
+    let cubes = Value::List((0..5).map(|k| cube(&mut session, [f64::from(k), 0.0, 3.0])).collect());
+    let whole = call(&mut session, "sim.groupShapes", &[cubes]).remove(0);
+    while session.registry().created_count() < 9_997 {
+        call(&mut session, "sim.createDummy", &[0.01.into()]);
+    }
+    assert!(refusal(&mut session, "sim.ungroupShape", std::slice::from_ref(&whole)).contains("10000 objects"));
+    assert_eq!(session.registry().created_count(), 9_997);
+    assert_eq!(call(&mut session, "sim.getShapeGeomInfo", &[whole])[0], Value::Int(1));
+}
+
+#[test]
+fn voxels_beyond_the_limit_of_corners_are_refused_and_the_others_stay() {
+    let mut session = open();
+    // all corners but those of some cubes
+    let (columns, rows) = (1_660_i64, 1_204_i64);
+    let rest = (2_000_000 - columns * rows) / 8;
+    let flat = Value::reals(vec![0.0; (columns * rows) as usize]);
+    let ground = [0_i64.into(), 0.0.into(), columns.into(), rows.into(), 1.0.into(), flat];
+    call(&mut session, "sim.createHeightfieldShape", &ground);
+    let octree = octree_of(&mut session, rest as usize);
+    let further = [octree.clone(), 0_i64.into(), Value::reals([-5.0, 0.05, 0.05])];
+    assert!(refusal(&mut session, "sim.insertVoxelsIntoOctree", &further).contains("2000000 corners"));
+    let copy = [Value::List(vec![octree.clone()]), 0_i64.into()];
+    assert!(refusal(&mut session, "sim.copyPasteObjects", &copy).contains("2000000 corners"));
+    // what was shown still is: the box of the row
+    let size = call(&mut session, "sim.getShapeBB", std::slice::from_ref(&octree))[0].as_reals().unwrap();
+    assert!((size[0] - 0.1 * rest as f64).abs() < 1e-9, "{size:?}");
+    let first = [octree.clone(), 0_i64.into(), Value::reals([0.05; 3])];
+    assert_eq!(call(&mut session, "sim.removeVoxelsFromOctree", &first), [Value::Int(rest - 1)]);
+    assert_eq!(call(&mut session, "sim.insertVoxelsIntoOctree", &further), [Value::Int(rest)]);
+}

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use super::ApiError;
+use super::{ApiError, MAX_LENGTH};
 
 /// Voxels of an octree, or points of a point cloud, at most.
 pub const MAX_ITEMS: usize = 20_000;
@@ -22,10 +22,10 @@ impl Voxels {
     ///
     /// # Errors
     ///
-    /// The size is not positive.
+    /// The size is not positive, or more than [`MAX_LENGTH`].
     pub fn new(size: f64) -> Result<Self, ApiError> {
-        if !(size.is_finite() && size > 0.0) {
-            return Err(ApiError(format!("voxels of {size} m: expected more than 0")));
+        if !(size > 0.0 && size <= MAX_LENGTH) {
+            return Err(ApiError(format!("voxels of {size} m: expected more than 0, at most {MAX_LENGTH}")));
         }
         Ok(Self { size, cells: BTreeMap::new() })
     }
@@ -50,14 +50,12 @@ impl Voxels {
 
     /// The voxel that a point `[m]` is in.
     fn cell(&self, point: [f64; 3]) -> Result<[i32; 3], ApiError> {
+        check_place(point)?;
         let mut cell = [0; 3];
         for (index, x) in cell.iter_mut().zip(point) {
             let place = (x / self.size).floor();
             if !(-1e9..=1e9).contains(&place) {
-                return Err(ApiError(format!(
-                    "a point at {x} m is not finite, or too far away for voxels of {} m",
-                    self.size
-                )));
+                return Err(ApiError(format!("a point at {x} m is too far away for voxels of {} m", self.size)));
             }
             *index = place as i32;
         }
@@ -138,11 +136,9 @@ impl Points {
     ///
     /// # Errors
     ///
-    /// The point is not finite, or there are [`MAX_ITEMS`] points already.
+    /// A coordinate of the point is beyond [`MAX_LENGTH`], or there are [`MAX_ITEMS`] points already.
     pub fn insert(&mut self, point: [f64; 3], color: [u8; 3], tolerance: f64) -> Result<bool, ApiError> {
-        if !point.iter().all(|x| x.is_finite()) {
-            return Err(ApiError(format!("the point {point:?} is not finite")));
-        }
+        check_place(point)?;
         if tolerance > 0.0 && self.points.iter().any(|(other, _)| is_within(*other, point, tolerance)) {
             return Ok(false);
         }
@@ -171,6 +167,13 @@ impl Points {
     /// Places `[m]` and colours of all points.
     pub fn items(&self) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
         self.points.iter().copied()
+    }
+}
+
+fn check_place(point: [f64; 3]) -> Result<(), ApiError> {
+    match point.iter().find(|x| !(-MAX_LENGTH..=MAX_LENGTH).contains(*x)) {
+        Some(x) => Err(ApiError(format!("a point at {x} m: expected -{MAX_LENGTH} to {MAX_LENGTH}"))),
+        None => Ok(()),
     }
 }
 
@@ -205,6 +208,24 @@ mod tests {
         assert_eq!(points.items().next(), Some(([0.005, 0.0, 0.0], [0; 3])));
         points.keep(&[[1.0; 3]], 0.1);
         assert!(points.is_empty());
+    }
+
+    #[test]
+    fn voxels_and_points_are_as_near_as_shapes() {
+        let mut voxels = Voxels::new(MAX_LENGTH).unwrap();
+        let mut points = Points::default();
+        voxels.insert([MAX_LENGTH, -MAX_LENGTH, 0.0], [0; 3], 0).unwrap();
+        points.insert([MAX_LENGTH, -MAX_LENGTH, 0.0], [0; 3], 0.0).unwrap();
+        for x in [1.000_001 * MAX_LENGTH, -1.000_001 * MAX_LENGTH, f64::INFINITY, f64::NAN] {
+            let why = [
+                voxels.insert([0.0, x, 0.0], [0; 3], 0).unwrap_err().0,
+                points.insert([0.0, x, 0.0], [0; 3], 0.0).unwrap_err().0,
+            ];
+            assert!(why.iter().all(|why| why.contains("expected -1000000 to 1000000")), "{why:?}");
+            assert!(voxels.remove([x; 3]).is_err() && voxels.tag_at([x; 3]).is_err());
+            assert!(Voxels::new(x).is_err());
+        }
+        assert_eq!((voxels.len(), points.len()), (1, 1));
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! | `stored.rs` | data under tags |
 //! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
 //! | `clouds.rs` | contents of octrees and point clouds |
+//! | `work.rs` | limit of the work of one call |
 //! | `ports.rs` | TCP ports that scripts ask for |
 
 pub mod cbor;
@@ -22,9 +23,13 @@ pub mod stored;
 pub mod tubes;
 pub mod unpack;
 mod value;
+pub mod work;
 
 pub use error::ApiError;
 pub use handle::Handle;
 pub use ports::{LegacyPorts, PortRequest};
 pub use signals::Signals;
 pub use value::{Arguments, Value};
+
+/// Largest length and coordinate of anything that is made at run time `[m]`.
+pub const MAX_LENGTH: f64 = 1e6;

@@ -6,6 +6,7 @@ use sincro_vision::{DepthLens, WorkImage};
 use super::registry::Handle;
 use super::{ApiError, SimApi};
 use sincro_scene::camera::{Layer, Lens};
+use sincro_values::work::check_operations;
 
 /// Pixels that all work images and their buffers may have together: 4 Mi, which take 100 MB.
 const MAX_WORK_PIXELS: usize = 1 << 22;
@@ -14,9 +15,7 @@ const MAX_PACKETS: usize = 1_000;
 /// Numbers of all packets of one reading together.
 const MAX_PACKET_LEN: usize = 1 << 22;
 
-/// Operations on pixels (a weight of a kernel, a comparison of two colours) of one call: about a second.
-pub(super) const MAX_OPERATIONS: u64 = 1 << 30;
-/// Operations on pixels in the time of one instruction of a script, about 10 ns.
+/// Operations on pixels or points in the time of one instruction of a script, about 10 ns.
 const OPERATIONS_PER_INSTRUCTION: u64 = 8;
 
 /// Work image of a sensor with its two buffers.
@@ -102,17 +101,18 @@ impl SimApi<'_> {
     ///
     /// They are more than one call may take.
     pub(super) fn count_operations(&mut self, n: u64) -> Result<(), ApiError> {
-        if n > MAX_OPERATIONS {
-            return Err(ApiError(format!(
-                "this takes {n} operations on pixels, and one call has up to {MAX_OPERATIONS}: take fewer passes, or \
-                 give the sensor a lower resolution"
-            )));
-        }
-        self.n_operations = self.n_operations.saturating_add(n);
+        check_operations(n, "operations on pixels", "take fewer passes, or give the sensor a lower resolution")?;
+        self.add_operations(n);
         Ok(())
     }
 
-    /// Work of image filters since this was made, in instructions of a script that take about the same time.
+    /// Adds operations to the work of this call.
+    pub(super) fn add_operations(&mut self, n: u64) {
+        self.n_operations = self.n_operations.saturating_add(n);
+    }
+
+    /// Work of image filters, octrees and point clouds since this was made, in instructions of a script that take about
+    /// the same time.
     #[must_use]
     pub fn work(&self) -> u64 {
         self.n_operations.div_ceil(OPERATIONS_PER_INSTRUCTION)

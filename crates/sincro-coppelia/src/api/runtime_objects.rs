@@ -20,11 +20,17 @@ impl ObjectRegistry {
         self.create(name, Kind::Dummy, WORLD)
     }
 
+    /// Checks that `n` further runtime objects can be created.
+    pub(super) fn check_room(&self, n: usize) -> Result<(), ApiError> {
+        if self.n_created + n <= MAX_CREATED {
+            return Ok(());
+        }
+        Err(ApiError(format!("{MAX_CREATED} objects were made already: remove some")))
+    }
+
     /// Makes an object on the world.
     pub(super) fn create(&mut self, name: &str, kind: Kind, at: Attached<f64>) -> Result<Handle, ApiError> {
-        if self.n_created >= MAX_CREATED {
-            return Err(ApiError(format!("{MAX_CREATED} objects were made already: remove some")));
-        }
+        self.check_room(1)?;
         let handle = self.next_handle();
         let mut new_name = name.to_owned();
         let mut k = self.numbers.get(name).copied().unwrap_or(0);

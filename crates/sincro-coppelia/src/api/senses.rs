@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sincro_dynamics::contact::Surface;
 use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::kinematics::Attached;
-use sincro_dynamics::spatial::Pose;
+use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::collections::{Collection, Entity};
 use super::{ApiError, Entry, Handle, Kind, ObjectRegistry};
@@ -173,19 +173,60 @@ impl Senses {
 
     /// A surface ready to be looked at; refused if it has no extent, or if there would be too many corners.
     pub fn prepare(&self, surface: Surface) -> Result<Arc<Geometry>, ApiError> {
-        let there: usize = self.runtime.iter().map(|piece| corners(piece.geometry.surface())).sum();
-        if there + corners(&surface) > MAX_CORNERS {
-            return Err(ApiError(format!("what is made at run time may have {MAX_CORNERS} corners together")));
+        check_corners(self.n_corners(|_| true) + corners(&surface))?;
+        geometry(surface)
+    }
+
+    /// Shows a surface at some places of a runtime object `[m]`, each with a colour, in place of its pieces. If they
+    /// become more and have too many corners, or the surface has no extent, it is refused and the pieces stay.
+    pub fn replace_parts(
+        &mut self,
+        own: Handle,
+        frame: &Attached<f64>,
+        surface: Surface,
+        items: &[([f64; 3], [u8; 3])],
+    ) -> Result<(), ApiError> {
+        let n = items.len() * corners(&surface);
+        if n > self.n_corners(|other| other == own) {
+            check_corners(self.n_corners(|other| other != own) + n)?;
         }
-        let geometry = Geometry::new(surface)
-            .ok_or_else(|| ApiError::new("the surface has no extent, or its triangles are none"))?;
-        Ok(Arc::new(geometry))
+        let geometry = geometry(surface)?;
+        self.forget_parts(own);
+        for (place, color) in items {
+            self.add(own, frame, geometry.clone(), Pose::translation(Vec3(*place)));
+            self.paint_last(*color);
+        }
+        Ok(())
+    }
+
+    /// Refuses the copy of a runtime object with which there would be too many corners.
+    pub fn check_copy(&self, own: Handle) -> Result<(), ApiError> {
+        check_corners(self.n_corners(|_| true) + self.n_corners(|other| other == own))
+    }
+
+    /// Number of corners of some runtime objects.
+    fn n_corners(&self, is_counted: impl Fn(Handle) -> bool) -> usize {
+        let pieces = self.runtime.iter().filter(|piece| is_counted(handle_of(piece)));
+        pieces.map(|piece| corners(piece.geometry.surface())).sum()
     }
 }
 
 /// The object of a piece.
 pub(super) fn handle_of(piece: &Piece) -> Handle {
     Handle(piece.object as i32 + 1)
+}
+
+fn geometry(surface: Surface) -> Result<Arc<Geometry>, ApiError> {
+    let geometry = Geometry::new(surface);
+    geometry.map(Arc::new).ok_or_else(|| ApiError::new("the surface has no extent, or its triangles are none"))
+}
+
+fn check_corners(n: usize) -> Result<(), ApiError> {
+    if n <= MAX_CORNERS {
+        return Ok(());
+    }
+    let help = "remove some, or take larger voxels and fewer points";
+    Err(ApiError(format!("what is made at run time may have {MAX_CORNERS} corners together, not {n}: {help}")))
 }
 
 fn corners(surface: &Surface) -> usize {
@@ -247,7 +288,7 @@ impl ObjectRegistry {
         }
     }
 
-    /// Another object gets the pieces and sensors of a runtime object.
+    /// Another object gets the pieces and sensors of a runtime object, and its voxels or points.
     pub(super) fn copy_senses(&mut self, from: Handle, to: Handle) {
         let Ok(frame) = self.entry(to).map(|e| e.frame) else { return };
         for (piece, place) in self.senses.parts_of(from) {
@@ -256,6 +297,12 @@ impl ObjectRegistry {
         }
         if let Some(entry) = self.senses.proximity.get(&from).cloned() {
             self.senses.proximity.insert(to, ProximityEntry { saw: None, ..entry });
+        }
+        if let Some(voxels) = self.octrees.get(&from).cloned() {
+            self.octrees.insert(to, voxels);
+        }
+        if let Some(points) = self.clouds.get(&from).cloned() {
+            self.clouds.insert(to, points);
         }
     }
 

@@ -14,11 +14,10 @@ use super::registry::{Handle, Kind, WORLD};
 use super::senses::handle_of;
 use super::{ApiError, Reference, SimApi};
 use sincro_scene::scene::Triangles;
+use sincro_values::MAX_LENGTH;
 
 /// Triangles of one mesh.
 const MAX_TRIANGLES: usize = 200_000;
-/// Largest length of anything that is made `[m]`.
-const MAX_LENGTH: f64 = 1e6;
 
 /// Properties of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,10 +119,23 @@ impl SimApi<'_> {
         Ok(mesh)
     }
 
+    /// Refuses octrees and point clouds, where a shape is expected.
+    pub(super) fn check_shape(&self, handle: Handle) -> Result<(), ApiError> {
+        let (what, help) = if self.registry.octrees.contains_key(&handle) {
+            ("an octree", "its voxels are changed with sim.insertVoxelsIntoOctree and sim.removeVoxelsFromOctree")
+        } else if self.registry.clouds.contains_key(&handle) {
+            ("a point cloud", "its points are changed with sim.insertPointsIntoPointCloud and the functions like it")
+        } else {
+            return Ok(());
+        };
+        Err(ApiError(format!("`{}` is {what}, no shape: {help}", self.registry.entry(handle)?.path)))
+    }
+
     /// The shape of a handle, a runtime object.
     fn runtime_shape(&self, handle: Handle) -> Result<Handle, ApiError> {
         let entry = self.registry.entry(handle)?;
         if entry.kind == Kind::Shape {
+            self.check_shape(entry.handle)?;
             return Ok(entry.handle);
         }
         let path = &entry.path;
@@ -206,11 +218,12 @@ impl SimApi<'_> {
     ///
     /// # Errors
     ///
-    /// It belongs to the scene.
+    /// It belongs to the scene or is no shape, or there would be too many objects: nothing is changed then.
     pub(crate) fn ungroup_shape(&mut self, shape: Handle) -> Result<Vec<Handle>, ApiError> {
         self.runtime_shape(shape)?;
-        self.finish_pictures();
         let parts = self.registry.senses.parts_of(shape);
+        self.registry.check_room(parts.len())?;
+        self.finish_pictures();
         let (x_ws, parent) = (self.pose(shape, Reference::World)?, self.registry.entry(shape)?.parent);
         let mut all = Vec::new();
         for (piece, place) in &parts {

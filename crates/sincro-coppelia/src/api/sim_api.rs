@@ -35,7 +35,7 @@ pub struct SimApi<'a> {
     /// Object of the script that calls (`sim.handle_self`); none for a client.
     pub own: Option<Handle>,
     is_located: bool,
-    /// Operations of image filters on pixels.
+    /// Operations of image filters on pixels, comparisons of points.
     pub(super) n_operations: u64,
 }
 
@@ -311,6 +311,7 @@ impl<'a> SimApi<'a> {
             return Err(ApiError(format!("`{}` is not copied: make another one", entry.path)));
         }
         let (name, parent, kind) = (entry.name.clone(), entry.parent, entry.kind.clone());
+        self.registry.senses.check_copy(handle)?;
         let pose = self.pose(handle, Reference::World)?;
         let copy = self.registry.create(&name, kind, super::registry::WORLD)?;
         self.registry.copy_senses(handle, copy);

@@ -89,6 +89,7 @@ fn push_at(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn mass(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let shape = super::handle(sim, a, 0)?;
     if sim.registry.entry(shape)?.kind == Kind::Shape {
+        sim.check_shape(shape)?;
         return one(sim.shape_mass(shape)?);
     }
     let own = body(sim, a)?;
@@ -120,6 +121,7 @@ fn both(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn set_mass(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let shape = super::handle(sim, a, 0)?;
     if sim.registry.entry(shape)?.kind == Kind::Shape {
+        sim.check_shape(shape)?;
         return sim.set_shape_mass(shape, a.real(1)?).and_then(|()| done());
     }
     let own = body(sim, a)?;

@@ -3,18 +3,26 @@
 
 use sincro_dynamics::contact::Surface;
 use sincro_dynamics::model::Shape;
-use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_dynamics::spatial::Vec3;
 use sincro_values::clouds::{Points, Voxels};
+use sincro_values::work::check_operations;
 
 use super::{Function, Outcome, handle, one};
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 /// Radius of the ball that a point is `[m]`.
 const POINT_RADIUS: f64 = 0.0025;
+/// Comparisons of points in the time in which a voxel or point is copied or shown.
+const PER_ITEM: u64 = 32;
+/// Comparisons with which a voxel is found among the others.
+const PER_VOXEL: usize = 16;
 /// Option: points are given in the frame of the octree or point cloud, not in the world.
 const IS_LOCAL: i64 = 1;
 /// Option: each point has a colour of its own.
 const HAS_COLORS: i64 = 2;
+/// Operations that are counted, and advice where they are too many.
+const WORK: &str = "comparisons of points";
+const HELP: &str = "give fewer points in one call, or fill several octrees or point clouds";
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -38,7 +46,9 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |sim, a| {
             let (own, mut voxels) = octree(sim, a)?;
             if a.has(2) {
-                points(sim, a, (own, 2))?.into_iter().try_for_each(|point| voxels.remove(point))?;
+                let given = points(sim, a, (own, 2))?;
+                count(sim, given.len(), PER_VOXEL)?;
+                given.into_iter().try_for_each(|point| voxels.remove(point))?;
             } else {
                 voxels.clear();
             }
@@ -56,6 +66,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |sim, a| {
             let (own, voxels) = octree(sim, a)?;
             let given = points(sim, a, (own, 2))?;
+            count(sim, given.len(), PER_VOXEL)?;
             let tags = given.into_iter().map(|point| voxels.tag_at(point)).collect::<Result<Vec<_>, ApiError>>()?;
             // of several points, whether one is inside
             let tag = tags.into_iter().flatten().next();
@@ -83,7 +94,9 @@ pub(super) const FUNCTIONS: &[Function] = &[
             let (own, mut cloud) = cloud(sim, a)?;
             if a.has(2) {
                 let tolerance = distance(a, 3)?;
-                points(sim, a, (own, 2))?.into_iter().for_each(|point| cloud.remove(point, tolerance));
+                let given = points(sim, a, (own, 2))?;
+                count(sim, given.len(), cloud.len())?;
+                given.into_iter().for_each(|point| cloud.remove(point, tolerance));
             } else {
                 cloud.clear();
             }
@@ -95,7 +108,9 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "int totalPointCnt=sim.intersectPointsWithPointCloud(int pointCloudHandle,int options,float[] pts,float distanceTolerance)",
         run: |sim, a| {
             let (own, mut cloud) = cloud(sim, a)?;
-            cloud.keep(&points(sim, a, (own, 2))?, distance(a, 3)?);
+            let (given, tolerance) = (points(sim, a, (own, 2))?, distance(a, 3)?);
+            count(sim, given.len(), cloud.len())?;
+            cloud.keep(&given, tolerance);
             show_points(sim, own, cloud)
         },
     },
@@ -107,19 +122,23 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 /// The octree of the first argument, with a copy of its voxels.
-fn octree(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<(Handle, Voxels), ApiError> {
+fn octree(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<(Handle, Voxels), ApiError> {
     let own = handle(sim, a, 0)?;
     let path = &sim.registry.entry(own)?.path;
     let wrong = || ApiError(format!("`{path}` is no octree: sim.createOctree makes one"));
-    Ok((own, sim.registry.octrees.get(&own).cloned().ok_or_else(wrong)?))
+    let voxels = sim.registry.octrees.get(&own).cloned().ok_or_else(wrong)?;
+    sim.add_operations(PER_ITEM * voxels.len() as u64);
+    Ok((own, voxels))
 }
 
 /// The point cloud of the first argument, with a copy of its points.
-fn cloud(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<(Handle, Points), ApiError> {
+fn cloud(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Result<(Handle, Points), ApiError> {
     let own = handle(sim, a, 0)?;
     let path = &sim.registry.entry(own)?.path;
     let wrong = || ApiError(format!("`{path}` is no point cloud: sim.createPointCloud makes one"));
-    Ok((own, sim.registry.clouds.get(&own).cloned().ok_or_else(wrong)?))
+    let points = sim.registry.clouds.get(&own).cloned().ok_or_else(wrong)?;
+    sim.add_operations(PER_ITEM * points.len() as u64);
+    Ok((own, points))
 }
 
 /// Points of argument `k` in the frame of an octree or point cloud `[m]`.
@@ -158,9 +177,18 @@ fn colors(a: Arguments<'_>, n: usize) -> Result<Vec<[u8; 3]>, ApiError> {
     }
 }
 
+/// Counts comparisons of points that are given with those that are there, before they are made.
+fn count(sim: &mut SimApi<'_>, n_given: usize, n_there: usize) -> Result<(), ApiError> {
+    let n = (n_given as u64).saturating_mul(n_there as u64);
+    check_operations(n, WORK, HELP)?;
+    sim.add_operations(n);
+    Ok(())
+}
+
 fn insert_voxels(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (own, mut voxels) = octree(sim, a)?;
     let given = points(sim, a, (own, 2))?;
+    count(sim, given.len(), PER_VOXEL)?;
     let colors = colors(a, given.len())?;
     let tags: Vec<i64> = match a.get(4) {
         Value::Nil => Vec::new(),
@@ -182,9 +210,15 @@ fn insert_points(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (own, mut cloud) = cloud(sim, a)?;
     let (given, tolerance) = (points(sim, a, (own, 2))?, distance(a, 4)?);
     let colors = colors(a, given.len())?;
-    for (point, color) in given.into_iter().zip(colors) {
-        cloud.insert(point, color, tolerance)?;
-    }
+    let mut n = 0;
+    let result = given.into_iter().zip(colors).try_for_each(|(point, color)| {
+        // with a tolerance a point is compared with all that are there by then
+        n += if tolerance > 0.0 { cloud.len() as u64 } else { 1 };
+        check_operations(n, WORK, HELP)?;
+        cloud.insert(point, color, tolerance).map(|_| ())
+    });
+    sim.add_operations(n);
+    result?;
     show_points(sim, own, cloud)
 }
 
@@ -206,21 +240,18 @@ fn show_points(sim: &mut SimApi<'_>, own: Handle, cloud: Points) -> Outcome {
 }
 
 impl SimApi<'_> {
-    /// Shows one surface at some places of an object `[m]`, in place of what it showed before.
+    /// Shows one surface at some places of an object `[m]`, in place of what it showed before, which stays if that is
+    /// refused.
     fn show_items(
         &mut self,
         own: Handle,
         surface: Surface,
         items: impl Iterator<Item = ([f64; 3], [u8; 3])>,
     ) -> Result<(), ApiError> {
+        let items: Vec<_> = items.collect();
+        self.add_operations(PER_ITEM * items.len() as u64);
         self.finish_pictures();
-        self.registry.senses.forget_parts(own);
         let frame = self.registry.entry(own)?.frame;
-        let geometry = self.registry.senses.prepare(surface)?;
-        for (place, color) in items {
-            self.registry.senses.add(own, &frame, geometry.clone(), Pose::translation(Vec3(place)));
-            self.registry.senses.paint_last(color);
-        }
-        Ok(())
+        self.registry.senses.replace_parts(own, &frame, surface, &items)
     }
 }

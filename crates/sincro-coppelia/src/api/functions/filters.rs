@@ -4,10 +4,11 @@
 //! whether it triggers the sensor (`binaryWorkImg` alone may), then what it has found, as packed floats.
 
 use sincro_math::elementary::{atan2, sin_cos};
+use sincro_values::work::MAX_OPERATIONS;
 use sincro_vision::{ColorSpace, Moments, Sampling, WorkImage, gaussian};
 
 use super::{Function, Outcome, handle};
-use crate::api::filters::{MAX_OPERATIONS, WorkImages};
+use crate::api::filters::WorkImages;
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value, Vec3};
 
 /// Added to a handle for points in the world instead of the frame of the sensor.
