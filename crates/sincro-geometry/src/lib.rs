@@ -10,6 +10,7 @@
 //! |---|---|
 //! | [`spatial`] | spatial algebra: vectors, rotations, poses, six-vectors, inertias |
 //! | `shape`, `mass`, `polyhedron`, `surface` | solids, mass properties, triangle meshes, surfaces of colliders |
+//! | `elliptic`, [`triangulation`] | hulls of solids with elliptic sections, triangle meshes of surfaces |
 //! | `support` | support mappings of the convex surfaces |
 //! | `gjk` | distance of two convex sets |
 //! | `bvh` | bounding volume hierarchy of triangles |
@@ -25,6 +26,7 @@ mod bvh;
 mod distance;
 #[cfg(test)]
 mod distance_tests;
+mod elliptic;
 mod field_of_view;
 mod gjk;
 mod mass;
@@ -41,6 +43,7 @@ mod support;
 mod surface;
 #[cfg(test)]
 mod tests;
+pub mod triangulation;
 
 use parry3d_f64::query::Ray as LibraryRay;
 

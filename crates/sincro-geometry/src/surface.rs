@@ -59,4 +59,63 @@ impl Surface {
             }
         }
     }
+
+    /// Largest coordinate of the surface along a direction of length 1 in its own axes `[m]`; none if it has no end.
+    #[must_use]
+    pub fn reach_along(&self, d: [f64; 3]) -> Option<f64> {
+        let [x, y, z] = d;
+        let across = (x * x + y * y).sqrt();
+        let of_points = |points: &[[f64; 3]]| {
+            points.iter().map(|p| p[0] * x + p[1] * y + p[2] * z).fold(f64::NEG_INFINITY, f64::max)
+        };
+        Some(match self {
+            Self::Solid(Shape::Cuboid { size }) => 0.5 * (size[0] * x.abs() + size[1] * y.abs() + size[2] * z.abs()),
+            Self::Solid(Shape::Sphere { radius }) => *radius,
+            Self::Solid(Shape::Cylinder { radius, length }) => radius * across + 0.5 * length * z.abs(),
+            // its origin is its centre of mass, a quarter of its height above the base
+            Self::Solid(Shape::Cone { radius, length }) => (0.75 * length * z).max(radius * across - 0.25 * length * z),
+            Self::Solid(Shape::Capsule { radius, length }) => radius + 0.5 * length * z.abs(),
+            Self::Solid(Shape::Torus { major_radius, tube_radius }) => major_radius * across + tube_radius,
+            Self::HalfSpace => return None,
+            Self::Hull(points) | Self::Mesh(points, _) => of_points(points),
+            Self::HeightField { columns, heights, size } => {
+                let rows = heights.len() / columns;
+                let place = |k: usize, n: usize| k as f64 / (n - 1) as f64 - 0.5;
+                let point = |(k, h): (usize, &f64)| {
+                    [size[0] * place(k % columns, *columns), size[1] * place(k / columns, rows), *h]
+                };
+                of_points(&heights.iter().enumerate().map(point).collect::<Vec<_>>())
+            }
+        })
+    }
+
+    /// The surface with all lengths times `k` (dimensionless), about the origin of its frame.
+    #[must_use]
+    pub fn scaled(&self, k: f64) -> Self {
+        let points = |list: &[[f64; 3]]| list.iter().map(|p| p.map(|x| k * x)).collect();
+        match self {
+            Self::Solid(Shape::Cuboid { size }) => Self::Solid(Shape::Cuboid { size: size.map(|x| k * x) }),
+            Self::Solid(Shape::Sphere { radius }) => Self::Solid(Shape::Sphere { radius: k * radius }),
+            Self::Solid(Shape::Cylinder { radius, length }) => {
+                Self::Solid(Shape::Cylinder { radius: k * radius, length: k * length })
+            }
+            Self::Solid(Shape::Cone { radius, length }) => {
+                Self::Solid(Shape::Cone { radius: k * radius, length: k * length })
+            }
+            Self::Solid(Shape::Capsule { radius, length }) => {
+                Self::Solid(Shape::Capsule { radius: k * radius, length: k * length })
+            }
+            Self::Solid(Shape::Torus { major_radius, tube_radius }) => {
+                Self::Solid(Shape::Torus { major_radius: k * major_radius, tube_radius: k * tube_radius })
+            }
+            Self::HalfSpace => Self::HalfSpace,
+            Self::Hull(list) => Self::Hull(points(list)),
+            Self::Mesh(list, triangles) => Self::Mesh(points(list), triangles.clone()),
+            Self::HeightField { columns, heights, size } => Self::HeightField {
+                columns: *columns,
+                heights: heights.iter().map(|h| k * h).collect(),
+                size: size.map(|x| k * x),
+            },
+        }
+    }
 }

@@ -8,7 +8,6 @@ use sincro_dynamics::contact::Surface;
 use sincro_dynamics::geometry::Geometry;
 use sincro_dynamics::model::Shape;
 use sincro_dynamics::spatial::{Pose, Vec3};
-use sincro_math::elementary::sin_cos;
 
 use super::registry::{Handle, Kind, WORLD};
 use super::senses::handle_of;
@@ -249,7 +248,7 @@ impl SimApi<'_> {
         length(factor)?;
         let (parts, frame) = (self.registry.senses.parts_of(shape), self.registry.entry(shape)?.frame);
         let scaled = parts.iter().map(|(piece, place)| {
-            let geometry = Geometry::new(scaled(piece.geometry.surface(), factor));
+            let geometry = Geometry::new(piece.geometry.surface().scaled(factor));
             let geometry = geometry.ok_or_else(|| ApiError::new("it would have no extent"))?;
             Ok((Arc::new(geometry), Pose { pos: place.pos.scale(factor), ..*place }, piece.color))
         });
@@ -308,7 +307,7 @@ impl SimApi<'_> {
             let x_op = x_wo.inverse().compose(&piece.at.pose);
             for k in 0..3 {
                 let direction = Vec3(std::array::from_fn(|i| x_op.rot.0[k][i]));
-                let reach = |d: Vec3<f64>| reach_along(piece.geometry.surface(), d.0);
+                let reach = |d: Vec3<f64>| piece.geometry.surface().reach_along(d.0);
                 let (Some(up), Some(down)) = (reach(direction), reach(direction.scale(-1.0))) else {
                     return Err(ApiError(format!("`{}` has no end: a plane has no box", own.path)));
                 };
@@ -342,33 +341,6 @@ impl SimApi<'_> {
     }
 }
 
-/// Corners of one ring of a hull that stands for a shape with elliptic sections.
-const N_CORNERS: u32 = 32;
-
-/// Ring of corners on an ellipse, `height` and `scale` relative to the lengths of the shape's box.
-fn ring([x, y, z]: [f64; 3], height: f64, scale: f64) -> impl Iterator<Item = [f64; 3]> {
-    (0..N_CORNERS).map(move |k| {
-        let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(k) / f64::from(N_CORNERS));
-        [0.5 * x * scale * cos, 0.5 * y * scale * sin, height * z]
-    })
-}
-
-/// Convex hull of two rings.
-fn between(low: impl Iterator<Item = [f64; 3]>, high: impl Iterator<Item = [f64; 3]>) -> Surface {
-    Surface::Hull(low.chain(high).collect())
-}
-
-/// Convex hull in place of an ellipsoid: rings at equal angles between its poles.
-fn ellipsoid(size: [f64; 3]) -> Surface {
-    const N_RINGS: u32 = 15;
-    let rings = (1..=N_RINGS).flat_map(|k| {
-        let (sin, cos) = sin_cos(std::f64::consts::PI * f64::from(k) / f64::from(N_RINGS + 1));
-        ring(size, -0.5 * cos, sin)
-    });
-    let poles = [-0.5, 0.5].into_iter().flat_map(|height| ring(size, height, 0.0).take(1));
-    Surface::Hull(rings.chain(poles).collect())
-}
-
 /// A primitive shape by its number, with full lengths along x, y and z `[m]`, its frame in the middle of its box.
 ///
 /// # Errors
@@ -399,13 +371,13 @@ pub(crate) fn primitive_of(kind: i64, size: [f64; 3]) -> Result<(&'static str, S
             ("Disc", solid(Shape::Cylinder { radius: 0.5 * x, length: 0.0 }), plain)
         }
         3 => ("Cuboid", solid(Shape::Cuboid { size }), plain),
-        4 if round("ball", 3).is_err() => ("Sphere", ellipsoid(size), plain),
+        4 if round("ball", 3).is_err() => ("Sphere", Surface::ellipsoid(size), plain),
         4 => {
             round("ball", 3)?;
             ("Sphere", solid(Shape::Sphere { radius: 0.5 * x }), plain)
         }
-        5 if round("cylinder", 2).is_err() => ("Cylinder", between(ring(size, -0.5, 1.0), ring(size, 0.5, 1.0)), plain),
-        6 if round("cone", 2).is_err() => ("Cone", between(ring(size, -0.5, 1.0), ring(size, 0.5, 0.0).take(1)), plain),
+        5 if round("cylinder", 2).is_err() => ("Cylinder", Surface::elliptic_cylinder(size), plain),
+        6 if round("cone", 2).is_err() => ("Cone", Surface::elliptic_cone(size), plain),
         5 => {
             round("cylinder", 2)?;
             ("Cylinder", solid(Shape::Cylinder { radius: 0.5 * x, length: z }), plain)
@@ -443,61 +415,6 @@ fn primitive(surface: &Surface) -> (i64, [f64; 3]) {
         Surface::HalfSpace => (1, [0.0; 3]),
         // the API has no tori
         Surface::Hull(_) | Surface::Mesh(..) | Surface::Solid(Shape::Torus { .. }) => (0, [0.0; 3]),
-    }
-}
-
-/// Largest coordinate of a surface along a direction of length 1 in its own axes `[m]`; none if it has no end.
-fn reach_along(surface: &Surface, d: [f64; 3]) -> Option<f64> {
-    let [x, y, z] = d;
-    let across = (x * x + y * y).sqrt();
-    let of_points =
-        |points: &[[f64; 3]]| points.iter().map(|p| p[0] * x + p[1] * y + p[2] * z).fold(f64::NEG_INFINITY, f64::max);
-    Some(match surface {
-        Surface::Solid(Shape::Cuboid { size }) => 0.5 * (size[0] * x.abs() + size[1] * y.abs() + size[2] * z.abs()),
-        Surface::Solid(Shape::Sphere { radius }) => *radius,
-        Surface::Solid(Shape::Cylinder { radius, length }) => radius * across + 0.5 * length * z.abs(),
-        // its origin is its centre of mass, a quarter of its height above the base
-        Surface::Solid(Shape::Cone { radius, length }) => (0.75 * length * z).max(radius * across - 0.25 * length * z),
-        Surface::Solid(Shape::Capsule { radius, length }) => radius + 0.5 * length * z.abs(),
-        Surface::Solid(Shape::Torus { major_radius, tube_radius }) => major_radius * across + tube_radius,
-        Surface::HalfSpace => return None,
-        Surface::Hull(points) | Surface::Mesh(points, _) => of_points(points),
-        Surface::HeightField { columns, heights, size } => {
-            let rows = heights.len() / columns;
-            let place = |k: usize, n: usize| k as f64 / (n - 1) as f64 - 0.5;
-            let point = |(k, h): (usize, &f64)| {
-                [size[0] * place(k % columns, *columns), size[1] * place(k / columns, rows), *h]
-            };
-            of_points(&heights.iter().enumerate().map(point).collect::<Vec<_>>())
-        }
-    })
-}
-
-fn scaled(surface: &Surface, k: f64) -> Surface {
-    let points = |list: &[[f64; 3]]| list.iter().map(|p| p.map(|x| k * x)).collect();
-    match surface {
-        Surface::Solid(Shape::Cuboid { size }) => Surface::Solid(Shape::Cuboid { size: size.map(|x| k * x) }),
-        Surface::Solid(Shape::Sphere { radius }) => Surface::Solid(Shape::Sphere { radius: k * radius }),
-        Surface::Solid(Shape::Cylinder { radius, length }) => {
-            Surface::Solid(Shape::Cylinder { radius: k * radius, length: k * length })
-        }
-        Surface::Solid(Shape::Cone { radius, length }) => {
-            Surface::Solid(Shape::Cone { radius: k * radius, length: k * length })
-        }
-        Surface::Solid(Shape::Capsule { radius, length }) => {
-            Surface::Solid(Shape::Capsule { radius: k * radius, length: k * length })
-        }
-        Surface::Solid(Shape::Torus { major_radius, tube_radius }) => {
-            Surface::Solid(Shape::Torus { major_radius: k * major_radius, tube_radius: k * tube_radius })
-        }
-        Surface::HalfSpace => Surface::HalfSpace,
-        Surface::Hull(list) => Surface::Hull(points(list)),
-        Surface::Mesh(list, triangles) => Surface::Mesh(points(list), triangles.clone()),
-        Surface::HeightField { columns, heights, size } => Surface::HeightField {
-            columns: *columns,
-            heights: heights.iter().map(|h| k * h).collect(),
-            size: size.map(|x| k * x),
-        },
     }
 }
 

@@ -1,12 +1,12 @@
 //! Functions: shapes that are made at run time.
 
 use sincro_dynamics::geometry::polyhedron::Triangles;
+use sincro_dynamics::geometry::triangulation::{merged, normals};
 use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::objects::handles;
 use super::{Function, Outcome, done, handle, one};
 use crate::api::convention::numbers_of_pose;
-use crate::api::meshes::{merged, normals};
 use crate::api::shapes::primitive_of;
 use crate::api::structure::Role;
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
