@@ -9,6 +9,7 @@
 //! | `binary.rs` | threshold, and the moments of what is above it |
 //! | `blobs.rs` | [`Blob`]: connected components with their smallest oriented rectangles |
 //! | `changes.rs` | pixels that have changed since the last time |
+//! | `pictures.rs` | pictures as bytes: turned over, scaled, as a bitmap |
 //! | `points.rs` | [`DepthLens`]: points of a depth map, by rows and columns or by angles |
 //!
 //! An image has columns and rows; pixels are counted row by row from the bottom, each row from left to right. Colours
@@ -21,6 +22,7 @@ mod blobs;
 mod changes;
 mod color;
 mod convolution;
+pub mod pictures;
 mod points;
 
 pub use binary::Moments;
