@@ -230,18 +230,28 @@ impl SimApi<'_> {
     /// The model cannot be so, for the first of them.
     pub(crate) fn make_bodies(&mut self) -> Result<(), ApiError> {
         let roles = std::mem::take(&mut self.registry.roles);
-        match &roles[..] {
-            [] => return Ok(()),
-            [one] => return self.make_bodies_of(std::slice::from_ref(one)),
-            all if self.make_bodies_of(all).is_ok() => return Ok(()),
-            _ => {}
+        self.make_bodies_in_halves(&roles)
+    }
+
+    /// One shape that a scene cannot have costs a number of compilations that grows with the logarithm of the others.
+    fn make_bodies_in_halves(&mut self, roles: &[(Handle, Role)]) -> Result<(), ApiError> {
+        match roles {
+            [] => Ok(()),
+            [(shape, _)] => {
+                let path = self.registry.entry(*shape)?.path.clone();
+                let of_shape = |ApiError(message)| match message.contains(&path) {
+                    true => ApiError(message),
+                    false => ApiError(format!("`{path}` becomes no body: {message}")),
+                };
+                self.make_bodies_of(roles).map_err(of_shape)
+            }
+            all if self.make_bodies_of(all).is_ok() => Ok(()),
+            all => {
+                let (first, second) = all.split_at(all.len() / 2);
+                let made = self.make_bodies_in_halves(first);
+                made.and(self.make_bodies_in_halves(second))
+            }
         }
-        let mut first = Ok(());
-        for one in roles.chunks(1) {
-            let made = self.make_bodies_of(one);
-            first = first.and(made);
-        }
-        first
     }
 
     fn make_bodies_of(&mut self, roles: &[(Handle, Role)]) -> Result<(), ApiError> {
@@ -262,7 +272,11 @@ impl SimApi<'_> {
         self.join_parked(entry.parent, edit)?;
         let (parent, x_wp) = self.parent_in_edit(entry.parent, edit)?;
         let place = self.pose(shape, Reference::World)?;
-        let name = self.model_name(shape)?;
+        let mut name = self.model_name(shape)?;
+        let is_taken = |name: &str| edit.draft.table(&format!("{}/{name}", parent.trim_end_matches('/'))).is_some();
+        if is_taken(&name) {
+            name = self.unused_name(&name, is_taken);
+        }
         let mut keys = table([("name", name.clone().into()), ("shape", Value::Array(shapes))]);
         match (hull, own_mass) {
             (Some(hull), _) => keys.extend(mass_keys(&hull)),
