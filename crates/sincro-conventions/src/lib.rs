@@ -7,9 +7,13 @@
 //! | `simulator.rs` | parameters of the simulator: numbers, names, answers that are always the same |
 //! | `paths.rs` | paths of configurations |
 //! | `names.rs` | old names of functions |
+//! | `absent.rs`, `absent.txt` | functions that are not offered, and why |
+//! | `object_paths.rs` | levels of the paths of objects |
 
+pub mod absent;
 pub mod constants;
 pub mod names;
+pub mod object_paths;
 pub mod paths;
 pub mod poses;
 pub mod simulator;

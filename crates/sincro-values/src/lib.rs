@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `handle.rs`, `value.rs`, `error.rs` | [`Handle`], [`Value`] and [`Arguments`], [`ApiError`]: what functions take and give |
 //! | `cbor.rs`, `unpack.rs` | values as bytes and back |
+//! | `numbers.rs` | types of numbers in buffers |
 //! | `fields.rs` | maps that functions take and give back |
 //! | `stored.rs` | data under tags |
 //! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
@@ -16,6 +17,7 @@ pub mod clouds;
 mod error;
 pub mod fields;
 mod handle;
+pub mod numbers;
 mod ports;
 pub mod radio;
 mod signals;

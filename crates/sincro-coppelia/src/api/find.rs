@@ -10,16 +10,10 @@
 
 use super::ApiError;
 use super::registry::{Entry, Handle, ObjectRegistry};
+use sincro_conventions::object_paths::{Element, copied, element, fits, split_number};
 
 /// Longest path that is looked for.
 const MAX_PATH_LEN: usize = 1_000;
-
-/// One level of a path.
-struct Element {
-    pattern: Vec<char>,
-    /// `[i]`
-    among: Option<usize>,
-}
 
 /// Options of [`ObjectRegistry::find`]. The default is that of a client: no calling object, the first match.
 #[derive(Clone, Copy, Debug, Default)]
@@ -186,44 +180,4 @@ impl ObjectRegistry {
         let hint = near.map(|n| format!(": did you mean `{n}`?")).unwrap_or_default();
         ApiError(format!("Object does not exist: `{text}`{hint}"))
     }
-}
-
-/// `ball` of `ball12`: the name that copies of the scene language are numbered after.
-fn copied(name: &str) -> Option<&str> {
-    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    (!stem.is_empty() && stem.len() < name.len()).then_some(stem)
-}
-
-/// `name[3]` as its parts; none if it is no name.
-fn element(text: &str) -> Option<Element> {
-    let (name, among) = match split_number(text, '[', ']') {
-        Some((name, k)) => (name, Some(k)),
-        None => (text, None),
-    };
-    (!name.is_empty()).then(|| Element { pattern: name.chars().collect(), among })
-}
-
-/// `text(3)` as `text` and 3, for the given brackets.
-fn split_number(text: &str, open: char, close: char) -> Option<(&str, usize)> {
-    let (head, number) = text.strip_suffix(close)?.rsplit_once(open)?;
-    Some((head, number.parse().ok()?))
-}
-
-/// Returns true if a name fits a pattern with `*` and `?`; time grows with the product of their lengths at most.
-fn fits(pattern: &[char], name: &str) -> bool {
-    let name: Vec<char> = name.chars().collect();
-    let (mut p, mut n, mut retry) = (0, 0, None);
-    while n < name.len() {
-        if p < pattern.len() && pattern[p] == '*' {
-            retry = Some((p, n));
-            p += 1;
-        } else if p < pattern.len() && (pattern[p] == '?' || pattern[p] == name[n]) {
-            (p, n) = (p + 1, n + 1);
-        } else if let Some((star, at)) = retry {
-            (p, n, retry) = (star + 1, at + 1, Some((star, at + 1)));
-        } else {
-            return false;
-        }
-    }
-    pattern[p..].iter().all(|c| *c == '*')
 }

@@ -4,7 +4,6 @@
 //! (`simGetJointPosition`) and those in between. Units and conventions are the API's own: SI, radians, quaternions x y
 //! z w. The functions of an adapter itself (stepping, waiting, scripts) are not here.
 
-mod absent;
 mod bits;
 mod bodies;
 mod buffers;
@@ -49,9 +48,9 @@ use std::sync::OnceLock;
 use super::constants::{HANDLE_FLAGS, HANDLE_JOINT_BASE};
 use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
-pub use absent::{absent, why_absent};
 pub(crate) use images::check_file_name;
 pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
+pub use sincro_conventions::absent::{absent, why_absent};
 pub use sincro_conventions::names::{old_names, present_name};
 pub use waiting::{MOVES, Move};
 pub use windows::is_display_only;

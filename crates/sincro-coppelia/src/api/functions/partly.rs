@@ -1,7 +1,7 @@
 //! Functions that are offered with less than V-REP and CoppeliaSim have: what is missing. For `docs/compatibility.md`.
 
-use super::absent::rows;
 use super::{Function, properties, ui};
+use sincro_conventions::absent::rows;
 
 /// Functions, each with what of it is not offered.
 fn parts() -> impl Iterator<Item = (&'static str, &'static str)> {

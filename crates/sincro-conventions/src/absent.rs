@@ -1,7 +1,7 @@
 //! Functions of V-REP and CoppeliaSim that are not here: why, and what to do instead. They are not listed to clients.
 
 /// The rows of a table such as `absent.txt`: names below a text, each with it.
-pub(super) fn rows(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+pub fn rows(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
     let mut why = "";
     table.lines().filter(|line| !line.starts_with('#')).flat_map(move |line| {
         if !line.starts_with(' ') {
