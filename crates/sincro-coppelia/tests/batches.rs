@@ -422,3 +422,45 @@ fn voxels_beyond_the_limit_of_corners_are_refused_and_the_others_stay() {
     assert_eq!(call(&mut session, "sim.removeVoxelsFromOctree", &first), [Value::Int(rest - 1)]);
     assert_eq!(call(&mut session, "sim.insertVoxelsIntoOctree", &further), [Value::Int(rest)]);
 }
+
+#[test]
+fn a_shape_that_becomes_no_body_is_named_and_the_others_become_bodies() {
+    let mut session = open();
+    session.start().unwrap();
+    let before = session.registry().scene().objects.len();
+    let corners = Value::reals([0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0]);
+    let triangles = Value::List([0, 1, 2, 2, 1, 3].map(Value::Int).to_vec());
+    let mut shapes: Vec<Value> = (0..15).map(|k| dynamic_cube(&mut session, [f64::from(k), 3.0, 2.0])).collect();
+    let flat = call(&mut session, "sim.createMeshShape", &[0_i64.into(), 0.5.into(), corners, triangles]).remove(0);
+    call(&mut session, "sim.setObjectAlias", &[flat.clone(), "sheet".into()]);
+    let told = session.call("sim.setObjectInt32Param", &[flat, STATIC.into(), 0_i64.into()]);
+    shapes.extend((0..16).map(|k| dynamic_cube(&mut session, [f64::from(k), 4.0, 2.0])));
+    let why = match told {
+        Err(why) => why.0,
+        Ok(_) => session.call("sim.getObjectVelocity", &shapes[..1]).expect_err("a sheet has no volume").0,
+    };
+    assert!(why.contains("/sheet"), "{why}");
+    session.step().unwrap();
+    // a body and a free joint for each cube
+    assert_eq!(session.registry().scene().objects.len(), before + 62);
+    assert!(height(&mut session, &shapes[30]) < 2.0);
+}
+
+#[test]
+fn numbers_are_text_and_texts_numbers_where_they_are_expected() {
+    let mut session = open();
+    let tube = call(&mut session, "sim.tubeOpen", &[0_i64.into(), 5_i64.into(), 3_i64.into()]).remove(0);
+    call(&mut session, "sim.tubeOpen", &[0_i64.into(), "5".into(), 3_i64.into()]);
+    assert_eq!(call(&mut session, "sim.tubeWrite", &[tube, 0_i64.into()]), [Value::Int(1)]);
+    call(&mut session, "sim.setStringSignal", &["speed".into(), 0.5.into()]);
+    let said = call(&mut session, "sim.getStringSignal", &["speed".into()]).remove(0);
+    assert_eq!(said.as_text(), Some("0.5"));
+    call(&mut session, "sim.setFloatSignal", &["speed".into(), "0.25".into()]);
+    assert_eq!(call(&mut session, "sim.getFloatSignal", &["speed".into()]), [Value::Real(0.25)]);
+    let dummy = call(&mut session, "sim.createDummy", &["0.01".into()]).remove(0);
+    let place = Value::List(vec!["1".into(), 2.0.into(), "3.5".into()]);
+    call(&mut session, "sim.setObjectPosition", &[dummy.clone(), place, (-1_i64).into()]);
+    assert_eq!(height(&mut session, &dummy), 3.5);
+    let why = session.call("sim.setFloatSignal", &["speed".into(), "fast".into()]).unwrap_err().0;
+    assert!(why.contains("argument 2 is text, expected a number"), "{why}");
+}

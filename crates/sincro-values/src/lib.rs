@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `handle.rs`, `value.rs`, `error.rs` | [`Handle`], [`Value`] and [`Arguments`], [`ApiError`]: what functions take and give |
 //! | `cbor.rs`, `unpack.rs` | values as bytes and back |
+//! | `coercion.rs` | numbers as text and texts as numbers, by the parameters of call tips |
 //! | `numbers.rs` | types of numbers in buffers |
 //! | `fields.rs` | maps that functions take and give back |
 //! | `stored.rs` | data under tags |
@@ -14,6 +15,7 @@
 
 pub mod cbor;
 pub mod clouds;
+pub mod coercion;
 mod error;
 pub mod fields;
 mod handle;

@@ -52,6 +52,7 @@ pub(crate) use images::check_file_name;
 pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
 pub use sincro_conventions::absent::{absent, why_absent};
 pub use sincro_conventions::names::{old_names, present_name};
+use sincro_values::coercion::{coerced, parameters};
 pub use waiting::{MOVES, Move};
 pub use windows::is_display_only;
 
@@ -114,7 +115,8 @@ const BEFORE_BODIES: &[&str] = &[
 
 impl Function {
     /// Calls the function. Shapes that a client or script has told to be bodies are made bodies of the model before, at
-    /// once, unless the function sees no difference.
+    /// once, unless the function sees no difference. Numbers are taken as text where the call tip says text, and texts
+    /// that are numbers as numbers.
     ///
     /// # Errors
     ///
@@ -123,7 +125,10 @@ impl Function {
         if !sim.registry.roles.is_empty() && !BEFORE_BODIES.contains(&self.name) {
             sim.make_bodies()?;
         }
-        (self.run)(sim, arguments)
+        match coerced(self.tip, arguments.0) {
+            Some(changed) => (self.run)(sim, Arguments(&changed)),
+            None => (self.run)(sim, arguments),
+        }
     }
 
     /// Returns true if argument `k`, counted from 0, may be nil by the call tip: `string colorName=nil`.
@@ -134,13 +139,7 @@ impl Function {
     /// ```
     #[must_use]
     pub fn may_be_nil(&self, k: usize) -> bool {
-        let arguments = self.tip.split_once('(').map_or("", |(_, arguments)| arguments.trim_end_matches(')'));
-        let mut depth = 0;
-        let separator = |c: char| {
-            depth += i32::from(c == '{') - i32::from(c == '}');
-            c == ',' && depth == 0
-        };
-        arguments.split(separator).nth(k).is_some_and(|argument| argument.ends_with("=nil"))
+        parameters(self.tip).nth(k).is_some_and(|argument| argument.ends_with("=nil"))
     }
 }
 
