@@ -5,6 +5,7 @@
 //! | `poses.rs` | positions, Euler angles, quaternions and matrices as the API has them |
 //! | `constants.rs`, `constants.txt` | constants of clients and scripts with their numbers |
 //! | `simulator.rs` | parameters of the simulator: numbers, names, answers that are always the same |
+//! | `ik_objects.rs` | dummies and joints of environments of `simIK` |
 //! | `paths.rs` | paths of configurations |
 //! | `names.rs` | old names of functions |
 //! | `absent.rs`, `absent.txt` | functions that are not offered, and why |
@@ -12,6 +13,7 @@
 
 pub mod absent;
 pub mod constants;
+pub mod ik_objects;
 pub mod names;
 pub mod object_paths;
 pub mod paths;

@@ -3,6 +3,7 @@ local ik = ...
 local find_config, find_configs, generate_path = ik.findConfig, ik.findConfigs, ik.generatePath
 
 local function of(f)
+  if f == '' then return nil end
   if type(f) == 'string' then
     if type(_G[f]) ~= 'function' then error('there is no function `' .. f .. '` to call back', 3) end
     return _G[f]
@@ -17,6 +18,10 @@ function ik.findConfig(env, group, joints, dist, time, metric, valid, aux)
   for _, config in ipairs(all) do
     if valid(config, aux) then return config end
   end
+end
+
+function ik.getConfigForTipPose(env, group, joints, dist, iterations, metric, valid, aux)
+  return ik.findConfig(env, group, joints, dist, math.abs(iterations or 1000) / 1000, metric, valid, aux)
 end
 
 function ik.findConfigs(env, group, joints, params, others)

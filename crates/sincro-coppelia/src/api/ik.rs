@@ -21,7 +21,8 @@ use sincro_math::elementary::atan2;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::registry::Handle;
-use super::{ApiError, Phase, Reference, SimApi};
+use super::{ApiError, Phase, SimApi};
+use sincro_conventions::ik_objects::OwnObjects;
 
 /// Environments, groups in one.
 const MAX_COUNT: usize = 32;
@@ -49,6 +50,16 @@ pub(crate) struct Environment {
     pub(super) positions: BTreeMap<Handle, f64>,
     /// Joints that no group moves.
     pub(super) passive: BTreeSet<Handle>,
+    /// Dummies and joints that are not of the scene.
+    pub(super) own: OwnObjects,
+}
+
+impl Environment {
+    /// Gives all elements with a tip another target.
+    pub(super) fn set_targets(&mut self, tip: Handle, target: Handle) {
+        let elements = self.groups.iter_mut().flat_map(|group| &mut group.elements);
+        elements.filter(|element| element.tip == tip).for_each(|element| element.target = target);
+    }
 }
 
 /// Elements that are solved together.
@@ -116,7 +127,8 @@ pub(crate) struct Outcome {
 #[derive(Clone)]
 pub(super) struct IkJoint {
     pub handle: Handle,
-    pub q_idx: usize,
+    /// Place in the state; none for a joint of the environment's own.
+    pub q_idx: Option<usize>,
     pub is_sliding: bool,
     pub bounds: [f64; 2],
 }
@@ -136,7 +148,7 @@ impl SimApi<'_> {
         if free == self.registry.environments.len() {
             self.registry.environments.push(None);
         }
-        self.registry.environments[free] = Some(Environment::default());
+        self.registry.environments[free] = Some(Environment { own: OwnObjects::new(free), ..Environment::default() });
         Ok(free)
     }
 
@@ -243,8 +255,8 @@ impl SimApi<'_> {
     ///
     /// There is no such group or object, no joint lies between base and tip, or the constraints make no sense.
     pub(crate) fn add_element(&mut self, environment: i64, group: i64, element: Element) -> Result<usize, ApiError> {
-        self.registry.entry(element.tip)?;
-        self.registry.entry(element.target)?;
+        self.ik_pose(element.tip)?;
+        self.ik_pose(element.target)?;
         self.check_element(&element)?;
         let elements = &mut self.group(environment, group)?.elements;
         if elements.len() >= MAX_ELEMENTS {
@@ -303,7 +315,7 @@ impl SimApi<'_> {
                 found.into_iter().try_for_each(|(joint, q)| self.apply(joint, q))?;
             }
             true => {}
-            false => self.environment(environment)?.positions.extend(found),
+            false => found.into_iter().try_for_each(|(joint, q)| self.keep_position(environment, joint, q))?,
         }
         Ok(Some(outcome))
     }
@@ -381,7 +393,7 @@ impl SimApi<'_> {
         let group = self.enabled(environment, group)?;
         self.inside(environment, &group, |sim, ik_joints| {
             let outcome = sim.solve(&group, ik_joints)?;
-            Ok((outcome, ik_joints.iter().map(|m| (m.handle, sim.world.state.q[m.q_idx])).collect()))
+            Ok((outcome, ik_joints.iter().map(|m| (m.handle, sim.position_of(m))).collect()))
         })
     }
 
@@ -403,7 +415,7 @@ impl SimApi<'_> {
         group: &Group,
         act: impl FnOnce(&mut Self, &[IkJoint]) -> Result<T, ApiError>,
     ) -> Result<T, ApiError> {
-        let Environment { positions, passive, .. } = self.environment(environment)?.clone();
+        let Environment { positions, passive, own, .. } = self.environment(environment)?.clone();
         let mut ik_joints = self.ik_joints(&group.elements)?;
         ik_joints.retain(|m| !passive.contains(&m.handle));
         let before = self.world.state.q.clone();
@@ -414,18 +426,23 @@ impl SimApi<'_> {
         self.moved();
         let done = act(self, &ik_joints);
         self.world.state.q.copy_from_slice(&before);
+        self.environment(environment)?.own = own;
         self.moved();
         done
     }
 
     pub(super) fn put(&mut self, ik_joints: &[IkJoint], q: &[f64]) {
-        ik_joints.iter().zip(q).for_each(|(ik_joint, q)| self.world.state.q[ik_joint.q_idx] = *q);
+        ik_joints.iter().zip(q).for_each(|(ik_joint, q)| self.set_position_of(ik_joint, *q));
         self.moved();
     }
 
     /// A motor in position or spring mode gets it as its target while a run is on; any other joint is put there.
     pub(super) fn apply(&mut self, joint: Handle, q: f64) -> Result<(), ApiError> {
         use sincro_dynamics::actuation::MotorMode::{Position, Spring};
+        if let Some(own) = self.own_object_mut(joint).and_then(|object| object.joint.as_mut()) {
+            own.position = q;
+            return Ok(());
+        }
         let has_target = matches!(self.driving_mode(joint)?, Position | Spring);
         if self.registry.phase != Phase::Stopped && has_target {
             return self.set_target_position(joint, q);
@@ -439,7 +456,16 @@ impl SimApi<'_> {
         for element in elements {
             let mut at = Some(element.tip);
             while let Some(handle) = at.filter(|handle| Some(*handle) != element.base) {
-                at = self.registry.parent_below(handle, element.base)?;
+                at = self.ik_parent(handle, element.base)?;
+                if let Some(own) = self.own_object(handle) {
+                    let Some(joint) = own.joint.filter(|_| ik_joints.iter().all(|m| m.handle != handle)) else {
+                        continue;
+                    };
+                    let free = [f64::NEG_INFINITY, f64::INFINITY];
+                    let bounds = joint.interval.map_or(free, |[low, range]| [low, low + range]);
+                    ik_joints.push(IkJoint { handle, q_idx: None, is_sliding: joint.is_sliding, bounds });
+                    continue;
+                }
                 let Ok(joint) = self.registry.joint(handle) else { continue };
                 let is_sliding = matches!(joint.kind, JointKind::Prismatic { .. });
                 let is_turning = matches!(joint.kind, JointKind::Revolute { .. });
@@ -451,7 +477,7 @@ impl SimApi<'_> {
                     (false, [low, range]) if low.is_finite() => [low, low + range],
                     (false, _) => [f64::NEG_INFINITY, f64::INFINITY],
                 };
-                ik_joints.push(IkJoint { handle, q_idx: joint.q_idx, is_sliding, bounds });
+                ik_joints.push(IkJoint { handle, q_idx: Some(joint.q_idx), is_sliding, bounds });
             }
             if at != element.base {
                 return Err(ApiError::new("the base carries the tip of no element: it must be one of its ancestors"));
@@ -482,10 +508,10 @@ impl SimApi<'_> {
                 } else {
                     MAX_ROTATION_STEP
                 };
-                let wanted = self.world.state.q[ik_joint.q_idx] + change.clamp(-most, most);
+                let wanted = self.position_of(ik_joint) + change.clamp(-most, most);
                 let q = wanted.clamp(ik_joint.bounds[0], ik_joint.bounds[1]);
                 hit_limit |= q != wanted;
-                self.world.state.q[ik_joint.q_idx] = q;
+                self.set_position_of(ik_joint, q);
             }
             self.moved();
         }
@@ -494,8 +520,8 @@ impl SimApi<'_> {
 
     /// Poses of tip and target.
     pub(super) fn ends(&mut self, element: &Element) -> Result<[Pose<f64>; 2], ApiError> {
-        let tip = self.pose(element.tip, Reference::World)?;
-        let target = element.goal.map_or_else(|| self.pose(element.target, Reference::World), Ok)?;
+        let tip = self.ik_pose(element.tip)?;
+        let target = element.goal.map_or_else(|| self.ik_pose(element.target), Ok)?;
         Ok([tip, target])
     }
 
@@ -518,7 +544,7 @@ impl SimApi<'_> {
         let Some(base) = element.axes_of.or(element.base) else {
             return Ok(sincro_dynamics::spatial::Mat3::identity());
         };
-        Ok(self.pose(base, Reference::World)?.rot)
+        Ok(self.ik_pose(base)?.rot)
     }
 
     /// Rows of the weighted Jacobian, a column for each joint, and the weighted errors.
@@ -538,7 +564,7 @@ impl SimApi<'_> {
                     columns.push((Vec3::zero(), Vec3::zero()));
                     continue;
                 }
-                let joint = self.pose(ik_joint.handle, Reference::World)?;
+                let joint = self.ik_pose(ik_joint.handle)?;
                 let axis = joint.rot.col(2);
                 columns.push(match ik_joint.is_sliding {
                     true => (axis, Vec3::zero()),

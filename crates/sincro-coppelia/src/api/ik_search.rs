@@ -83,7 +83,7 @@ impl SimApi<'_> {
         let attempts = (seconds.max(0.0) * ATTEMPTS_PER_SECOND).clamp(1.0, MAX_ATTEMPTS) as usize;
         self.inside(environment, &group, |sim, moved| {
             let places = places(joints, moved)?;
-            let start: Vec<f64> = moved.iter().map(|m| sim.world.state.q[m.q_idx]).collect();
+            let start: Vec<f64> = moved.iter().map(|m| sim.position_of(m)).collect();
             let (mut found, mut random) = (Vec::<Vec<f64>>::new(), SplitMix64::new(SEED));
             for attempt in 0..attempts {
                 let from: Vec<f64> = match attempt {
@@ -94,7 +94,7 @@ impl SimApi<'_> {
                 if !sim.solve(&group, moved)?.is_reached {
                     continue;
                 }
-                let q: Vec<f64> = moved.iter().map(|m| sim.world.state.q[m.q_idx]).collect();
+                let q: Vec<f64> = moved.iter().map(|m| sim.position_of(m)).collect();
                 let is_same = |other: &Vec<f64>| other.iter().zip(&q).all(|(a, b)| (a - b).abs() < SAME);
                 if !found.iter().any(is_same) {
                     found.push(q);
@@ -143,7 +143,7 @@ impl SimApi<'_> {
                 if point > 0 && !sim.solve(&group, moved)?.is_reached {
                     return Ok(None);
                 }
-                path.extend(places.iter().map(|place| sim.world.state.q[moved[*place].q_idx]));
+                path.extend(places.iter().map(|place| sim.position_of(&moved[*place])));
             }
             Ok(Some(path))
         })

@@ -21,6 +21,7 @@ mod flags;
 pub mod functions;
 mod graphs;
 mod ik;
+mod ik_objects;
 mod ik_search;
 mod joint_modes;
 mod joints;

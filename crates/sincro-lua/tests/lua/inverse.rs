@@ -314,3 +314,57 @@ fn groups_and_elements_are_changed_as_in_v_rep_3() {
     assert!(said[5].contains("the group has no element with that tip"), "{said:?}");
     assert!(said[6].contains("7 is no handle of a group"), "{said:?}");
 }
+
+#[test]
+fn an_environment_has_dummies_and_joints_of_its_own() {
+    let code = "function sysCall_init()
+        simIK = require 'simIK'
+        local tip = sim.getObject('/tip')
+        local joints = { sim.getObject('/turn'), sim.getObject('/shoulder'), sim.getObject('/elbow') }
+        local before, scene_tip = sim.getJointPosition(joints[2]), sim.getObjectPosition(tip, -1)
+        local env = simIK.createEnvironment()
+        local base = simIK.createDummy(env)
+        local parent, own = base, {}
+        for i, joint in ipairs(joints) do
+            own[i] = simIK.createJoint(env, simIK.jointtype_revolute)
+            simIK.setJointMode(env, own[i], simIK.jointmode_ik)
+            simIK.setJointInterval(env, own[i], sim.getJointInterval(joint))
+            simIK.setJointPosition(env, own[i], sim.getJointPosition(joint))
+            simIK.setObjectMatrix(env, own[i], -1, sim.getObjectMatrix(joint, -1))
+            simIK.setObjectParent(env, own[i], parent, true)
+            parent = own[i]
+        end
+        local own_tip, goal = simIK.createDummy(env, 'tip of its own'), simIK.createDummy(env)
+        simIK.setObjectMatrix(env, own_tip, -1, sim.getObjectMatrix(tip, -1))
+        simIK.setObjectParent(env, own_tip, parent, true)
+        simIK.setLinkedDummy(env, own_tip, goal)
+        local group = simIK.createIkGroup(env)
+        simIK.setIkGroupCalculation(env, group, simIK.method_damped_least_squares, 0.01, 200)
+        local element = simIK.addIkElement(env, group, own_tip)
+        simIK.setIkElementBase(env, group, element, base)
+        simIK.setIkElementConstraints(env, group, element, simIK.constraint_position)
+        simIK.setObjectPose(env, goal, -1, { 0.5, 0.3, 0.4, 0, 0, 0, 1 })
+        print(simIK.handleIkGroup(env, group) == simIK.result_success)
+        local function error_of(pose) return math.abs(pose[1] - 0.5) + math.abs(pose[2] - 0.3) + math.abs(pose[3] - 0.4) end
+        print(error_of(simIK.getObjectPose(env, own_tip, -1)) < 2e-3)
+        local now = sim.getObjectPosition(tip, -1)
+        print(sim.getJointPosition(joints[2]) == before, now[1] == scene_tip[1], pcall(sim.getObjectPosition, own_tip, -1))
+        for i, joint in ipairs(joints) do sim.setJointPosition(joint, simIK.getJointPosition(env, own[i])) end
+        print(error_of(sim.getObjectPosition(tip, -1)) < 2e-3)
+        for i = 1, 3 do simIK.setJointPosition(env, own[i], 0) end
+        local q = simIK.getConfigForTipPose(env, group, own, 0.65, 1000, { 1, 1, 1, 0.1 }, '')
+        print(#q, simIK.getJointPosition(env, own[1]))
+        for i = 1, 3 do simIK.setJointPosition(env, own[i], q[i]) end
+        print(error_of(simIK.getObjectPose(env, own_tip)) < 2e-3, simIK.getObjectHandle(env, 'tip of its own') == own_tip)
+        print(simIK.getObjectParent(env, own[2]) == own[1], simIK.getTargetDummy(env, own_tip) == goal)
+        print(select(2, pcall(simIK.setObjectParent, env, base, own_tip)))
+        simIK.eraseObject(env, own_tip)
+        print(select(2, pcall(simIK.handleIkGroup, env, group)))
+        simIK.eraseEnvironment(env)
+        end";
+    let said = said(code);
+    assert_eq!(said[..2], ["true", "true"]);
+    assert!(said[2].starts_with("true\ttrue\tfalse\t") && said[2].contains("there is no object"), "{said:?}");
+    assert_eq!(said[3..7], ["true", "3\t0.0", "true\ttrue", "true\ttrue"], "{said:?}");
+    assert!(said[7].contains("cannot hang below itself") && said[8].contains("there is no object"), "{said:?}");
+}

@@ -2,8 +2,10 @@
 
 use super::objects::handles;
 use super::{Function, Outcome, done, function, one, plain};
+use crate::api::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers};
 use crate::api::ik::Element;
-use crate::api::{ApiError, Arguments, Handle, Kind, Search, SimApi, Value};
+use crate::api::{ApiError, Arguments, Handle, Kind, Pose, Search, SimApi, Value};
+use sincro_conventions::ik_objects::{IN_ONE, PRISMATIC, REVOLUTE};
 
 /// Functions of `simIK`, named without it.
 pub(super) const FUNCTIONS: &[Function] = &[
@@ -134,13 +136,38 @@ pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "createDummy",
         tip: "int dummyHandle=simIK.createDummy(int environmentHandle,string dummyName='')",
-        run: create_dummy,
+        run: |d, a| create_own(d, a, if a.has(1) { a.text(1)? } else { "" }, None),
+    },
+    Function {
+        name: "createJoint",
+        tip: "int jointHandle=simIK.createJoint(int environmentHandle,int jointType,string jointName='')",
+        run: |d, a| create_own(d, a, if a.has(2) { a.text(2)? } else { "" }, Some(a.int(1)?)),
+    },
+    Function {
+        name: "getTargetDummy",
+        tip: "int targetDummyHandle=simIK.getTargetDummy(int environmentHandle,int dummyHandle)",
+        run: |d, a| {
+            let tip = own(d, a, 1)?;
+            one(d.own_object(tip).and_then(|own| own.target).map_or(-1, i64::from))
+        },
+    },
+    Function {
+        name: "setTargetDummy",
+        tip: "simIK.setTargetDummy(int environmentHandle,int dummyHandle,int targetDummyHandle)",
+        run: set_target,
+    },
+    Function {
+        name: "addElement",
+        tip: "int elementHandle=simIK.addElement(int environmentHandle,int groupHandle,int tipDummyHandle)",
+        run: add_own,
     },
     Function {
         name: "getObjectHandle",
         tip: "int objectHandle=simIK.getObjectHandle(int environmentHandle,string objectName)",
         run: |d, a| {
-            d.environment(a.int(0)?)?;
+            if let Some(own) = d.environment(a.int(0)?)?.own.find(a.text(1)?) {
+                return one(i64::from(own));
+            }
             one(d.registry.find(a.text(1)?, Search { from: d.own, ..Search::default() })?)
         },
     },
@@ -148,17 +175,19 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "doesObjectExist",
         tip: "bool result=simIK.doesObjectExist(int environmentHandle,string objectName)",
         run: |d, a| {
-            d.environment(a.int(0)?)?;
-            one(d.registry.find(a.text(1)?, Search { from: d.own, ..Search::default() }).is_ok())
+            let is_own = d.environment(a.int(0)?)?.own.find(a.text(1)?).is_some();
+            one(is_own || d.registry.find(a.text(1)?, Search { from: d.own, ..Search::default() }).is_ok())
         },
     },
     Function {
         name: "eraseObject",
         tip: "simIK.eraseObject(int environmentHandle,int objectHandle)",
         run: |d, a| {
-            d.environment(a.int(0)?)?;
-            let own = super::handle(d, a, 1)?;
-            d.remove(own)?;
+            let object = object(d, a, 1)?;
+            match d.own_object(object) {
+                Some(_) => d.environment(a.int(0)?)?.own.erase(object.0),
+                None => d.remove(object)?,
+            }
             done()
         },
     },
@@ -198,6 +227,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |d, a| inside(d, a, "getJointInterval"),
     },
     Function {
+        name: "setJointInterval",
+        tip: "simIK.setJointInterval(int environmentHandle,int jointHandle,bool cyclic,float[2] interval={})",
+        run: set_joint_interval,
+    },
+    Function {
         name: "getJointType",
         tip: "int jointType=simIK.getJointType(int environmentHandle,int jointHandle)",
         run: |d, a| inside(d, a, "getJointType"),
@@ -216,8 +250,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "getJointMode",
         tip: "int jointMode=simIK.getJointMode(int environmentHandle,int jointHandle)",
         run: |d, a| {
-            let own = super::handle(d, a, 1)?;
-            one(if d.environment(a.int(0)?)?.passive.contains(&own) { 0 } else { MODE_IK })
+            let joint = object(d, a, 1)?;
+            one(if d.environment(a.int(0)?)?.passive.contains(&joint) { 0 } else { MODE_IK })
         },
     },
     Function {
@@ -258,6 +292,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: find_config,
     },
     Function {
+        name: "getConfigForTipPose",
+        tip: "float[] jointPositions=simIK.getConfigForTipPose(int environmentHandle,int groupHandle,int[] jointHandles,float thresholdDist=0.1,int maxIterations=1000,float[4] metric={1,1,1,0.1})",
+        run: config_for_tip_pose,
+    },
+    Function {
         name: "findConfigs",
         tip: "float[][] configs=simIK.findConfigs(int environmentHandle,int groupHandle,int[] jointHandles,map params={})",
         run: find_configs,
@@ -269,6 +308,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
+/// `simIK.constraint_pose`
+const ALL: i64 = 31;
 /// `simIK.jointmode_ik`
 const MODE_IK: i64 = 2;
 /// Configurations that one search gives at most.
@@ -304,7 +345,7 @@ fn group_flags(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn optional(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Option<Handle>, ApiError> {
     match a.int_or(k, -1)? {
         -1 => Ok(None),
-        _ => super::handle(sim, a, k).map(Some),
+        _ => object(sim, a, k).map(Some),
     }
 }
 
@@ -323,41 +364,167 @@ fn set_constraints(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     done()
 }
 
-fn create_dummy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    sim.environment(a.int(0)?)?;
-    let made = sim.registry.create_dummy("Dummy")?;
-    if a.has(1) && !a.text(1)?.is_empty() {
-        sim.registry.rename(made, a.text(1)?)?;
+/// An object of the scene, or of an environment's own.
+fn object(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Handle, ApiError> {
+    let raw = a.handle(k)?;
+    match sim.own_object(Handle(raw)) {
+        Some(_) => Ok(Handle(raw)),
+        None => plain(sim, raw),
     }
-    one(made)
+}
+
+/// An object of the environment's own.
+fn own(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Handle, ApiError> {
+    let object = object(sim, a, k)?;
+    if sim.own_object(object).is_none() {
+        let path = &sim.registry.entry(object)?.path;
+        let help =
+            "simIK.createDummy and simIK.createJoint make such; simIK.addElementFromScene takes those of the scene";
+        return Err(ApiError(format!("`{path}` is of the scene, not of the environment alone: {help}")));
+    }
+    Ok(object)
+}
+
+fn create_own(sim: &mut SimApi<'_>, a: Arguments<'_>, name: &str, joint: Option<i64>) -> Outcome {
+    let name = if !name.is_empty() {
+        name
+    } else if joint.is_some() {
+        "Joint"
+    } else {
+        "Dummy"
+    };
+    let wrong = || {
+        let types = "types are revolute 10 and prismatic 11";
+        ApiError(format!("no more than {IN_ONE} dummies and joints in an environment, and {types}"))
+    };
+    one(i64::from(sim.environment(a.int(0)?)?.own.create(name, joint).ok_or_else(wrong)?))
+}
+
+/// Links a tip to its target, also for the elements that there are.
+fn set_target(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (tip, target) = (own(sim, a, 1)?, optional(sim, a, 2)?);
+    let linked = sim.own_object_mut(tip).map(|own| own.target = target.map(|target| target.0));
+    linked.ok_or_else(|| ApiError::new("the tip is gone"))?;
+    if let Some(target) = target {
+        sim.environment(a.int(0)?)?.set_targets(tip, target);
+    }
+    done()
+}
+
+/// The base is the world, and the constraints are those of a pose, until they are set.
+fn add_own(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let tip = own(sim, a, 2)?;
+    let target = sim.own_object(tip).and_then(|own| own.target).map(Handle);
+    let target =
+        target.ok_or_else(|| ApiError::new("the tip has no target: link it with simIK.setTargetDummy before"))?;
+    one(sim.add_element(a.int(0)?, a.int(1)?, Element::new(None, tip, target, ALL))? as i64)
+}
+
+fn set_joint_interval(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let joint = own(sim, a, 1)?;
+    let interval = match a.bool_or(2, false)? {
+        true => None,
+        false => Some(a.reals::<2>(3)?),
+    };
+    if interval.is_some_and(|[low, range]| !(low.is_finite() && range >= 0.0)) {
+        return Err(ApiError(format!(
+            "interval {interval:?}, expected the smallest position and a range of 0 or more"
+        )));
+    }
+    let own = sim.own_object_mut(joint).and_then(|own| own.joint.as_mut());
+    own.ok_or_else(|| ApiError::new("a dummy has no interval"))?.interval = interval;
+    done()
+}
+
+/// Pose of an object of the environment's own, relative to another (−1: the world, −11: its parent).
+fn relative_to(sim: &mut SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Pose<f64>, ApiError> {
+    match a.int_or(k, -1)? {
+        -1 => Ok(Pose::identity()),
+        -11 => match sim.own_object(Handle(a.handle(1)?)).and_then(|own| own.parent) {
+            Some(parent) => sim.ik_pose(Handle(parent)),
+            None => Ok(Pose::identity()),
+        },
+        _ => {
+            let other = object(sim, a, k)?;
+            sim.ik_pose(other)
+        }
+    }
+}
+
+/// The functions of the scene for an object of the environment's own.
+fn of_own(sim: &mut SimApi<'_>, object: Handle, a: Arguments<'_>, name: &str) -> Outcome {
+    // (value, against) since 4.6, (against, value) before
+    let (value, against) = if matches!(a.get(2), Value::List(_)) { (2, 3) } else { (3, 2) };
+    let joint = sim.own_object(object).and_then(|own| own.joint);
+    let joint = || joint.ok_or_else(|| ApiError::new("a dummy is no joint"));
+    match name {
+        "getObjectPose" | "getObjectMatrix" => {
+            let pose = relative_to(sim, a, 2)?.inverse().compose(&sim.ik_pose(object)?);
+            let is_matrix = name == "getObjectMatrix";
+            if is_matrix { super::list(matrix_of(&pose)) } else { super::list(numbers_of_pose(&pose)) }
+        }
+        "setObjectPose" | "setObjectMatrix" => {
+            let pose = match name {
+                "setObjectMatrix" => Some(pose_of_matrix(&a.reals::<12>(value)?)),
+                _ => pose_of_numbers(a.reals::<7>(value)?),
+            };
+            let is_finite = |pose: &Pose<f64>| pose.pos.0.iter().all(|x| x.is_finite());
+            let pose = pose.filter(is_finite).ok_or_else(|| ApiError::new("the pose is none"))?;
+            let place = relative_to(sim, a, against)?.compose(&pose);
+            sim.place_own(object, &place)?;
+            done()
+        }
+        "setObjectParent" => {
+            let parent = optional(sim, a, 2)?;
+            sim.hang_own(object, parent, a.bool_or(3, true)?)?;
+            done()
+        }
+        "getObjectParent" => one(sim.own_object(object).and_then(|own| own.parent).map_or(-1, i64::from)),
+        "getJointInterval" => {
+            let interval = joint()?.interval;
+            Ok(vec![interval.is_none().into(), Value::reals(interval.unwrap_or_default())])
+        }
+        _ => one(if joint()?.is_sliding { PRISMATIC } else { REVOLUTE }),
+    }
 }
 
 /// A function of the scene, of an object whose environment it shares.
 fn inside(sim: &mut SimApi<'_>, a: Arguments<'_>, name: &str) -> Outcome {
     sim.environment(a.int(0)?)?;
+    let given = object(sim, a, 1)?;
+    if sim.own_object(given).is_some() {
+        return of_own(sim, given, a, name);
+    }
     let of_scene = function(name).expect("it is one of the scene's functions");
     (of_scene.run)(sim, Arguments(a.0.get(1..).unwrap_or_default()))
 }
 
 fn joint_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let own = super::handle(sim, a, 1)?;
+    let own = object(sim, a, 1)?;
+    if let Some(object) = sim.own_object(own) {
+        return one(object.joint.ok_or_else(|| ApiError::new("a dummy has no position"))?.position);
+    }
     let q = sim.joint_position(own)?;
     one(sim.environment(a.int(0)?)?.positions.get(&own).copied().unwrap_or(q))
 }
 
 fn set_joint_position(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, q) = (super::handle(sim, a, 1)?, a.real(2)?);
-    sim.joint_position(own)?;
+    let (joint, q) = (object(sim, a, 1)?, a.real(2)?);
+    match sim.own_object(joint) {
+        Some(own) if own.joint.is_none() => return Err(ApiError::new("a dummy has no position")),
+        Some(_) => {}
+        None => drop(sim.joint_position(joint)?),
+    }
     if !q.is_finite() {
         return Err(ApiError(format!("position {q} is not finite")));
     }
-    sim.environment(a.int(0)?)?.positions.insert(own, q);
+    sim.keep_position(a.int(0)?, joint, q)?;
     done()
 }
 
 fn set_joint_mode(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let own = super::handle(sim, a, 1)?;
-    if !matches!(sim.registry.entry(own)?.kind, Kind::Joint(Some(_))) {
+    let own = object(sim, a, 1)?;
+    if sim.own_object(own).is_none() && !matches!(sim.registry.entry(own)?.kind, Kind::Joint(Some(_))) {
         return Err(ApiError(format!("`{}` is no joint", sim.registry.entry(own)?.path)));
     }
     let passive = &mut sim.environment(a.int(0)?)?.passive;
@@ -371,10 +538,20 @@ fn set_joint_mode(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 /// Seconds stand for attempts; a threshold and a metric are not needed, since every attempt is solved to the end.
 fn find_config(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    if a.has(6) {
+    let seconds = if a.has(4) { a.real(4)? } else { 0.5 };
+    one_config(sim, a, seconds)
+}
+
+/// As `findConfig`, whose older form it is: a thousand iterations stand for a second.
+fn config_for_tip_pose(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let iterations = a.int_or(4, 1_000)?;
+    one_config(sim, a, iterations.unsigned_abs() as f64 / 1_000.0)
+}
+
+fn one_config(sim: &mut SimApi<'_>, a: Arguments<'_>, seconds: f64) -> Outcome {
+    if a.has(6) && a.get(6).as_text() != Some("") {
         return Err(ApiError::new("clients have no validation callbacks here: check what simIK.findConfigs gives"));
     }
-    let seconds = if a.has(4) { a.real(4)? } else { 0.5 };
     let found = sim.find_configurations((a.int(0)?, a.int(1)?), &handles(a, 2)?, 1, seconds)?;
     one(found.into_iter().next().map_or(Value::Nil, Value::reals))
 }
@@ -402,7 +579,7 @@ fn path(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         return Err(ApiError::new("clients have no validation callbacks here: check the points of the path"));
     }
     let n = usize::try_from(a.int(4)?).unwrap_or(0);
-    let tip = super::handle(sim, a, 3)?;
+    let tip = object(sim, a, 3)?;
     let path = sim.generate_path((a.int(0)?, a.int(1)?), &handles(a, 2)?, tip, n)?;
     one(path.map_or(Value::Nil, Value::reals))
 }
@@ -413,6 +590,8 @@ pub const CONSTANTS: &[(&str, i64)] = &[
     ("method_pseudo_inverse", 0),
     ("method_damped_least_squares", 1),
     ("method_undamped_pseudo_inverse", 3),
+    ("jointtype_revolute", REVOLUTE),
+    ("jointtype_prismatic", PRISMATIC),
     ("jointmode_passive", 0),
     ("jointmode_ik", MODE_IK),
     ("handle_world", -1),
@@ -429,7 +608,7 @@ pub const CONSTANTS: &[(&str, i64)] = &[
     ("constraint_gamma", 16),
     ("constraint_position", 7),
     ("constraint_orientation", 24),
-    ("constraint_pose", 31),
+    ("constraint_pose", ALL),
     ("result_not_performed", 0),
     ("result_success", 1),
     ("result_fail", 2),
@@ -444,6 +623,9 @@ pub(super) const OLD: &[(&str, &str)] = &[
     ("createIkGroup", "createGroup"),
     ("setIkGroupCalculation", "setGroupCalculation"),
     ("addIkElementFromScene", "addElementFromScene"),
+    ("addIkElement", "addElement"),
+    ("getLinkedDummy", "getTargetDummy"),
+    ("setLinkedDummy", "setTargetDummy"),
     ("setIkElementPrecision", "setElementPrecision"),
     ("setIkElementWeights", "setElementWeights"),
     ("handleIkGroup", "handleGroup"),
@@ -460,7 +642,6 @@ pub(super) const OLD: &[(&str, &str)] = &[
     ("getIkElementFlags", "getElementFlags"),
     ("getIkElementPrecision", "getElementPrecision"),
     ("getIkElementWeights", "getElementWeights"),
-    ("getConfigForTipPose", "findConfig"),
 ];
 
 pub(super) const NOT_WITHIN_TOLERANCE: i64 = 16;
