@@ -900,3 +900,34 @@ fn copies_of_selected_objects_are_selected() {
     assert!(session.call("sim.getShapeBB", &[copy.into()]).is_err());
     assert!(session.call("sim.getShapeBB", &[own.into()]).is_ok());
 }
+
+#[test]
+fn a_body_hung_on_a_dummy_that_was_made_goes_with_it() {
+    let mut session = open(&box_above_floor(1.0));
+    let box_ = handle(&mut session, "/box");
+    session.start().unwrap();
+    let dummies: Vec<i64> =
+        (0..2).map(|_| call(&mut session, "sim.createDummy", &[0.01.into()])[0].as_int().unwrap()).collect();
+    let [rail, hanger] = dummies[..] else { panic!() };
+    put(&mut session, rail, [1.0, 0.0, 2.0]);
+    call(&mut session, "sim.setObjectParent", &[hanger.into(), rail.into(), false.into()]);
+    call(&mut session, "sim.setObjectParent", &[box_.into(), hanger.into(), true.into()]);
+    assert_eq!(call(&mut session, "sim.getObjectChild", &[hanger.into(), 0_i64.into()]), [Value::Int(box_)]);
+    assert_eq!(call(&mut session, "sim.getObjectParent", &[box_.into()]), [Value::Int(hanger)]);
+    let before = position(&mut session, box_);
+    steps(&mut session, 3);
+    // it is carried, and goes where each of the dummies is put
+    assert_eq!(position(&mut session, box_), before);
+    put(&mut session, hanger, [1.5, 0.0, 2.0]);
+    put(&mut session, rail, [1.0, 0.25, 2.0]);
+    let now = position(&mut session, box_);
+    assert!((0..3).all(|k| (now[k] - before[k] - [0.5, 0.25, 0.0][k]).abs() < 1e-12), "{before:?} {now:?}");
+    assert_eq!(call(&mut session, "sim.getObjectType", &[hanger.into()]), [Value::Int(4)]);
+    // let go it falls; the dummies can be removed
+    call(&mut session, "sim.setObjectParent", &[box_.into(), (-1_i64).into(), true.into()]);
+    steps(&mut session, 2);
+    assert!(position(&mut session, box_)[2] < before[2]);
+    call(&mut session, "sim.removeObjects", &[Value::List(vec![(-1_i64).into(), rail.into(), hanger.into()])]);
+    assert!(session.call("sim.getObjectPosition", &[hanger.into()]).is_err());
+    assert!(session.call("sim.removeObjects", &[Value::List(vec![hanger.into()])]).is_err());
+}

@@ -410,8 +410,12 @@ pub(super) fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, ApiErro
     handles.collect::<Option<Vec<_>>>().ok_or_else(wrong)
 }
 
+/// Handles that are none are left out as long as one is of an object, as in CoppeliaSim: programs remove what may have
+/// gone already.
 fn remove_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    sim.remove_objects(&handles(a, 0)?, false)?;
+    let given = handles(a, 0)?;
+    let known: Vec<Handle> = given.iter().copied().filter(|own| sim.registry.entry(*own).is_ok()).collect();
+    sim.remove_objects(if known.is_empty() { &given } else { &known }, false)?;
     done()
 }
 

@@ -28,6 +28,7 @@ impl SimApi<'_> {
         }
         let mut edit = self.draft()?;
         self.join_parked(parent, &mut edit)?;
+        self.join_dummies(parent, &mut edit)?;
         let is_body = matches!(self.registry.entry(handle)?.kind, Kind::Body(_));
         // belts and what hangs on them are placed where the belts are put back to
         [Some(handle), parent].into_iter().flatten().try_for_each(|body| self.put_belt_back(body))?;

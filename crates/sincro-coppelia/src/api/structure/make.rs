@@ -82,6 +82,28 @@ impl SimApi<'_> {
         Ok(handle)
     }
 
+    /// A dummy that was made becomes a frame of the model by an edit, with those above it, so that what is hung on it
+    /// goes with it.
+    pub(super) fn join_dummies(&mut self, parent: Option<Handle>, edit: &mut Rebuild) -> Result<(), ApiError> {
+        let Some(handle) = parent else { return Ok(()) };
+        let entry = self.registry.entry(handle)?.clone();
+        if self.is_of_model(handle) || edit.joined.values().any(|known| *known == handle) {
+            return Ok(());
+        }
+        self.join_dummies(entry.parent, edit)?;
+        if entry.kind != Kind::Dummy {
+            return Ok(());
+        }
+        let (parent, x_wp) = self.parent_in_edit(entry.parent, edit)?;
+        let pose = x_wp.inverse().compose(&self.pose(handle, Reference::World)?);
+        let name = self.model_name(handle)?;
+        let mut keys = table([("name", name.into()), ("parent", parent.into())]);
+        keys.extend(pose_keys(&pose));
+        let path = edit.draft.add("frame", keys);
+        edit.joined.insert(path, handle);
+        Ok(())
+    }
+
     /// A joint that was made and moves nothing yet becomes part of the model by an edit, with those above it.
     pub(super) fn join_parked(&mut self, joint: Option<Handle>, edit: &mut Rebuild) -> Result<(), ApiError> {
         let Some(handle) = joint else { return Ok(()) };
