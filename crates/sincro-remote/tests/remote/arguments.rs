@@ -336,8 +336,9 @@ const STRUCTURAL: [&str; 4] = ["removeObject", "removeModel", "setObjectParent",
 pub fn arguments_for(name: &str, joint: &Value, body: &Value) -> Vec<Vec<Value>> {
     let mut all = arguments(joint, body);
     if STRUCTURAL.contains(&name) {
-        // true is the handle 1 to a function that takes one
-        let own = [joint, body, &Value::Bool(true)];
+        // true is the handle 1 to a function that takes one, and the numbers of a matrix are handles in a list
+        let matrix = &all[5][0].clone();
+        let own = [joint, body, &Value::Bool(true), matrix];
         all.retain(|list| own.iter().all(|object| !list.contains(object)));
     }
     all
