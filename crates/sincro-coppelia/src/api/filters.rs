@@ -120,7 +120,7 @@ impl SimApi<'_> {
 
     /// Reading of a vision sensor: its trigger, the statistics of its image as it was before filters, dimensionless
     /// from 0 to 1 (five minima, five maxima and five means of intensity, red, green, blue and depth), and the packets
-    /// of its script. None before its first handling in a run.
+    /// of its script. None if there is nothing to tell before its first handling.
     ///
     /// # Errors
     ///

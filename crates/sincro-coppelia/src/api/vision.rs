@@ -354,14 +354,18 @@ impl SimApi<'_> {
     }
 
     /// Statistics of the image of a vision sensor, dimensionless from 0 to 1: five minima, five maxima and five means
-    /// of intensity, red, green, blue and depth, in this order. None before its first handling in a run.
+    /// of intensity, red, green, blue and depth, in this order. None before its first handling, but at the start of
+    /// a run those of what it sees then, as proximity sensors detect what is there, unless it has explicit handling.
     ///
     /// # Errors
     ///
     /// `handle` is no object, or is no vision sensor.
     pub(super) fn vision_statistics(&mut self, handle: Handle) -> Result<Option<[f64; 15]>, ApiError> {
         let k = self.registry.vision_index(handle)?;
-        if self.registry.vision.slots[k].shows == ImageState::Nothing {
+        let slot = &self.registry.vision.slots[k];
+        let begins = self.is_running() && self.world.state.tick == 0;
+        let waits = slot.sensor.is_explicit || slot.sensor.is_external || !begins;
+        if slot.shows == ImageState::Nothing && waits {
             return Ok(None);
         }
         Ok(Some(self.vision_image(handle)?.statistics()))
