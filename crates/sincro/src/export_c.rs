@@ -46,6 +46,38 @@ pub fn export_c(loaded: &Loaded, name: &str) -> Result<Exported, Obstacle> {
     })
 }
 
+/// Parts of a loaded scene that can be compiled into straight-line programs, as batches run them; each with the reason
+/// why not. [`export_c`] leaves out programs that call functions other than sines and square roots.
+#[derive(Clone, Debug)]
+pub struct Compilable {
+    /// Whole step of the run's method.
+    pub step: Result<(), Obstacle>,
+    /// Accelerations and other rates of the mechanism, which methods with error control evaluate.
+    pub rates: Result<(), Obstacle>,
+    /// Block diagram; `None` without one.
+    pub diagram: Option<Result<(), Obstacle>>,
+}
+
+/// Finds out what of a scene can be compiled.
+///
+/// ```
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/box-push");
+/// let loaded = sincro::load(folder.as_ref(), &[]).unwrap();
+/// let obstacle = sincro::export_c::compilable(&loaded).step.unwrap_err();
+/// assert!(obstacle.to_string().starts_with("the model has contacts"));
+/// ```
+#[must_use]
+pub fn compilable(loaded: &Loaded) -> Compilable {
+    let (method, _) = method_for(loaded);
+    let (model, wiring) = (&loaded.scene.model, loaded.controller.as_ref().map(|controller| &controller.wiring));
+    let diagram = wiring.map(|wiring| {
+        sincro_compile::diagram::compile(wiring.program())?;
+        sincro_compile::diagram::measurements(wiring).map(|_| ())
+    });
+    let step = sincro_compile::plant::step(&[model], method, loaded.experiment.step).map(|_| ());
+    Compilable { step, rates: sincro_compile::plant::rates(model).map(|_| ()), diagram }
+}
+
 /// States of the run, up to where it halts.
 fn reference(loaded: &Loaded) -> Vec<ReferenceTick> {
     let (method, _) = method_for(loaded);
@@ -76,4 +108,35 @@ fn reference(loaded: &Loaded) -> Vec<ReferenceTick> {
 fn identifier(name: &str) -> String {
     let text: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if text.starts_with(|c: char| c.is_ascii_digit()) || text.is_empty() { format!("scene_{text}") } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::compilable;
+
+    #[test]
+    fn what_can_be_compiled_is_told_with_the_reason_why_not() {
+        let (control, contacts, branch) =
+            ("differ in length", "the model has contacts", "it branches on a computed number");
+        for (scene, set, step, rates) in [
+            ("double-pendulum", "rk4", None, None),
+            ("double-pendulum", "dormand-prince", Some(control), None),
+            ("two-dof-position", "implicit", None, None),
+            ("box-push", "implicit", Some(contacts), Some(contacts)),
+            ("quadrotor-hover", "rk4", Some(branch), Some(branch)),
+        ] {
+            let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(scene);
+            let set = sincro_scene::overrides::Override::new("integrator", &format!("\"{set}\""));
+            let said = compilable(&crate::load(&folder, &[set]).unwrap());
+            for (found, expected) in [(&said.step, step), (&said.rates, rates)] {
+                let why = found.as_ref().err().map(ToString::to_string);
+                let is_told = match expected {
+                    Some(words) => why.as_ref().is_some_and(|why| why.contains(words)),
+                    None => why.is_none(),
+                };
+                assert!(is_told, "{scene}: {said:?}");
+            }
+            assert_eq!(said.diagram.is_some(), scene == "two-dof-position");
+        }
+    }
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use sincro::Loaded;
+use sincro::export_c::{Compilable, compilable};
 use sincro_blocks::program::Rate;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::record::catalogue;
@@ -91,6 +92,7 @@ fn print(loaded: &Loaded) {
         experiment.record.len()
     );
     say!("  integrator {} (asked for: {})", method_word(method), experiment.integrator.word());
+    print_compilable(&compilable(loaded));
     say!(
         "  {}, {}{}",
         diagnostics::count(experiment.checks.len(), "check"),
@@ -103,6 +105,21 @@ fn print(loaded: &Loaded) {
     );
     for warning in warnings.into_iter().chain(unstable_loop(loaded)) {
         say!("warning: {warning}");
+    }
+}
+
+/// Parts of the scene that batches compile, and why not the rest.
+fn print_compilable(compilable: &Compilable) {
+    let plant = match compilable {
+        Compilable { step: Ok(()), .. } => "the steps of the mechanism".to_owned(),
+        Compilable { rates: Ok(()), step: Err(why), .. } => format!("the accelerations, not the steps: {why}"),
+        Compilable { rates: Err(why), .. } => format!("nothing of the mechanism: {why}"),
+    };
+    say!("  compilable: {plant}");
+    match &compilable.diagram {
+        Some(Ok(())) => say!("  compilable: the diagram"),
+        Some(Err(why)) => say!("  compilable: not the diagram: {why}"),
+        None => {}
     }
 }
 
