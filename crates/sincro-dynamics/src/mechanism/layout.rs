@@ -12,9 +12,11 @@ use crate::model::Model;
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
     n_v: usize,
-    /// Start of totals, of the states of elements, and the end of all.
+    /// Index of the first total.
     totals: usize,
+    /// Index of the first state of an element.
     rotor_states: usize,
+    /// Number of entries.
     dim: usize,
 }
 

@@ -137,6 +137,7 @@ impl World {
                 self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities[i];
             }
         }
+        // asked here, where it is known when compiled, not behind a call
         if system.zero_crossing_count().is_some() {
             self.handle_coupled_events(t + h, system)?;
         }
@@ -174,6 +175,7 @@ impl World {
         };
         if !self.is_constrained() && !self.has_limited_drives() {
             // no modes to decide: what is locked ends at its target velocity
+            self.kinks.clear();
             self.mark_targets(h);
             step(self);
         } else {

@@ -54,6 +54,8 @@ impl World {
     /// on it are decided together. Modes that stand are kept.
     pub(super) fn resolve_actuator_modes(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         if !self.has_limited_drives() {
+            // those of motors that were limited before a change are none any more
+            self.kinks.clear();
             self.mechanism.mark_locked();
             return;
         }
