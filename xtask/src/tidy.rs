@@ -20,6 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-motion", &[]),
     ("sincro-vision", &["sincro-math"]),
     ("sincro-values", &[]),
+    ("sincro-planning", &["sincro-math", "sincro-values"]),
     ("sincro-conventions", &["sincro-math", "sincro-geometry"]),
     (
         "sincro-dynamics",
@@ -42,6 +43,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "sincro-math",
             "sincro-motion",
+            "sincro-planning",
             "sincro-vision",
             "sincro-values",
             "sincro-conventions",
@@ -121,7 +123,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 11] = [
+const THINKING: [&str; 12] = [
     "sincro-math",
     "sincro-complementarity",
     "sincro-geometry",
@@ -130,6 +132,7 @@ const THINKING: [&str; 11] = [
     "sincro-camera",
     "sincro-aero",
     "sincro-motion",
+    "sincro-planning",
     "sincro-vision",
     "sincro-dynamics",
     "sincro-blocks",

@@ -32,3 +32,25 @@ pub fn why_absent(name: &str) -> Option<&'static str> {
 pub fn absent() -> impl Iterator<Item = &'static str> {
     all().map(|(name, _)| name)
 }
+
+/// Functions of `simVision` that are not offered, without `simVision.`, each with the reason.
+pub const VISION: &[(&str, &str)] = &[
+    ("resizeWorkImg", RESAMPLED),
+    ("rotateWorkImg", RESAMPLED),
+    ("workImgToSensorDepthMap", "depths are what a sensor measures: only its colours can be written"),
+    ("distort", SEVERAL),
+    ("handleSpherical", SEVERAL),
+    ("handleAnaglyphStereo", SEVERAL),
+    ("createVelodyneHDL64E", VELODYNE),
+    ("destroyVelodyneHDL64E", VELODYNE),
+    ("handleVelodyneHDL64E", VELODYNE),
+    ("createVelodyneVPL16", VELODYNE),
+    ("destroyVelodyneVPL16", VELODYNE),
+    ("handleVelodyneVPL16", VELODYNE),
+    ("createVelodyneROSModel", VELODYNE),
+    ("destroyVelodyneROSModel", VELODYNE),
+    ("handleVelodyneROSModel", VELODYNE),
+];
+const RESAMPLED: &str = "work images are not resampled: give the sensor another resolution, or turn it";
+const SEVERAL: &str = "pictures of several sensors are not put together: read each of them";
+const VELODYNE: &str = "four sensors are not turned into one lidar: simVision.velodyneDataFromWorkImg gives the points of each, in the world with sim.handleflag_abscoords";

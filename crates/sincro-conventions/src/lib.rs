@@ -6,6 +6,8 @@
 //! | `constants.rs`, `constants.txt` | constants of clients and scripts with their numbers |
 //! | `simulator.rs` | parameters of the simulator: numbers, names, answers that are always the same |
 //! | `ik_objects.rs` | dummies and joints of environments of `simIK` |
+//! | `ik_names.rs` | constants and older names of `simIK` |
+//! | `path_shapes.rs` | points of paths between control points |
 //! | `paths.rs` | paths of configurations |
 //! | `names.rs` | old names of functions |
 //! | `absent.rs`, `absent.txt` | functions that are not offered, and why |
@@ -13,9 +15,11 @@
 
 pub mod absent;
 pub mod constants;
+pub mod ik_names;
 pub mod ik_objects;
 pub mod names;
 pub mod object_paths;
+pub mod path_shapes;
 pub mod paths;
 pub mod poses;
 pub mod simulator;

@@ -97,3 +97,45 @@ pub fn present_name(name: &str) -> Cow<'_, str> {
     };
     IRREGULAR.iter().find(|(old, _)| *old == bare).map_or(bare, |(_, present)| (*present).into())
 }
+/// Functions that see a shape which is to be a body (`shapeintparam_static`, `shapeintparam_respondable`) as they see
+/// the body, and those that look at no objects: with them, shapes that a script makes one after the other become bodies
+/// in one compilation of the scene.
+pub const BEFORE_BODIES: &[&str] = &[
+    "addLog",
+    "addStatusbarMessage",
+    "buildMatrix",
+    "buildPose",
+    "createDummy",
+    "createMeshShape",
+    "createPrimitiveShape",
+    "createPureShape",
+    "createShape",
+    "getObjectHandle",
+    "getObject",
+    "getEngineFloatParam",
+    "getObjectAlias",
+    "getObjectMatrix",
+    "getObjectName",
+    "getObjectOrientation",
+    "getObjectPose",
+    "getObjectPosition",
+    "getObjectQuaternion",
+    "getRandom",
+    "getSimulationTime",
+    "getSimulationTimeStep",
+    "groupShapes",
+    "isHandle",
+    "setEngineFloatParam",
+    "setObjectAlias",
+    "setObjectColor",
+    "setObjectInt32Param",
+    "setObjectMatrix",
+    "setObjectName",
+    "setObjectOrientation",
+    "setObjectPose",
+    "setObjectPosition",
+    "setObjectQuaternion",
+    "setObjectSpecialProperty",
+    "setShapeColor",
+    "setShapeMass",
+];

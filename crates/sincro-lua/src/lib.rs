@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `sandbox`, `library` | the environment of a script, and the functions of Lua's libraries with limits of their own |
 //! | `guard` | the limits of a call |
-//! | `api` | the functions of `sim` and `simIK` |
+//! | `api` | the functions of `sim`, `simIK` and `simOMPL` |
 //! | `machine`, `host` | the Lua state of one script, and the scripts of a run |
 
 mod api;

@@ -25,10 +25,10 @@ pub struct DistanceResult {
 }
 
 /// A surface where it is.
-struct Part {
-    object: Handle,
+pub(super) struct Part {
+    pub object: Handle,
     geometry: Arc<Geometry>,
-    at: Pose<f64>,
+    pub at: Pose<f64>,
 }
 
 impl SimApi<'_> {
@@ -56,6 +56,7 @@ impl SimApi<'_> {
             let frame = entry.frame;
             parts.push(Part { object, geometry: point(), at: self.place(&frame) });
         }
+        parts.iter_mut().for_each(|part| self.shift(part));
         Ok(parts)
     }
 
@@ -71,7 +72,7 @@ impl SimApi<'_> {
     }
 
     /// Minimum distance of what has a flag of two entities.
-    fn distance_of(
+    pub(super) fn distance_of(
         &mut self,
         [one, two]: [Entity; 2],
         most: f64,

@@ -32,6 +32,7 @@ mod note;
 mod pairs;
 mod parameters;
 mod placing;
+mod planning;
 mod program;
 mod proximity;
 mod registry;
@@ -59,6 +60,7 @@ pub use sim_api::{Reference, SimApi};
 
 pub use sincro_conventions::{constants, poses as convention};
 pub use sincro_dynamics::spatial::{Pose, Vec3};
+pub use sincro_planning as paths;
 pub use sincro_values::stored::check_name;
 pub use sincro_values::{ApiError, Arguments, LegacyPorts, PortRequest, Signals, Value, cbor};
 use sincro_values::{radio, stored, unpack};

@@ -205,6 +205,8 @@ pub struct ObjectRegistry {
     pub(super) vision: Vision,
     /// Environments of inverse kinematics.
     pub(super) environments: Vec<Option<super::ik::Environment>>,
+    /// Tasks of path planning.
+    pub(super) planning: sincro_planning::Tasks,
     pub(super) zero: Vec<f64>,
     /// Differences from the scene.
     pub(super) changes: Vec<Change>,
@@ -352,6 +354,7 @@ impl ObjectRegistry {
             stop_requests: 0,
             vision: Vision::default(),
             environments: Vec::new(),
+            planning: sincro_planning::Tasks::default(),
             zero: vec![0.0; scene.model.n_v()],
             changes: Vec::new(),
             are_forces_spent: false,

@@ -5,6 +5,7 @@ use sincro_dynamics::kinematics::{self, Attached};
 use sincro_dynamics::spatial::{Motion, Pose, Quat};
 use sincro_dynamics::world::World;
 
+use super::planning::Shifts;
 use super::registry::{Entry, Handle, Kind, ObjectRegistry};
 use super::{ApiError, Phase, convention};
 
@@ -37,6 +38,8 @@ pub struct SimApi<'a> {
     is_located: bool,
     /// Operations of image filters on pixels, comparisons of points.
     pub(super) n_operations: u64,
+    /// Objects that are tried elsewhere; none but in a trial.
+    pub(super) shifts: Shifts,
 }
 
 /// Reference frame in which a function gives or takes the pose of an object.
@@ -56,7 +59,7 @@ pub enum Reference {
 impl<'a> SimApi<'a> {
     /// Joins a registry with the world of the same scene at the simulation time `t` `[s]`, for one call or phase.
     pub fn new(registry: &'a mut ObjectRegistry, world: &'a mut World, t: f64) -> Self {
-        Self { registry, world, t, own: None, is_located: false, n_operations: 0 }
+        Self { registry, world, t, own: None, is_located: false, n_operations: 0, shifts: Vec::new() }
     }
 
     /// Returns true if a run is on, paused or not.

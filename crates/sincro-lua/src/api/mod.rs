@@ -10,6 +10,7 @@ mod cascade;
 mod helpers;
 mod modules;
 mod moves;
+mod planning;
 mod scripts;
 mod threads;
 mod vision;

@@ -1,5 +1,5 @@
-//! Modules beside `sim`: `simIK`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`, by
-//! `require` and, but for `dkjson`, as globals; files of the scene that a script is given, by `require`.
+//! Modules beside `sim`: `simIK`, `simOMPL`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and
+//! `matrix`, by `require` and, but for `dkjson`, as globals; files of the scene that a script is given, by `require`.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
@@ -8,7 +8,7 @@ use mlua::chunk::ChunkMode;
 use mlua::{Error, Function, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::functions;
 
-use super::{ApiContext, vision};
+use super::{ApiContext, planning, vision};
 use crate::{power, sandbox};
 
 pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
@@ -16,6 +16,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let modules = lua.create_table()?;
     modules.set("sim", &context.sim)?;
     modules.set("simIK", inverse_kinematics(context)?)?;
+    modules.set("simOMPL", planning::module(context)?)?;
     modules.set("simUI", interfaces(context)?)?;
     modules.set("simVision", vision::module(context)?)?;
     modules.set("simRemoteApi", remote_api(context)?)?;
@@ -59,7 +60,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 return Ok(LuaValue::Table(module));
             }
             return Err(Error::RuntimeError(format!(
-                "there is no module '{name}': scripts have `sim`, `simIK`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
+                "there is no module '{name}': scripts have `sim`, `simIK`, `simOMPL`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
             )));
         };
         let files = || loading.lock().unwrap_or_else(PoisonError::into_inner);

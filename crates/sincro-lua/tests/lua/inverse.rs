@@ -116,7 +116,7 @@ fn what_cannot_be_reached_says_so_and_limits_hold() {
             function() simIK.handleGroup(env, 7) end, function() simIK.createGroup(9) end, function() simIK.handleGroup(env, simIK.createGroup(env)) end,
             function() simIK.addElementFromScene(env, group, -1, target, tip, 7) end, function() simIK.addElementFromScene(env, group, -1, tip, target, 16) end,
             function() simIK.setGroupCalculation(env, group, 2, 0.1, 3) end, function() simIK.handleGroup(env, group, {{ sync = true }}) end,
-            function() require 'simOMPL' end }} do
+            function() require 'simConvex' end }} do
             print(select(2, pcall(call)))
         end
     end"
@@ -133,7 +133,7 @@ fn what_cannot_be_reached_says_so_and_limits_hold() {
         "constraints 16, expected a sum of",
         "method 2: pseudo-inverse 0",
         "there is no option `sync`",
-        "there is no module 'simOMPL'",
+        "there is no module 'simConvex'",
     ];
     for (reason, text) in reasons.iter().zip(&said[4..]) {
         assert!(text.contains(reason), "{text}");

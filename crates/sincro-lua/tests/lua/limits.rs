@@ -92,7 +92,7 @@ fn nothing_outside_can_be_reached() {
         ("loadfile('b.lua')", "loadfile is not allowed"),
         ("string.dump(function() end)", "string.dump is not allowed"),
         ("load('\\27Lua', 'x', 'b')", "bytecode is not allowed"),
-        ("require 'simOMPL'", "there is no module 'simOMPL'"),
+        ("require 'simConvex'", "there is no module 'simConvex'"),
         ("require 'socket'", "there is no module 'socket'"),
         ("package.loadlib('x', 'y')", "package.loadlib is not allowed"),
         ("debug.getregistry()", "attempt to call a nil value (field 'getregistry')"),

@@ -18,6 +18,7 @@ mod parity;
 mod paths;
 mod pictures;
 mod placing;
+mod planning;
 mod propeller;
 mod senses;
 mod structure;

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime};
 
 use sincro_coppelia::api::functions::Move;
-use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions};
+use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions, paths};
 use sincro_scene::script::Kind;
 
 use super::moves::ClientMotion;
@@ -13,7 +13,7 @@ use crate::hub::{ClientId, Hub};
 use crate::limits;
 
 /// Modules of the official program that are asked for and not offered.
-const MODULES: &str = "the modules sim, simIK, simUI and simVision are offered";
+const MODULES: &str = "the modules sim, simIK, simOMPL, simUI and simVision are offered";
 /// Longest real wait of one call.
 const MAX_WAIT: f64 = 3_600.0;
 
@@ -322,12 +322,16 @@ pub(crate) fn info(module: &str) -> Result<Value, ApiError> {
     static IK: OnceLock<Value> = OnceLock::new();
     static UI: OnceLock<Value> = OnceLock::new();
     static VISION: OnceLock<Value> = OnceLock::new();
+    static PLANNING: OnceLock<Value> = OnceLock::new();
     if !is_offered(module) {
         return Err(ApiError(format!("there is no module {module}: {MODULES}")));
     }
     if module.starts_with("simIK") {
         let names = functions::ik_functions().map(|f| f.name).chain(functions::old_ik_names().map(|(old, _)| old));
         return Ok(IK.get_or_init(|| members(names, functions::ik::CONSTANTS.iter().copied())).clone());
+    }
+    if module.starts_with("simOMPL") {
+        return Ok(PLANNING.get_or_init(planning).clone());
     }
     if module.starts_with("simUI") {
         return Ok(UI.get_or_init(|| members(functions::ui_functions().map(|f| f.name), std::iter::empty())).clone());
@@ -339,6 +343,18 @@ pub(crate) fn info(module: &str) -> Result<Value, ApiError> {
     Ok(SIM.get_or_init(|| members(all(), constants::constants())).clone())
 }
 
+/// The module `simOMPL`, whose constants stand in tables.
+fn planning() -> Value {
+    let mut all = Vec::new();
+    if let Value::Map(functions) = members(functions::planning_functions().map(|f| f.name), std::iter::empty()) {
+        all = functions;
+    }
+    for (table, constants) in paths::names::tables() {
+        all.push((table.into(), members(std::iter::empty(), constants.into_iter())));
+    }
+    Value::Map(all)
+}
+
 /// A module as clients build their own from it.
 fn members<'a>(names: impl Iterator<Item = &'a str>, constants: impl Iterator<Item = (&'a str, i64)>) -> Value {
     let func = || Value::Map(vec![("func".into(), Value::Map(Vec::new()))]);
@@ -348,10 +364,10 @@ fn members<'a>(names: impl Iterator<Item = &'a str>, constants: impl Iterator<It
     Value::Map(functions.chain(constants).collect())
 }
 
-/// Returns true if a module is here: `sim`, `simIK`, `simUI` and `simVision`, with or without a version.
+/// Returns true if a module is here: `sim`, `simIK`, `simOMPL`, `simUI` and `simVision`, with or without a version.
 pub(crate) fn is_offered(module: &str) -> bool {
     let (name, version) = module.split_once('-').unwrap_or((module, "1"));
-    matches!(name, "sim" | "simIK" | "simUI" | "simVision") && version.parse() == Ok(1)
+    matches!(name, "sim" | "simIK" | "simOMPL" | "simUI" | "simVision") && version.parse() == Ok(1)
 }
 
 /// `require`

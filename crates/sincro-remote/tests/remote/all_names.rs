@@ -98,6 +98,47 @@ fn every_name_of_sim_ik_answers_any_arguments_and_what_is_absent_says_why() {
 }
 
 #[test]
+fn every_name_of_sim_ompl_answers_any_arguments_and_plans() {
+    let server = serve();
+    let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("planning"));
+    let info = client.call("zmqRemoteApi.info", &[Value::from("simOMPL")]).unwrap().remove(0);
+    let number = |table: &str, name: &str| {
+        let found = field(&info, table).and_then(|table| field(table, name)).and_then(|x| field(x, "const"));
+        found.unwrap_or_else(|| panic!("{table}.{name} in {info:?}")).clone()
+    };
+    let Value::Map(members) = &info else { panic!("{info:?}") };
+    let names: Vec<&str> =
+        members.iter().filter(|(_, m)| field(m, "func").is_some()).map(|(name, _)| &**name).collect();
+    let (tip, ball) = (client.object("/link2"), client.object("/ball"));
+    let task = client.call("simOMPL.createTask", &[Value::from("t")]).unwrap().remove(0);
+    let (low, high) = (Value::reals([-9.0, -9.0]), Value::reals([9.0, 9.0]));
+    let kind = number("StateSpaceType", "position2d");
+    let space = [Value::from("2d"), kind, ball.clone(), low, high, Value::Int(1)];
+    let space = client.call("simOMPL.createStateSpace", &space).unwrap().remove(0);
+    client.call("simOMPL.setStateSpace", &[task.clone(), Value::List(vec![space])]).unwrap();
+    client.call("simOMPL.setAlgorithm", &[task.clone(), number("Algorithm", "RRTstar")]).unwrap();
+    let pose = |client: &mut Zmq| client.call("sim.getObjectPose", std::slice::from_ref(&ball)).unwrap();
+    let before = pose(&mut client);
+    client.call("simOMPL.setGoalState", &[task.clone(), Value::reals([3.0, -2.0])]).unwrap();
+    let found =
+        client.call("simOMPL.compute", &[task.clone(), Value::Real(1.0), Value::Int(-1), Value::Int(9)]).unwrap();
+    assert_eq!(found[0], Value::Bool(true));
+    assert_eq!(found[1].as_reals().unwrap().len(), 18);
+    assert_eq!(pose(&mut client), before, "a search moves nothing");
+    let why = client.call("simOMPL.setStateValidationCallback", &[task.clone(), Value::from("f")]).unwrap_err();
+    assert!(why.contains("clients are not called back in a search"), "{why}");
+    let state = Value::reals([1e300, f64::NAN]);
+    let more = [vec![task.clone(), state.clone(), state], vec![task.clone(), Value::reals([0.1, 0.2])]];
+    for name in names.iter().filter(|name| !name.starts_with("destroy")) {
+        for args in more.iter().cloned().chain(arguments(&task, &ball)).chain(arguments(&tip, &ball)) {
+            let answer = client.exchange(&format!("simOMPL.{name}"), &args);
+            let reason = field(&answer, "err").and_then(Value::as_text).unwrap_or("it was done, and no more is said");
+            assert!(reason.len() > 15 && !reason.contains('\n'), "{name}: {reason}");
+        }
+    }
+}
+
+#[test]
 fn every_name_of_sim_vision_answers_any_arguments() {
     let server = serve();
     let mut client = Zmq::connect(server.ports().zmq.unwrap(), Some("vision"));

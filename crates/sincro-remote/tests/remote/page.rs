@@ -30,7 +30,7 @@ fn of_scripts() -> (BTreeSet<String>, BTreeSet<String>) {
                     print((type(_G[old]) == 'function' and 'both ' or 'new ') .. name)
                 end
             end
-            for _, module in ipairs { 'simIK', 'simUI', 'simVision', 'simRemoteApi', 'messagePack' } do
+            for _, module in ipairs { 'simIK', 'simOMPL', 'simUI', 'simVision', 'simRemoteApi', 'messagePack' } do
                 for name, value in pairs(require(module)) do
                     if type(value) == 'function' then print('new ' .. module .. '.' .. name) end
                 end
@@ -55,7 +55,10 @@ fn of_scripts() -> (BTreeSet<String>, BTreeSet<String>) {
 fn refused() -> Vec<(String, &'static str)> {
     let of_vision = functions::absent_vision_functions().map(|(name, why)| (format!("simVision.{name}"), why));
     let of_sim = functions::absent().map(|name| (name.to_owned(), functions::why_absent(name).unwrap()));
-    of_sim.chain(of_vision).collect()
+    // scripts have the first of these
+    let of_planning = functions::absent_planning_functions().skip(1);
+    let of_planning = of_planning.map(|(name, why)| (format!("simOMPL.{name}"), why));
+    of_sim.chain(of_vision).chain(of_planning).collect()
 }
 
 /// A row of the table: legacy, ZeroMQ, old and new Lua.
@@ -78,6 +81,7 @@ fn rows() -> BTreeMap<String, Row> {
     }
     sincro_remote::zmq::present_names().into_iter().for_each(|name| mark(name.to_owned(), 1));
     functions::ik_functions().for_each(|f| mark(format!("simIK.{}", f.name), 1));
+    functions::planning_functions().for_each(|f| mark(format!("simOMPL.{}", f.name), 1));
     functions::ui_functions().for_each(|f| mark(format!("simUI.{}", f.name), 1));
     functions::vision_functions().for_each(|f| mark(format!("simVision.{}", f.name), 1));
     let absent: BTreeSet<String> = refused().into_iter().map(|(name, _)| name).collect();

@@ -20,7 +20,7 @@ fn a_browser_steps_the_simulation_in_json_and_cbor() {
     assert!(call(r#"{"func":"sim.getObject","args":["/x"]}"#).contains(r#""success":false"#));
     assert!(call(r#"{"func":3}"#).contains("the request has no `func`"));
     assert!(call(r"{").contains("no JSON"));
-    assert!(call(r#"{"func":"wsRemoteApi.info","args":["simOMPL"]}"#).contains("no module"));
+    assert!(call(r#"{"func":"wsRemoteApi.info","args":["simConvex"]}"#).contains("no module"));
     client.send_bytes(b"\xa1\x64func\x78\x19sim.getSimulationTimeStep");
     assert_eq!(client.bytes()[0] >> 5, 5, "CBOR is answered in CBOR");
     client.send_bytes(br#"{"func":"sim.getSimulationTime"}"#);

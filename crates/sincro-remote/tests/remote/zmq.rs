@@ -172,7 +172,7 @@ fn what_could_do_harm_or_is_not_there_is_refused_with_a_reason() {
     for (name, args, expected) in [
         ("sim.executeScriptString", vec![Value::from("os.exit()")], "--grant scripts"),
         ("sim.launchExecutable", vec![Value::from("sh")], "programs and plug-ins are not started"),
-        ("zmqRemoteApi.require", vec![Value::from("simOMPL")], "there is no module simOMPL"),
+        ("zmqRemoteApi.require", vec![Value::from("simConvex")], "there is no module simConvex"),
         ("zmqRemoteApi.require", vec![Value::from("sim-2")], "there is no module sim-2"),
         ("os.execute", vec![], "No such function: os.execute"),
         ("sim.loadScene", vec![Value::from("/")], "lies outside the folder"),

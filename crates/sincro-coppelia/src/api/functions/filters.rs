@@ -7,6 +7,8 @@ use sincro_math::elementary::{atan2, sin_cos};
 use sincro_values::work::MAX_OPERATIONS;
 use sincro_vision::{ColorSpace, Moments, Sampling, WorkImage, gaussian};
 
+pub(super) use sincro_conventions::absent::VISION as ABSENT;
+
 use super::{Function, Outcome, handle};
 use crate::api::filters::WorkImages;
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value, Vec3};
@@ -234,28 +236,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: changes,
     },
 ];
-
-/// Functions of `simVision` that are not offered, with the reason.
-pub(super) const ABSENT: &[(&str, &str)] = &[
-    ("resizeWorkImg", RESAMPLED),
-    ("rotateWorkImg", RESAMPLED),
-    ("workImgToSensorDepthMap", "depths are what a sensor measures: only its colours can be written"),
-    ("distort", SEVERAL),
-    ("handleSpherical", SEVERAL),
-    ("handleAnaglyphStereo", SEVERAL),
-    ("createVelodyneHDL64E", VELODYNE),
-    ("destroyVelodyneHDL64E", VELODYNE),
-    ("handleVelodyneHDL64E", VELODYNE),
-    ("createVelodyneVPL16", VELODYNE),
-    ("destroyVelodyneVPL16", VELODYNE),
-    ("handleVelodyneVPL16", VELODYNE),
-    ("createVelodyneROSModel", VELODYNE),
-    ("destroyVelodyneROSModel", VELODYNE),
-    ("handleVelodyneROSModel", VELODYNE),
-];
-const RESAMPLED: &str = "work images are not resampled: give the sensor another resolution, or turn it";
-const SEVERAL: &str = "pictures of several sensors are not put together: read each of them";
-const VELODYNE: &str = "four sensors are not turned into one lidar: simVision.velodyneDataFromWorkImg gives the points of each, in the world with sim.handleflag_abscoords";
 
 /// Nothing triggers, nothing is found.
 fn silent() -> Outcome {

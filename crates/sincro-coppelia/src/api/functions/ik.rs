@@ -5,6 +5,9 @@ use super::{Function, Outcome, done, function, one, plain};
 use crate::api::convention::{matrix_of, numbers_of_pose, pose_of_matrix, pose_of_numbers};
 use crate::api::ik::Element;
 use crate::api::{ApiError, Arguments, Handle, Kind, Pose, Search, SimApi, Value};
+pub use sincro_conventions::ik_names::CONSTANTS;
+use sincro_conventions::ik_names::{ALL, MODE_IK};
+pub(super) use sincro_conventions::ik_names::{LIMIT_HIT, NOT_WITHIN_TOLERANCE, OLD};
 use sincro_conventions::ik_objects::{IN_ONE, PRISMATIC, REVOLUTE};
 
 /// Functions of `simIK`, named without it.
@@ -308,10 +311,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
     },
 ];
 
-/// `simIK.constraint_pose`
-const ALL: i64 = 31;
-/// `simIK.jointmode_ik`
-const MODE_IK: i64 = 2;
 /// Configurations that one search gives at most.
 const MAX_CONFIGURATIONS: usize = 100;
 
@@ -583,69 +582,6 @@ fn path(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let path = sim.generate_path((a.int(0)?, a.int(1)?), &handles(a, 2)?, tip, n)?;
     one(path.map_or(Value::Nil, Value::reals))
 }
-
-/// Constants that scripts and clients see as `simIK.NAME`: the name without `simIK.` and its value, a number without
-/// unit (a code, handle or bit mask).
-pub const CONSTANTS: &[(&str, i64)] = &[
-    ("method_pseudo_inverse", 0),
-    ("method_damped_least_squares", 1),
-    ("method_undamped_pseudo_inverse", 3),
-    ("jointtype_revolute", REVOLUTE),
-    ("jointtype_prismatic", PRISMATIC),
-    ("jointmode_passive", 0),
-    ("jointmode_ik", MODE_IK),
-    ("handle_world", -1),
-    ("handle_parent", -11),
-    ("handleflag_tipdummy", 0x0040_0000),
-    ("group_enabled", 1),
-    ("group_ignoremaxsteps", 2),
-    ("group_restoreonbadlin", 4),
-    ("group_restoreonbadang", 8),
-    ("constraint_x", 1),
-    ("constraint_y", 2),
-    ("constraint_z", 4),
-    ("constraint_alpha_beta", 8),
-    ("constraint_gamma", 16),
-    ("constraint_position", 7),
-    ("constraint_orientation", 24),
-    ("constraint_pose", ALL),
-    ("result_not_performed", 0),
-    ("result_success", 1),
-    ("result_fail", 2),
-    ("calc_notwithintolerance", NOT_WITHIN_TOLERANCE),
-    ("calc_limithit", LIMIT_HIT),
-];
-
-/// Older names.
-pub(super) const OLD: &[(&str, &str)] = &[
-    ("createIkEnvironment", "createEnvironment"),
-    ("eraseIkEnvironment", "eraseEnvironment"),
-    ("createIkGroup", "createGroup"),
-    ("setIkGroupCalculation", "setGroupCalculation"),
-    ("addIkElementFromScene", "addElementFromScene"),
-    ("addIkElement", "addElement"),
-    ("getLinkedDummy", "getTargetDummy"),
-    ("setLinkedDummy", "setTargetDummy"),
-    ("setIkElementPrecision", "setElementPrecision"),
-    ("setIkElementWeights", "setElementWeights"),
-    ("handleIkGroup", "handleGroup"),
-    ("getIkGroupHandle", "getGroupHandle"),
-    ("doesIkGroupExist", "doesGroupExist"),
-    ("getIkGroupCalculation", "getGroupCalculation"),
-    ("setIkGroupFlags", "setGroupFlags"),
-    ("getIkGroupFlags", "getGroupFlags"),
-    ("setIkElementBase", "setElementBase"),
-    ("getIkElementBase", "getElementBase"),
-    ("setIkElementConstraints", "setElementConstraints"),
-    ("getIkElementConstraints", "getElementConstraints"),
-    ("setIkElementFlags", "setElementFlags"),
-    ("getIkElementFlags", "getElementFlags"),
-    ("getIkElementPrecision", "getElementPrecision"),
-    ("getIkElementWeights", "getElementWeights"),
-];
-
-pub(super) const NOT_WITHIN_TOLERANCE: i64 = 16;
-pub(super) const LIMIT_HIT: i64 = 64;
 
 fn create(sim: &mut SimApi<'_>, _: Arguments<'_>) -> Outcome {
     one(sim.create_environment()? as i64)

@@ -25,6 +25,7 @@ mod old_windows;
 mod partly;
 mod path_objects;
 mod paths;
+mod planning;
 mod poses;
 mod properties;
 mod radio;
@@ -51,6 +52,7 @@ use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 pub(crate) use images::check_file_name;
 pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
 pub use sincro_conventions::absent::{absent, why_absent};
+use sincro_conventions::names::BEFORE_BODIES;
 pub use sincro_conventions::names::{old_names, present_name};
 use sincro_values::coercion::{coerced, parameters};
 pub use waiting::{MOVES, Move};
@@ -62,56 +64,13 @@ pub type Outcome = Result<Vec<Value>, ApiError>;
 
 /// Function of the API that is called by name, as scripts and remote clients do; adapters list them with [`functions`].
 pub struct Function {
-    /// Present name, without its module `sim.`, `simIK.`, `simUI.` or `simVision.`.
+    /// Present name, without its module `sim.`, `simIK.`, `simOMPL.`, `simUI.` or `simVision.`.
     pub name: &'static str,
     /// Signature, as call tips show it: `float position=sim.getJointPosition(int jointHandle)`.
     pub tip: &'static str,
     /// Implementation, called with the positional arguments that were given.
     pub run: fn(&mut SimApi<'_>, Arguments<'_>) -> Outcome,
 }
-
-/// Functions that see a shape which is to be a body (`shapeintparam_static`, `shapeintparam_respondable`) as they see
-/// the body, and those that look at no objects: with them, shapes that a script makes one after the other become bodies
-/// in one compilation of the scene.
-const BEFORE_BODIES: &[&str] = &[
-    "addLog",
-    "addStatusbarMessage",
-    "buildMatrix",
-    "buildPose",
-    "createDummy",
-    "createMeshShape",
-    "createPrimitiveShape",
-    "createPureShape",
-    "createShape",
-    "getObjectHandle",
-    "getObject",
-    "getEngineFloatParam",
-    "getObjectAlias",
-    "getObjectMatrix",
-    "getObjectName",
-    "getObjectOrientation",
-    "getObjectPose",
-    "getObjectPosition",
-    "getObjectQuaternion",
-    "getRandom",
-    "getSimulationTime",
-    "getSimulationTimeStep",
-    "groupShapes",
-    "isHandle",
-    "setEngineFloatParam",
-    "setObjectAlias",
-    "setObjectColor",
-    "setObjectInt32Param",
-    "setObjectMatrix",
-    "setObjectName",
-    "setObjectOrientation",
-    "setObjectPose",
-    "setObjectPosition",
-    "setObjectQuaternion",
-    "setObjectSpecialProperty",
-    "setShapeColor",
-    "setShapeMass",
-];
 
 impl Function {
     /// Calls the function. Shapes that a client or script has told to be bodies are made bodies of the model before, at
@@ -201,9 +160,20 @@ pub fn vision_functions() -> impl Iterator<Item = &'static Function> {
     filters::FUNCTIONS.iter()
 }
 
+/// Functions of the module `simOMPL` (path planning), each once; their names are without `simOMPL.`.
+pub fn planning_functions() -> impl Iterator<Item = &'static Function> {
+    planning::FUNCTIONS.iter()
+}
+
 /// Functions of `simVision` that are not offered, without `simVision.`, each with the reason.
 pub fn absent_vision_functions() -> impl Iterator<Item = (&'static str, &'static str)> {
     filters::ABSENT.iter().copied()
+}
+
+/// Functions of `simOMPL` that clients are not offered, without `simOMPL.`, each with the reason; scripts have the
+/// first.
+pub fn absent_planning_functions() -> impl Iterator<Item = (&'static str, &'static str)> {
+    sincro_planning::names::ABSENT.into_iter()
 }
 
 /// Older names of functions of `simIK`, each with its present name, both without `simIK.`.
@@ -217,8 +187,8 @@ fn ik_function(name: &str) -> Option<&'static Function> {
     ik::FUNCTIONS.iter().find(|f| f.name == present)
 }
 
-/// Finds a function by its present or an older name, with or without `sim.`; those of `simIK`, `simUI` and `simVision`
-/// only with their module. None if it is not offered.
+/// Finds a function by its present or an older name, with or without `sim.`; those of `simIK`, `simOMPL`, `simUI` and
+/// `simVision` only with their module. None if it is not offered.
 #[must_use]
 pub fn function(name: &str) -> Option<&'static Function> {
     static BY_NAME: OnceLock<BTreeMap<&'static str, &'static Function>> = OnceLock::new();
@@ -228,6 +198,9 @@ pub fn function(name: &str) -> Option<&'static Function> {
     }
     if let Some(name) = name.strip_prefix("simUI.") {
         return ui_functions().find(|f| f.name == name);
+    }
+    if let Some(name) = name.strip_prefix("simOMPL.") {
+        return planning_functions().find(|f| f.name == name);
     }
     if let Some(name) = name.strip_prefix("simVision.") {
         return vision_functions().find(|f| f.name == name);
@@ -247,9 +220,9 @@ pub fn function(name: &str) -> Option<&'static Function> {
 pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
     let function = function(name).ok_or_else(|| {
         let present = present_name(name);
-        let of_vision =
-            || name.strip_prefix("simVision.").and_then(|name| filters::ABSENT.iter().find(|f| f.0 == name));
-        if let Some((_, why)) = of_vision() {
+        let of_vision = name.strip_prefix("simVision.").and_then(|name| filters::ABSENT.iter().find(|f| f.0 == name));
+        let of_planning = || absent_planning_functions().find(|f| name.strip_prefix("simOMPL.") == Some(f.0));
+        if let Some((_, why)) = of_vision.copied().or_else(of_planning) {
             return ApiError(format!("{name} is not offered: {why}"));
         }
         if let Some(why) = why_absent(&present) {
@@ -265,7 +238,7 @@ pub fn call(sim: &mut SimApi<'_>, name: &str, arguments: &[Value]) -> Outcome {
 
 /// The module that a name belongs to.
 fn module_of(name: &str) -> &'static str {
-    ["simIK", "simUI", "simVision"]
+    ["simIK", "simOMPL", "simUI", "simVision"]
         .into_iter()
         .find(|module| name.strip_prefix(module).is_some_and(|rest| rest.starts_with('.')))
         .unwrap_or("sim")
@@ -289,7 +262,7 @@ fn handle(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Handle, ApiErr
     plain(sim, a.handle(k)?)
 }
 
-fn plain(sim: &SimApi<'_>, raw: i32) -> Result<Handle, ApiError> {
+pub(super) fn plain(sim: &SimApi<'_>, raw: i32) -> Result<Handle, ApiError> {
     let bare = if raw >= HANDLE_FLAGS { raw & (HANDLE_FLAGS - 1) } else { raw };
     if bare == -4 {
         return sim.own.ok_or_else(|| ApiError::new("sim.handle_self means the object of a script, and none calls"));

@@ -1,12 +1,13 @@
 //! Functions: paths as objects. A path is a dummy that keeps its points as data, in its own frame, as CoppeliaSim does:
 //! `PATH` and `PATHCTRLPTS` are poses of seven numbers each, packed as doubles.
 
-use sincro_dynamics::spatial::{Mat3, Pose, Vec3};
+use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::{Function, Outcome, handle, list, objects, one};
-use crate::api::convention::{euler_of, numbers_of_pose, pose_of_numbers, quaternion_of, rotation_of_euler};
+use crate::api::convention::{euler_of, numbers_of_pose, pose_of_numbers, rotation_of_euler};
 use crate::api::stored::Stored;
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
+use sincro_conventions::path_shapes::{Shape, lengths_of, sampled};
 use sincro_conventions::paths::{Curve, POSE, Path, closest};
 
 /// Data of a path: its points.
@@ -132,28 +133,6 @@ fn points_of(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Points, ApiError> {
     Ok(Points { numbers, lengths })
 }
 
-/// Lengths of a list of poses up to each: those of its positions.
-fn lengths_of(poses: &[f64]) -> Vec<f64> {
-    let positions: Vec<[f64; 3]> = poses.chunks_exact(7).map(|p| [p[0], p[1], p[2]]).collect();
-    let mut sum = 0.0;
-    let steps = positions.windows(2).map(|pair| {
-        sum += (Vec3(pair[1]) - Vec3(pair[0])).norm();
-        sum
-    });
-    [0.0].into_iter().chain(steps).collect()
-}
-
-/// Form of the points between control points.
-struct Shape {
-    is_closed: bool,
-    /// True if the orientation follows the path.
-    is_oriented: bool,
-    n: usize,
-    smoothness: f64,
-    mode: i64,
-    up: Vec3<f64>,
-}
-
 /// A path of control points of seven numbers each; of V-REP 3, which gave a number for its looks, an empty path.
 fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let is_list = matches!(a.get(0), Value::List(_));
@@ -172,76 +151,13 @@ fn create(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         }
         let up = Vec3(if a.has(5) { a.reals::<3>(5)? } else { [0.0, 0.0, 1.0] });
         let (is_closed, is_oriented) = (options & 2 != 0, options & 16 != 0);
-        points = sampled(&control, &Shape { is_closed, is_oriented, n, smoothness, mode: a.int_or(4, 0)?, up })?;
+        points = sampled(&control, &Shape { is_closed, is_oriented, n, smoothness, mode: a.int_or(4, 0)?, up })
+            .map_err(ApiError::new)?;
     }
     let own = sim.registry.create_dummy("Path")?;
     keep(sim, own, CONTROL_POINTS, &control)?;
     keep(sim, own, POINTS, &points)?;
     one(own)
-}
-
-/// Points of the path between control points.
-fn sampled(control: &[f64], shape: &Shape) -> Result<Vec<f64>, ApiError> {
-    let mut control = control.to_vec();
-    if shape.is_closed && control[..7] != control[control.len() - 7..] {
-        control.extend_from_within(..7);
-    }
-    let lengths = lengths_of(&control);
-    let curve = match shape.smoothness {
-        0.0 => Curve::Linear,
-        strength => Curve::Bezier { strength, is_open: !shape.is_closed },
-    };
-    let mut points = Path::new(&control, &lengths).map_err(ApiError::new)?.resampled(shape.n, curve, &POSE);
-    if shape.is_oriented {
-        orient(&mut points, shape);
-    }
-    Ok(points)
-}
-
-/// Turns each point along the path: by `mode` x along and y up (0), x along and z up (1), y along and x up (2), y along
-/// and z up (3), z along and x up (4), z along and y up (5).
-fn orient(points: &mut [f64], shape: &Shape) {
-    let n = points.len() / 7;
-    let position = |k: usize, points: &[f64]| Vec3([points[7 * k], points[7 * k + 1], points[7 * k + 2]]);
-    let mut last = None;
-    for k in 0..n {
-        let (before, behind) = match (k, shape.is_closed) {
-            (0, true) => (n.saturating_sub(2), 1),
-            (k, true) if k + 1 == n => (k - 1, 1),
-            (k, _) => (k.saturating_sub(1), (k + 1).min(n - 1)),
-        };
-        let along = position(behind, points) - position(before, points);
-        let rot = oriented(along, shape.up, shape.mode).or(last);
-        if let Some(rot) = rot {
-            points[7 * k + 3..7 * k + 7].copy_from_slice(&quaternion_of(&rot));
-        }
-        last = rot;
-    }
-}
-
-/// Rotation with one axis along a direction and another one as far up as that allows; none if both are the same.
-fn oriented(along: Vec3<f64>, up: Vec3<f64>, mode: i64) -> Option<Mat3<f64>> {
-    let unit = |v: Vec3<f64>| {
-        let length = v.norm();
-        (length > 1e-12).then(|| v.scale(1.0 / length))
-    };
-    let along = unit(along)?;
-    let side = unit(along.cross(up))?;
-    let up = side.cross(along);
-    let (first, second) = match mode {
-        1 => (0, 2),
-        2 => (1, 0),
-        3 => (1, 2),
-        4 => (2, 0),
-        5 => (2, 1),
-        _ => (0, 1),
-    };
-    let mut columns = [Vec3([0.0; 3]); 3];
-    (columns[first], columns[second]) = (along, up);
-    let third = 3 - first - second;
-    columns[third] = columns[(third + 1) % 3].cross(columns[(third + 2) % 3]);
-    let [x, y, z] = columns;
-    Some(Mat3([[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]))
 }
 
 /// Control points of V-REP 3: position and Euler angles, and what else each has, which is not used; bit 0 of the
