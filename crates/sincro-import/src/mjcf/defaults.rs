@@ -8,8 +8,16 @@ use super::include::Files;
 use crate::source::Element;
 
 /// Kinds of actuators share their defaults.
-const ACTUATORS: [&str; 9] =
-    ["general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle", "adhesion"];
+const ACTUATORS: [&str; 10] =
+    ["general", "motor", "position", "velocity", "intvelocity", "damper", "cylinder", "muscle", "adhesion", "dcmotor"];
+
+/// Tag of the defaults for an element with this tag, which is no equality: all kinds of tendons have one.
+fn default_tag(tag: &str) -> &str {
+    match tag {
+        "fixed" | "spatial" => "tendon",
+        own => own,
+    }
+}
 
 #[derive(Default)]
 struct Class<'d> {
@@ -56,12 +64,17 @@ impl<'d> Defaults<'d> {
         }
     }
 
-    /// The element that gives an attribute of `element`: itself, or a default of its class or of the classes above.
+    /// The element that gives an attribute of `element`, which is no equality: itself, or a default of its class or of
+    /// the classes above.
     pub fn holder(&self, element: Element<'d>, inherited: &str, attribute: &str) -> Option<Element<'d>> {
+        self.holder_by_tag(element, default_tag(element.name()), inherited, attribute)
+    }
+
+    /// As [`Self::holder`], with the tag of the defaults for `element`.
+    fn holder_by_tag(&self, element: Element<'d>, tag: &str, inherited: &str, attribute: &str) -> Option<Element<'d>> {
         if element.peek(attribute).is_some() {
             return Some(element);
         }
-        let tag = element.name();
         let fits = |e: &Element<'d>| {
             let same = e.name() == tag || (ACTUATORS.contains(&tag) && ACTUATORS.contains(&e.name()));
             same && e.peek(attribute).is_some()
@@ -111,5 +124,17 @@ impl<'d> Defaults<'d> {
     pub fn vector(&self, e: Element<'d>, class: &str, attribute: &str) -> Result<Option<[f64; 3]>, Diagnostic> {
         let Some(holder) = self.holder(e, class, attribute) else { return Ok(None) };
         holder.vector(attribute)
+    }
+
+    /// Numbers of an attribute of an equality: joints and tendons have equalities of the same name as theirs.
+    pub fn equality_numbers(&self, e: Element<'d>, attribute: &str) -> Result<Option<Vec<f64>>, Diagnostic> {
+        let Some(holder) = self.holder_by_tag(e, "equality", "main", attribute) else { return Ok(None) };
+        holder.numbers(attribute)
+    }
+
+    /// True if an equality holds from the start.
+    pub fn is_active(&self, equality: Element<'d>) -> bool {
+        let holder = self.holder_by_tag(equality, "equality", "main", "active");
+        holder.and_then(|holder| holder.attribute("active")) != Some("false")
     }
 }

@@ -4,6 +4,7 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
+use super::tendon::softness;
 use crate::findings::Findings;
 use crate::robot::{Gear, Loop, LoopKind, Placement, Robot, Softness};
 use crate::source::Element;
@@ -17,7 +18,7 @@ impl<'d> Reader<'d> {
         for element in self.files.elements(equality) {
             element.keep();
             element.attribute("name");
-            if self.defaults.text(element, "main", "active") == Some("false") {
+            if !self.defaults.is_active(element) {
                 element.drop("it is not active");
                 continue;
             }
@@ -54,7 +55,7 @@ impl<'d> Reader<'d> {
         } else {
             [self.end(e, "body1")?, self.end(e, "body2")?]
         };
-        let anchor = Placement::new(self.defaults.vector(e, "main", "anchor")?.unwrap_or_default(), [0.0; 3]);
+        let anchor = Placement::new(e.vector("anchor")?.unwrap_or_default(), [0.0; 3]);
         let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
         let point = x_wb.inverse().point(x_wa.point(Vec3(anchor.position)));
         let other = if by_sites { Placement::default() } else { Placement::new(point.0, [0.0; 3]) };
@@ -80,9 +81,9 @@ impl<'d> Reader<'d> {
             [self.end(e, "body1")?, self.end(e, "body2")?]
         };
         let [x_wa, x_wb] = ends.map(|end| robot.link_pose(end, &[]));
-        let anchor = Pose::translation(Vec3(self.defaults.vector(e, "main", "anchor")?.unwrap_or_default()));
+        let anchor = Pose::translation(Vec3(e.vector("anchor")?.unwrap_or_default()));
         // the frame on the first body that the anchor on the second is held in
-        let (first, second) = match self.defaults.numbers(e, "main", "relpose")?.as_deref() {
+        let (first, second) = match e.numbers("relpose")?.as_deref() {
             _ if by_sites => (Placement::default(), Placement::default()),
             Some(&[x, y, z, w, i, j, k]) if w * w + i * i + j * j + k * k > 0.0 => {
                 let rotation = crate::robot::Rotation::Quaternion([w, i, j, k]);
@@ -91,7 +92,7 @@ impl<'d> Reader<'d> {
             }
             _ => (Placement::of_pose(&x_wa.inverse().compose(&x_wb).compose(&anchor)), Placement::of_pose(&anchor)),
         };
-        let torque_scale = self.defaults.number(e, "main", "torquescale")?.unwrap_or(1.0);
+        let torque_scale = e.number("torquescale")?.unwrap_or(1.0);
         let softness = self.loop_softness(e, ends, robot, torque_scale)?;
         let kind = if torque_scale == 0.0 { LoopKind::Point } else { LoopKind::Weld };
         e.change(match kind {
@@ -123,9 +124,9 @@ impl<'d> Reader<'d> {
         robot: &Robot,
         torque_scale: f64,
     ) -> Result<Softness, Diagnostic> {
-        let impedance = self.defaults.numbers(e, "main", "solimp")?.and_then(|d| d.get(1).copied());
+        let impedance = self.defaults.equality_numbers(e, "solimp")?.and_then(|d| d.get(1).copied());
         let apparent = 1.0 / (1.0 - impedance.unwrap_or(IMPEDANCE).clamp(1e-4, 0.9999));
-        let (stiffness, damping) = self.softness(e, "solref", apparent)?;
+        let (stiffness, damping) = softness(self.defaults.equality_numbers(e, "solref")?, apparent);
         let carrier = |site: usize| robot.joints.iter().find(|joint| joint.child == site)?.parent;
         let is_site = |link: usize| self.sites.values().any(|site| *site == link);
         let bodies = ends.map(|end| end.and_then(|link| if is_site(link) { carrier(link) } else { Some(link) }));
@@ -146,7 +147,7 @@ impl<'d> Reader<'d> {
             found.map(Some).ok_or_else(|| e.error(format!("there is no joint `{name}`")))
         };
         let (first, second) = (find("joint1")?, find("joint2")?);
-        let c = self.defaults.numbers(e, "main", "polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
+        let c = e.numbers("polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
         let get = |k: usize| c.get(k).copied().unwrap_or(if k == 1 { 1.0 } else { 0.0 });
         let (Some(first), Some(second)) = (first, second) else {
             return Err(e.error("a joint that is held at a position has no counterpart").with_help("remove the joint"));

@@ -32,6 +32,17 @@ pub(super) struct KnownTendon {
     pub range: Option<[f64; 2]>,
 }
 
+/// Stiffness and damping of a soft constraint with a mass `[kg]`, from the numbers of its `solref`.
+pub(super) fn softness(solref: Option<Vec<f64>>, mass: f64) -> (f64, f64) {
+    let given = solref.unwrap_or_default();
+    let [one, two] = [0, 1].map(|k| given.get(k).copied().unwrap_or(SOLREF[k]));
+    if one <= 0.0 && two <= 0.0 {
+        return (-mass * one, -mass * two);
+    }
+    let [time, ratio] = [one.max(1e-6), two.max(1e-3)];
+    (mass / (time * time * ratio * ratio), 2.0 * mass / time)
+}
+
 impl<'d> Reader<'d> {
     /// All tendons. One without force only measures, and is kept for actuators on it.
     pub(super) fn tendons(&mut self, tendons: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
@@ -108,7 +119,7 @@ impl<'d> Reader<'d> {
                 if let Some([low, high]) = self.tendon_range(e)? {
                     match tendon_mass(robot, path) {
                         Some(mass) => {
-                            let (stiffness, damping) = self.softness(e, "solreflimit", mass)?;
+                            let (stiffness, damping) = softness(self.defaults.numbers(e, "main", "solreflimit")?, mass);
                             let range = [low - known.offset, high - known.offset];
                             tendon.limits = Some(TendonLimits { range, stiffness, damping });
                             e.change(&format!("stops with the stiffness and damping of {mass:.4} kg along it"));
@@ -153,17 +164,6 @@ impl<'d> Reader<'d> {
             return Err(e.error(format!("`{key}` of a tendon is a polynomial, which has no counterpart")));
         }
         Ok(numbers.first().copied().unwrap_or(0.0))
-    }
-
-    /// Stiffness and damping of a soft constraint with a mass `[kg]`.
-    pub(super) fn softness(&self, e: Element<'d>, key: &str, mass: f64) -> Result<(f64, f64), Diagnostic> {
-        let given = self.defaults.numbers(e, "main", key)?.unwrap_or_default();
-        let [one, two] = [0, 1].map(|k| given.get(k).copied().unwrap_or(SOLREF[k]));
-        if one <= 0.0 && two <= 0.0 {
-            return Ok((-mass * one, -mass * two));
-        }
-        let [time, ratio] = [one.max(1e-6), two.max(1e-3)];
-        Ok((mass / (time * time * ratio * ratio), 2.0 * mass / time))
     }
 
     /// Path of a tendon, and its lengths.
@@ -226,10 +226,8 @@ impl<'d> Reader<'d> {
 
     /// Names of the tendons whose length equalities hold.
     pub(super) fn held_names(&self, equality: Element<'d>) -> Vec<String> {
-        let holds = |e: &Element<'d>| {
-            let is_active = self.defaults.text(*e, "main", "active") != Some("false");
-            e.name() == "tendon" && e.peek("tendon2").is_none() && is_active
-        };
+        let holds =
+            |e: &Element<'d>| e.name() == "tendon" && e.peek("tendon2").is_none() && self.defaults.is_active(*e);
         let held = self.files.elements(equality).into_iter().filter(holds);
         held.filter_map(|e| e.peek("tendon1").map(str::to_owned)).collect()
     }
@@ -242,7 +240,7 @@ impl<'d> Reader<'d> {
         robot: &mut Robot,
         findings: &mut Findings,
     ) -> Result<(), Diagnostic> {
-        let c = self.defaults.numbers(e, "main", "polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
+        let c = e.numbers("polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
         let get = |k: usize| c.get(k).copied().unwrap_or(if k == 1 { 1.0 } else { 0.0 });
         let Some(first) = self.tendon_of(e, "tendon1")? else { return Err(e.error("it names no tendon")) };
         let second = self.tendon_of(e, "tendon2")?;
@@ -291,7 +289,7 @@ impl<'d> Reader<'d> {
             e.drop("it moves nothing");
             return Ok(());
         };
-        let (stiffness, damping) = self.softness(e, "solref", mass)?;
+        let (stiffness, damping) = softness(self.defaults.equality_numbers(e, "solref")?, mass);
         e.change(&format!("a stiff [[tendon]], with the stiffness and damping of {mass:.4} kg along it"));
         let name = if robot.tendons.iter().any(|t| t.name == name) { format!("{name}-held") } else { name };
         robot.tendons.push(Tendon {

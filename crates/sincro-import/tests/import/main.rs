@@ -2,6 +2,7 @@
 
 mod actuation;
 mod bad_input;
+mod defaults;
 mod export;
 mod folder;
 mod mjcf;
