@@ -169,8 +169,12 @@ pub(crate) fn read<'d>(
     if reader.settings.total_mass > 0.0 {
         scale_mass(&mut robot, reader.settings.total_mass);
     }
-    reader.tune(&mut robot);
     reader.held = all("equality").into_iter().flat_map(|equality| reader.held_names(equality)).collect();
+    // springs that are tuned, stops and damping ratios follow from masses with the armatures of tendons
+    for tendon in all("tendon") {
+        reader.joint_properties(tendon, &mut robot, findings);
+    }
+    reader.tune(&mut robot);
     for tendon in all("tendon") {
         tendon.keep();
         reader.tendons(tendon, &mut robot, findings);

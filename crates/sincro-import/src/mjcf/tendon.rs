@@ -44,13 +44,18 @@ pub(super) fn softness(solref: Option<Vec<f64>>, mass: f64) -> (f64, f64) {
 }
 
 impl<'d> Reader<'d> {
+    /// Friction and armature of all tendons of one joint, which are those of the joint.
+    pub(super) fn joint_properties(&self, tendons: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
+        for element in self.files.elements(tendons) {
+            for key in ["frictionloss", "armature"] {
+                let done = self.joint_property(element, key, robot);
+                findings.take(done);
+            }
+        }
+    }
+
     /// All tendons. One without force only measures, and is kept for actuators on it.
     pub(super) fn tendons(&mut self, tendons: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
-        // masses along the tendons have their armatures
-        for element in self.files.elements(tendons) {
-            let done = self.joint_properties(element, robot);
-            findings.take(done);
-        }
         for element in self.files.elements(tendons) {
             element.keep();
             let made = self.tendon(element, robot, findings);
@@ -58,33 +63,33 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// Friction and armature of a tendon of one joint, which are those of the joint.
-    fn joint_properties(&self, e: Element<'d>, robot: &mut Robot) -> Result<(), Diagnostic> {
-        for key in ["frictionloss", "armature"] {
-            let Some(x) = self.defaults.number(e, "main", key)?.filter(|x| *x != 0.0) else { continue };
-            if x < 0.0 {
-                return Err(e.error(format!("`{key}` of a tendon is negative")));
-            }
-            if key == "frictionloss" && e.peek("name").is_some_and(|name| self.held.contains(name)) {
-                e.change("its `frictionloss` is left out: an equality holds its length");
-                continue;
-            }
-            let Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), .. }) = self.known_tendon(e, robot) else {
-                return Err(e.error(format!("`{key}` of a tendon through sites has no counterpart")));
-            };
-            let &[(joint, coefficient)] = &shares[..] else {
-                return Err(e
-                    .error(format!("`{key}` of a tendon of several joints has no counterpart"))
-                    .with_help("of a tendon of one joint it has: that of the joint"));
-            };
-            let joint = &mut robot.joints[joint];
-            let (list, own) = match key {
-                "armature" => (&mut joint.armature, x * coefficient * coefficient),
-                _ => (&mut joint.friction, x * coefficient.abs()),
-            };
-            *list = vec![list.first().copied().unwrap_or(0.0) + own];
-            e.change(&format!("its `{key}` is that of joint `{}`, by {own}", joint.name));
+    /// Friction or armature of a tendon.
+    fn joint_property(&self, e: Element<'d>, key: &str, robot: &mut Robot) -> Result<(), Diagnostic> {
+        let Some(x) = self.defaults.number(e, "main", key)?.filter(|x| *x != 0.0) else { return Ok(()) };
+        if x < 0.0 {
+            return Err(e.error(format!("`{key}` of a tendon is negative")));
         }
+        if key == "frictionloss" && e.peek("name").is_some_and(|name| self.held.contains(name)) {
+            e.change("its `frictionloss` is left out: an equality holds its length");
+            return Ok(());
+        }
+        // a tendon that is none is an error of its own, which `tendons` finds
+        let Ok(known) = self.known_tendon(e, robot) else { return Ok(()) };
+        let Ok(TendonPath::Joints(shares)) = known.path else {
+            return Err(e.error(format!("`{key}` of a tendon through sites has no counterpart")));
+        };
+        let &[(joint, coefficient)] = &shares[..] else {
+            return Err(e
+                .error(format!("`{key}` of a tendon of several joints has no counterpart"))
+                .with_help("of a tendon of one joint it has: that of the joint"));
+        };
+        let joint = &mut robot.joints[joint];
+        let (list, own) = match key {
+            "armature" => (&mut joint.armature, x * coefficient * coefficient),
+            _ => (&mut joint.friction, x * coefficient.abs()),
+        };
+        *list = vec![list.first().copied().unwrap_or(0.0) + own];
+        e.change(&format!("its `{key}` is that of joint `{}`, by {own}", joint.name));
         Ok(())
     }
 
@@ -175,23 +180,7 @@ impl<'d> Reader<'d> {
             _ => None,
         };
         if e.name() == "fixed" {
-            let mut shares: Vec<(usize, f64)> = Vec::new();
-            let mut offset = 0.0;
-            for part in parts {
-                let name = part.attribute("joint").unwrap_or_default();
-                let Some(&joint) = self.joints.get(name) else {
-                    return Err(part.error(format!("there is no joint `{name}`")));
-                };
-                if robot.joints[joint].kind.dofs() != 1 {
-                    return Err(part.error(format!("joint `{name}` has not one degree of freedom")));
-                }
-                let coefficient = part.number("coef")?.unwrap_or(0.0);
-                offset += coefficient * self.references[joint];
-                match shares.iter_mut().find(|(known, _)| *known == joint) {
-                    Some((_, sum)) => *sum += coefficient,
-                    None => shares.push((joint, coefficient)),
-                }
-            }
+            let (shares, offset) = self.shares(e, &parts, robot)?;
             return Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), offset, reference: offset, range });
         }
         let mut through = Vec::new();
@@ -217,6 +206,38 @@ impl<'d> Reader<'d> {
         let reference = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
         let path = reason.map_or_else(|| Ok(TendonPath::Through(through)), Err);
         Ok(KnownTendon { path, offset: 0.0, reference, range })
+    }
+
+    /// Joints of a fixed tendon with their coefficients, and its length at their references.
+    fn shares(
+        &self,
+        tendon: Element<'d>,
+        parts: &[Element<'d>],
+        robot: &Robot,
+    ) -> Result<(Vec<(usize, f64)>, f64), Diagnostic> {
+        let mut shares: Vec<(usize, f64)> = Vec::new();
+        let mut offset = 0.0;
+        for part in parts {
+            let name = part.attribute("joint").unwrap_or_default();
+            let Some(&joint) = self.joints.get(name) else {
+                return Err(part.error(format!("there is no joint `{name}`")));
+            };
+            if robot.joints[joint].kind.dofs() != 1 {
+                return Err(part.error(format!("joint `{name}` has not one degree of freedom")));
+            }
+            if shares.iter().any(|(known, _)| *known == joint) {
+                return Err(part
+                    .error(format!("joint `{name}` stands twice in a tendon"))
+                    .with_help("give it once, with the sum of the coefficients"));
+            }
+            let coefficient = part.number("coef")?.unwrap_or(0.0);
+            offset += coefficient * self.references[joint];
+            shares.push((joint, coefficient));
+        }
+        if shares.is_empty() {
+            return Err(tendon.error("a fixed tendon has no joint").with_help("give it one, or remove it"));
+        }
+        Ok((shares, offset))
     }
 
     pub(super) fn tendon_of(&self, e: Element<'d>, key: &str) -> Result<Option<&KnownTendon>, Diagnostic> {

@@ -296,6 +296,38 @@ fn friction_and_armature_of_a_tendon_of_one_joint_are_those_of_the_joint() {
     }
 }
 
+/// MuJoCo's `jnt_stiffness` and `dof_damping`.
+#[test]
+fn springs_that_are_tuned_have_the_armatures_of_tendons() {
+    let text = r#"<mujoco><worldbody><body name="b"><joint name="j" axis="0 0 1" springdamper="0.1 1"/>
+<geom size="0.1" mass="2" pos="0.3 0 0"/><body name="c" pos="1 0 0.2"><joint name="k" axis="0 0.3 1" ref="30"/>
+<geom type="box" size="0.1 0.2 0.3" mass="1" pos="0.2 0.1 0"/></body></body></worldbody>
+<tendon><fixed armature="2"><joint joint="j" coef="1"/></fixed></tendon></mujoco>"#;
+    let folder = Folder::new();
+    let imported = folder.import("m.xml", text).unwrap_or_else(|found| panic!("{found}"));
+    let dof = folder.open(&imported).scene.model.dofs()[0];
+    let close = |found: f64, wanted: f64| (found - wanted).abs() < 1e-12 * wanted;
+    assert!(
+        close(dof.stiffness, 268.408_735_213_830_65) && close(dof.damping, 53.681_747_042_766_14),
+        "{} {}",
+        dof.stiffness,
+        dof.damping
+    );
+}
+
+#[test]
+fn tendons_that_are_none_are_told_once_with_the_reason() {
+    for (parts, words) in [
+        ("", "a fixed tendon has no joint"),
+        (r#"<joint joint="x" coef="1"/>"#, "there is no joint `x`"),
+        (r#"<joint joint="j0" coef="1"/><joint joint="j0" coef="2"/>"#, "joint `j0` stands twice"),
+    ] {
+        let tendon = format!(r#"<fixed name="f" armature="1" frictionloss="1">{parts}</fixed></tendon>"#);
+        let why = refused(&actuated("").replace("</tendon>", &tendon));
+        assert!(why.matches("error").count() == 1 && why.contains(words) && why.contains("m.xml:2:"), "{why}");
+    }
+}
+
 #[test]
 fn keyframes_have_commands_and_activations() {
     let keys = r#"<keyframe><key name="k" qpos="0.1 0.2 0.3" ctrl="0.5 2 -1 0.25" act="0.75 -3 0.5"/>
