@@ -5,6 +5,9 @@ use crate::findings::Findings;
 use crate::robot::{Actuator, JointKind, Keyframe, Placement, Robot, Sensor, SensorKind};
 use crate::source::Element;
 
+/// Norm below which a quaternion has no direction; MuJoCo's `mjMINVAL`.
+const LEAST_NORM: f64 = 1e-15;
+
 impl<'d> Reader<'d> {
     /// Accelerometers and gyros of a site are one inertial measurement unit.
     pub(super) fn sensors(&self, sensors: Element<'d>, robot: &mut Robot) {
@@ -42,11 +45,11 @@ impl<'d> Reader<'d> {
             else {
                 continue;
             };
-            let Some(positions) = self.positions_of(q.as_deref(), robot) else {
+            let Some(mut positions) = self.positions_of(q.as_deref(), robot) else {
                 key.drop("the number of its coordinates is not that of the model");
                 continue;
             };
-            key.change("a variant of the experiment");
+            positions.iter_mut().for_each(|(_, own)| without_zero_rotation(key, own));
             robot.keyframes.push(Keyframe {
                 name,
                 element: key.id(),
@@ -127,5 +130,15 @@ impl<'d> Reader<'d> {
             }
         }
         activations
+    }
+}
+
+/// Makes a quaternion of zeros in the coordinates of a joint that of no rotation.
+fn without_zero_rotation(key: Element<'_>, coordinates: &mut [f64]) {
+    let Some(first) = coordinates.len().checked_sub(4) else { return };
+    let quaternion = &mut coordinates[first..];
+    if quaternion.iter().map(|x| x * x).sum::<f64>().sqrt() < LEAST_NORM {
+        quaternion.copy_from_slice(&[1.0, 0.0, 0.0, 0.0]);
+        key.change("a quaternion of zeros is no rotation, as in MuJoCo");
     }
 }

@@ -40,34 +40,33 @@ pub(super) fn text(writer: &Writer<'_>) -> String {
     let mut used = std::collections::BTreeSet::new();
     for keyframe in &robot.keyframes {
         let name = crate::number::name(&keyframe.name);
-        let coordinates = match coordinates(writer, keyframe) {
-            Ok(coordinates) => coordinates,
-            Err(why) => {
-                writer.context.ledger.judge_place(keyframe.element, ElementStatus::Dropped, &why);
-                continue;
+        let judge = |status, words: &str| writer.context.ledger.judge_place(keyframe.element, status, words);
+        match settings(writer, keyframe) {
+            Err(why) => judge(ElementStatus::Dropped, &why),
+            Ok(settings) if settings.is_empty() => judge(ElementStatus::Dropped, "it sets nothing that is here"),
+            Ok(_) if !used.insert(name.clone()) => judge(ElementStatus::Dropped, "there is a variant of that name"),
+            Ok(settings) => {
+                judge(ElementStatus::Changed, "a variant of the experiment");
+                line(String::new());
+                line("[[variant]]".into());
+                line(format!("name = {}", quoted(&name)));
+                line("[variant.set]".into());
+                settings.into_iter().for_each(&mut line);
             }
-        };
-        let settings = coordinates.iter().filter_map(|(joint, q)| {
-            let path = writer.joint_paths[*joint].as_ref()?;
-            let value = if let [x] = q[..] { number(x) } else { list(q) };
-            Some(format!("{} = {value}", quoted(&format!("{path}.initial.position"))))
-        });
-        let settings: Vec<String> = settings.chain(actuation(writer, keyframe)).collect();
-        if settings.is_empty() || !used.insert(name.clone()) {
-            writer.context.ledger.judge_place(
-                keyframe.element,
-                ElementStatus::Dropped,
-                "there is one of that name, or it is empty",
-            );
-            continue;
         }
-        line(String::new());
-        line("[[variant]]".into());
-        line(format!("name = {}", quoted(&name)));
-        line("[variant.set]".into());
-        settings.into_iter().for_each(&mut line);
     }
     out
+}
+
+/// Lines of a variant for a keyframe; the reason if a run cannot start there.
+fn settings(writer: &Writer<'_>, keyframe: &Keyframe) -> Result<Vec<String>, String> {
+    let coordinates = coordinates(writer, keyframe)?;
+    let positions = coordinates.iter().filter_map(|(joint, q)| {
+        let path = writer.joint_paths[*joint].as_ref()?;
+        let value = if let [x] = q[..] { number(x) } else { list(q) };
+        Some(format!("{} = {value}", quoted(&format!("{path}.initial.position"))))
+    });
+    Ok(positions.chain(actuation(writer, keyframe)).collect())
 }
 
 /// Commands and activations of a keyframe.

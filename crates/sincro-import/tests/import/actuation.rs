@@ -356,7 +356,24 @@ fn keyframes_have_commands_and_activations() {
         assert!(words.contains(part), "{words}");
     }
     assert!(entry(&imported, "key[few]").words.contains("`act` has 1 numbers, not 3"));
-    assert!(entry(&imported, "key[none]").words.contains("empty"), "{}", entry(&imported, "key[none]").words);
+    assert_eq!(entry(&imported, "key[none]").words, "it sets nothing that is here");
+}
+
+/// MuJoCo has the rotations of the joints as none.
+#[test]
+fn a_quaternion_of_zeros_in_a_keyframe_is_no_rotation() {
+    let text = r#"<mujoco><worldbody><body name="b"><freejoint name="f"/><geom size="0.1" mass="2"/>
+<body name="c" pos="0 0 1"><joint name="ball" type="ball"/><geom size="0.1" mass="1" pos="0.2 0 0"/></body></body></worldbody>
+<keyframe><key name="zero" qpos="0 0 1 0 0 0 0 0 0 0 0"/><key name="half" qpos="0 0 1 2 0 0 0 0 3 0 0"/></keyframe></mujoco>"#;
+    let folder = Folder::new();
+    let imported = folder.import("m.xml", text).unwrap_or_else(|found| panic!("{found}"));
+    let variants = folder.open(&imported).experiment.variants;
+    let zero = with_settings(&folder, &imported, &variants[0].set).initial.q;
+    assert_eq!(zero, [0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    let half = with_settings(&folder, &imported, &variants[1].set).initial.q;
+    assert_eq!(half[7..], [0.0, 1.0, 0.0, 0.0]);
+    assert!(entry(&imported, "key[zero]").words.contains("a quaternion of zeros is no rotation"));
+    assert!(!entry(&imported, "key[half]").words.contains("zeros"));
 }
 
 /// The scene of an import with settings of a variant.
