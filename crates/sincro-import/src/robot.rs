@@ -450,6 +450,8 @@ pub(crate) struct Tendon {
     pub limits: Option<TendonLimits>,
     /// Largest force of its actuator, infinite for none; none without actuator `[N]`.
     pub actuator: Option<f64>,
+    /// Command of its actuator at the start `[N]`, or its rate for an activation that integrates `[N/s]`.
+    pub command: f64,
     /// Activation of its actuator `[N]`.
     pub activation: Option<Activation>,
 }

@@ -1,14 +1,14 @@
-//! Actuators: on joints gain and bias become a torque motor or a spring-damper motor, on tendons a tendon with an
-//! actuator, on sites a force that is commanded. Activations of first order are those of motors and tendons.
+//! Actuators: on joints gain and bias become a torque motor, a spring-damper motor, or a tendon of the joint with a
+//! damper and an actuator, on tendons a tendon with an actuator, on sites a force that is commanded. Activations of
+//! first order are those of motors and tendons.
 
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::law::{Law, Target};
-use crate::export::UNLIMITED;
+use super::law::{Law, Transmission};
 use crate::findings::Findings;
 use crate::number::list;
-use crate::robot::{Actuator, CommandedForce, Motor, MotorLaw, Robot, Tendon, TendonPath};
+use crate::robot::{Activation, Actuator, CommandedForce, Motor, MotorLaw, Robot, Tendon, TendonPath};
 use crate::source::Element;
 
 /// Part of the robot that an actuator becomes.
@@ -18,21 +18,42 @@ enum Made {
     Force(CommandedForce),
 }
 
-/// Unit of a command: `scale` times the control, or the activation, plus `offset`; the rate of an integrator has none.
+/// Unit of commands and activations: `scale` times the control, or the activation, plus `offset`.
 #[derive(Clone, Copy)]
 pub(super) struct Unit {
     pub scale: f64,
     pub offset: f64,
+    /// True for a command that is a rate, that of an integrator: it has no offset.
+    is_rate: bool,
+    /// Range that the control is clamped to.
+    range: Option<[f64; 2]>,
+}
+
+impl Unit {
+    fn new(law: &Law, scale: f64, offset: f64) -> Self {
+        let is_rate = law.activation.is_some_and(|own| own.time_constant.is_none());
+        Self { scale, offset, is_rate, range: law.control }
+    }
+
+    /// A control as it acts: the end of its range that is nearest, or the control within it.
+    pub fn clamped(&self, control: f64) -> f64 {
+        self.range.map_or(control, |[low, high]| control.max(low).min(high))
+    }
+
+    /// Command of a control.
+    pub fn command(&self, control: f64) -> f64 {
+        self.scale * self.clamped(control) + if self.is_rate { 0.0 } else { self.offset }
+    }
 }
 
 /// An actuator as keyframes refer to it.
 pub(super) struct KnownActuator {
     /// The actuator in the robot; none if it is left out or a force.
     pub made: Option<(Actuator, Unit)>,
-    /// True if MuJoCo has an activation of it.
-    pub is_activated: bool,
+    /// Number of activations that MuJoCo has of it.
+    pub n_activations: usize,
     /// Activation in the robot, in the unit of its command.
-    pub activation: Option<crate::robot::Activation>,
+    pub activation: Option<Activation>,
 }
 
 impl<'d> Reader<'d> {
@@ -45,7 +66,7 @@ impl<'d> Reader<'d> {
             }
             element.keep();
             element.attribute("name");
-            let mut known = KnownActuator { made: None, is_activated: self.is_activated(element), activation: None };
+            let mut known = KnownActuator { made: None, n_activations: self.n_activations(element), activation: None };
             match findings.take(self.actuator(element, robot)) {
                 Some(Ok(Made::Motor(motor, unit))) => {
                     (known.made, known.activation) = (Some((Actuator::Motor(motor.joint), unit)), motor.activation);
@@ -68,89 +89,144 @@ impl<'d> Reader<'d> {
     }
 
     fn actuator(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
-        let d = &self.defaults;
         if e.peek("tendon").is_some() {
-            let gear = d.number(e, "main", "gear")?.unwrap_or(1.0);
-            let known = self.tendon_of(e, "tendon")?;
-            let path = known.and_then(|tendon| tendon.path.clone().ok());
-            let target = Target { range: known.and_then(|tendon| tendon.range), name: "its tendon", path, gear };
-            return Ok(match self.law(e, target, robot)? {
-                Ok(law) => {
-                    let (force, control) = self.force_limits(e, &law, gear, true)?;
-                    let unit = Unit { scale: law.gain * gear, offset: 0.0 };
-                    let made = self.tendon_actuator(e, (&law, gear), (force, control))?;
-                    made.map(|tendon| Made::Tendon(tendon, unit))
-                }
-                Err(why) => Err(why),
-            });
-        }
-        if e.peek("site").is_some() {
-            return self.on_site(e, robot);
-        }
-        let Some(name) = e.attribute("joint").or_else(|| e.attribute("jointinparent")) else {
+            self.on_tendon(e, robot)
+        } else if e.peek("site").is_some() {
+            self.on_site(e, robot)
+        } else if let Some(name) = e.attribute("joint").or_else(|| e.attribute("jointinparent")) {
+            self.on_joint(e, name, robot)
+        } else {
             let on = ["body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
-            return Ok(Err(format!(
-                "it acts on a {}, and motors here act on joints",
-                on.unwrap_or("thing without name")
-            )));
+            Ok(Err(format!("it acts on a {}, and motors here act on joints", on.unwrap_or("thing without name"))))
+        }
+    }
+
+    fn gear(&self, e: Element<'d>) -> Result<f64, Diagnostic> {
+        Ok(self.defaults.number(e, "main", "gear")?.unwrap_or(1.0))
+    }
+
+    fn on_tendon(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
+        let Some(known) = self.tendon_of(e, "tendon")? else { return Ok(Err("it names no tendon".into())) };
+        let transmission = Transmission {
+            range: known.range,
+            called: "its tendon".into(),
+            path: known.path.clone(),
+            offset: known.offset,
+            gear: self.gear(e)?,
         };
+        let law = match self.law(e, &transmission, robot)? {
+            Ok(law) => law,
+            Err(why) => return Ok(Err(why)),
+        };
+        self.along(e, &law, &transmission)
+    }
+
+    fn on_joint(&self, e: Element<'d>, name: &str, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
         let Some(&joint) = self.joints.get(name) else {
             return Err(e.error(format!("there is no joint `{name}`")));
         };
         if robot.joints[joint].kind.dofs() != 1 {
             return Ok(Err("its joint has not one degree of freedom".into()));
         }
-        if robot.motors.iter().any(|m| m.joint == joint) {
-            return Ok(Err("a joint has one motor, and this one has it already".into()));
-        }
-        let gear = d.number(e, "main", "gear")?.unwrap_or(1.0);
-        let (range, called) = (self.ranges.get(&joint).copied(), format!("joint `{name}`"));
-        let law = match self.law(
-            e,
-            Target { range, name: &called, path: Some(TendonPath::Joints(vec![(joint, 1.0)])), gear },
-            robot,
-        )? {
+        let transmission = Transmission {
+            range: self.ranges.get(&joint).copied(),
+            called: format!("joint `{name}`"),
+            path: Ok(TendonPath::Joints(vec![(joint, 1.0)])),
+            offset: self.references[joint],
+            gear: self.gear(e)?,
+        };
+        let law = match self.law(e, &transmission, robot)? {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
-        if gear == 0.0 || (law.gain == 0.0 && law.bias == [0.0; 3]) {
-            return Ok(Err(no_force(gear).into()));
+        // a spring motor takes no command without stiffness
+        if law.bias != [0.0; 3] && law.bias[1] == 0.0 && law.gain != 0.0 {
+            return self.along(e, &law, &transmission);
         }
+        if robot.motors.iter().any(|m| m.joint == joint) {
+            return Ok(Err("a joint has one motor, and this one has it already".into()));
+        }
+        self.motor(e, joint, &law, transmission.gear)
+    }
+
+    /// Motor of a joint with a law.
+    fn motor(&self, e: Element<'d>, joint: usize, law: &Law, gear: f64) -> Result<Result<Made, String>, Diagnostic> {
         let is_servo = law.bias != [0.0; 3];
-        let (force, control) = self.force_limits(e, &law, gear, !is_servo)?;
-        let limit = force.into_iter().chain(control).reduce(f64::min);
-        let reference = self.references[joint];
+        let (force, control) = self.force_limits(e, law, gear, !is_servo)?;
+        let max_torque = force.into_iter().chain(control).reduce(f64::min);
         let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
-        let is_lagged = law.activation.is_some();
-        // command of the motor for a control of 1
-        let (made, command, scale) = if law.bias == [0.0; 3] {
-            let scale = law.gain * gear;
-            e.change(&format!("a torque motor{}: its command is {scale} times the control", with(is_lagged)));
-            (MotorLaw::Torque, 0.0, scale)
+        let (own, unit) = if !is_servo {
+            (MotorLaw::Torque, Unit::new(law, law.gain * gear, 0.0))
         } else if law.bias[0] == 0.0 && stiffness >= 0.0 && damping >= 0.0 {
-            if is_lagged && stiffness == 0.0 {
-                return Ok(Err("it is a damper whose command has an activation".into()));
-            }
-            let what = if is_lagged { "the activation is" } else { "its command is" };
-            let with = with(is_lagged);
-            e.change(&format!("a spring motor{with}: stiffness and damping of the joint, {what} the position"));
-            // a damper has no command
-            let scale = if stiffness == 0.0 { 0.0 } else { -law.gain / (law.bias[1] * gear) };
-            (MotorLaw::Spring(stiffness, damping), -reference, scale)
+            // without gain it has no command
+            let scale = if law.gain == 0.0 { 0.0 } else { -law.gain / (law.bias[1] * gear) };
+            (MotorLaw::Spring(stiffness, damping), Unit::new(law, scale, -self.references[joint]))
         } else {
-            return Ok(Err(format!("its bias {:?} is no spring and damper", law.bias)));
+            return Ok(Err(no_spring(law)));
         };
-        let activation = law.activation.filter(|_| scale != 0.0).map(|own| own.scaled(scale, command));
-        if activation.is_some_and(|own| own.initial != command) {
-            e.change("its activation starts at the end of its range, since zero is outside");
-        }
-        if let (Some([low, high]), None, true) = (law.control, activation, is_servo) {
+        let activation = scaled_activation(e, law, unit);
+        let with = if activation.is_some() { " with an activation" } else { "" };
+        let scale = unit.scale;
+        e.change(&match own {
+            MotorLaw::Torque => format!("a torque motor{with}: its command is {scale} times the control"),
+            MotorLaw::Spring(..) if scale == 0.0 => {
+                "a spring motor: stiffness and damping of the joint; its gain is 0, and it has no command".into()
+            }
+            MotorLaw::Spring(..) => {
+                let what = if activation.is_some() { "the activation is" } else { "its command is" };
+                format!("a spring motor{with}: stiffness and damping of the joint, {what} the position")
+            }
+        });
+        if let (Some([low, high]), None, true) = (law.control, activation, is_servo && scale != 0.0) {
             e.change(&format!("the range of its control, from {low} to {high}, is left out: commands have no limits"));
         }
-        let unit = Unit { scale, offset: command };
-        // the command of an integrator is a rate
-        let command = if activation.is_some_and(|own| own.time_constant.is_none()) { 0.0 } else { command };
-        Ok(Ok(Made::Motor(Motor { joint, law: made, max_torque: limit, command, activation }, unit)))
+        let command = start(e, unit);
+        Ok(Ok(Made::Motor(Motor { joint, law: own, max_torque, command, activation }, unit)))
+    }
+
+    /// Actuator along a path with a law: a tendon of its own, whose command is a force.
+    fn along(
+        &self,
+        e: Element<'d>,
+        law: &Law,
+        transmission: &Transmission,
+    ) -> Result<Result<Made, String>, Diagnostic> {
+        let path = match &transmission.path {
+            Ok(path) => path.clone(),
+            Err(why) => return Ok(Err(format!("its tendon has no counterpart: {why}"))),
+        };
+        let gear = transmission.gear;
+        let (force, control) = self.force_limits(e, law, gear, true)?;
+        let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
+        if stiffness < 0.0 || damping < 0.0 {
+            return Ok(Err(no_spring(law)));
+        }
+        let unit = Unit::new(law, law.gain * gear, 0.0);
+        let activation = scaled_activation(e, law, unit);
+        let is_servo = law.bias != [0.0; 3];
+        let max_force = if is_servo { control } else { force.into_iter().chain(control).reduce(f64::min) };
+        let what = match (e.peek("tendon"), is_servo) {
+            (None, _) => format!("a [[tendon]] of {}, a damper with an actuator", transmission.called),
+            (_, true) => "a spring and damper with an actuator".into(),
+            (_, false) => "an actuator".into(),
+        };
+        let without = if is_servo && force.is_some() { "; `forcerange` is left out" } else { "" };
+        e.change(&format!("{what}: its command, a force, is {} times the control{without}", unit.scale));
+        let on = e.peek("tendon").or(e.peek("joint")).or(e.peek("jointinparent")).unwrap_or("tendon");
+        let tendon = Tendon {
+            name: e.peek("name").map_or_else(|| format!("{on}-actuator"), str::to_owned),
+            at: e.location(),
+            path,
+            stiffness,
+            damping,
+            preload: gear * law.bias[0],
+            free_length: [-transmission.offset; 2],
+            limits: None,
+            actuator: Some(max_force.unwrap_or(f64::INFINITY)),
+            command: start(e, unit),
+            activation,
+        };
+        Ok(Ok(Made::Tendon(tendon, unit)))
     }
 
     /// Actuator on a site: the force and torque along its axes that one unit of the control gives.
@@ -160,25 +236,33 @@ impl<'d> Reader<'d> {
         if e.peek("refsite").is_some() {
             return Ok(Err("it acts between two sites".into()));
         }
-        let law = match self.law(e, Target { range: None, name: "a site", path: None, gear: 1.0 }, robot)? {
+        let gear = self.defaults.numbers(e, "main", "gear")?.unwrap_or_else(|| vec![1.0]);
+        let transmission = Transmission {
+            range: None,
+            called: "a site".into(),
+            path: Err("a force on a site has no path".into()),
+            offset: 0.0,
+            gear: if gear.iter().take(6).all(|x| *x == 0.0) { 0.0 } else { 1.0 },
+        };
+        let law = match self.law(e, &transmission, robot)? {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
-        if law.gain == 0.0 {
-            return Ok(Err(no_force(1.0).into()));
-        }
         if law.activation.is_some() {
             return Ok(Err("its activation has no counterpart on a site".into()));
         }
         if law.bias != [0.0; 3] {
             return Ok(Err(format!("its bias {:?} has no counterpart on a site", law.bias)));
         }
-        let gear = self.defaults.numbers(e, "main", "gear")?.unwrap_or_else(|| vec![1.0]);
         let wrench: [f64; 6] = std::array::from_fn(|k| law.gain * gear.get(k).copied().unwrap_or(0.0));
         let (force, torque) = (list(&wrench[..3]), list(&wrench[3..]));
         e.change(&format!(
             "a [[force]] with input, in its axes: force {force} N, torque {torque} N·m for a control of 1"
         ));
+        let control = Unit::new(&law, 1.0, 0.0).clamped(0.0);
+        if control != 0.0 {
+            e.change(&format!("the force starts at zero, not at that of a control of {control}, the end of its range"));
+        }
         let name = e.peek("name").map_or_else(|| format!("{name}-force"), str::to_owned);
         Ok(Ok(Made::Force(CommandedForce { name, at: e.location(), link, wrench })))
     }
@@ -208,17 +292,24 @@ impl<'d> Reader<'d> {
     }
 }
 
-/// End of a range, infinite where MuJoCo's largest number stands for none.
-pub(super) fn without_limit(x: f64) -> f64 {
-    if x.abs() >= UNLIMITED { x * f64::INFINITY } else { x }
+/// Activation of an actuator in the unit of its command, if it has one and a command.
+fn scaled_activation(e: Element<'_>, law: &Law, unit: Unit) -> Option<Activation> {
+    let own = law.activation.filter(|_| unit.scale != 0.0)?.scaled(unit.scale, unit.offset);
+    if own.initial != unit.offset {
+        e.change("its activation starts at the end of its range, since zero is outside");
+    }
+    Some(own)
 }
 
-/// Reason why an actuator exerts no force.
-pub(super) fn no_force(gear: f64) -> &'static str {
-    if gear == 0.0 { "its `gear` is 0: it exerts no force" } else { "its gain is 0: it exerts no force" }
+/// Command at the start: that of a control of zero.
+fn start(e: Element<'_>, unit: Unit) -> f64 {
+    let control = unit.clamped(0.0);
+    if control != 0.0 && unit.scale != 0.0 {
+        e.change(&format!("its control starts at {control}, the end of its range, since zero is outside"));
+    }
+    unit.command(0.0)
 }
 
-/// Words for a motor that has an activation.
-fn with(has_activation: bool) -> &'static str {
-    if has_activation { " with an activation" } else { "" }
+fn no_spring(law: &Law) -> String {
+    format!("its bias {:?} is no spring and damper", law.bias)
 }

@@ -4,7 +4,7 @@ use sincro_dynamics::spatial::Quat;
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::actuator::without_limit;
+use super::law::without_limit;
 use super::orientation::{placement, rotation};
 use crate::findings::Findings;
 use crate::path_mass::tendon_mass;
@@ -348,7 +348,7 @@ impl<'d> Reader<'d> {
                 if low < high {
                     joint.limits = Some([low, high]);
                 } else {
-                    e.change("its range leaves no room: the joint moves without limits");
+                    e.change("its range is empty: the joint moves without limits");
                 }
             }
             Some(_) if limited => e.change("limits of a joint that has not one degree of freedom are left out"),

@@ -1,13 +1,10 @@
-//! Laws of actuators: gain, bias and activation, which elements of the format set one after the other.
-//!
-//! Source: key `mjcf`, actuators. All kinds of actuators set the same few numbers; the defaults of a class are those
-//! numbers, too: a `position` in a class gives a `general` of it gain and bias, and the `kp` of one is the gain that a
-//! `general` gave. Of another kind than `general` only the same kind takes what it has set.
+//! Laws of actuators: gain, bias and activation of first order from their parameters, with their ranges.
 
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::actuator::without_limit;
+use super::parameters::{ActuatorParameters, InheritedRange};
+use crate::export::UNLIMITED;
 use crate::path_mass::tendon_mass;
 use crate::robot::{Activation, Robot, TendonPath};
 use crate::source::Element;
@@ -22,207 +19,79 @@ pub(super) struct Law {
     pub control: Option<[f64; 2]>,
 }
 
-/// Object that an actuator acts on.
-pub(super) struct Target<'a> {
-    /// Range of its coordinate or length, as MuJoCo measures it.
+/// Transmission of an actuator: where and how its force acts.
+pub(super) struct Transmission {
+    /// Range of the coordinate or length that it acts on, as MuJoCo measures it.
     pub range: Option<[f64; 2]>,
-    /// Its name in messages.
-    pub name: &'a str,
-    /// Path along which it acts, and length of the actuator for a unit of that path's; none for forces.
-    pub path: Option<TendonPath>,
+    /// Words for what it acts on in messages.
+    pub called: String,
+    /// Path along which it acts; the reason if it has none.
+    pub path: Result<TendonPath, String>,
+    /// Length of the path in the source less that here.
+    pub offset: f64,
+    /// Length of the actuator for a unit of that of its path; 0 if it exerts no force at all.
     pub gear: f64,
 }
 
-/// Numbers of an actuator.
-#[derive(Clone, Copy)]
-struct Numbers<'d> {
-    gain: f64,
-    gain_kind: &'d str,
-    bias: [f64; 3],
-    bias_kind: &'d str,
-    dynamics: &'d str,
-    time: f64,
-    /// Share of the range of what it acts on that its control inherits, and true if its activation does instead; 0 for
-    /// none.
-    share: (f64, bool),
-}
-
-/// Numbers that elements set: without those of the last kind, and with them.
-struct Settings<'d> {
-    base: Numbers<'d>,
-    now: Numbers<'d>,
-    /// Last kind other than `general`, of which another kind takes nothing.
-    kind: &'d str,
-}
-
-impl<'d> Settings<'d> {
-    fn new() -> Self {
-        let start = Numbers {
-            gain: 1.0,
-            gain_kind: "fixed",
-            bias: [0.0; 3],
-            bias_kind: "none",
-            dynamics: "none",
-            time: 1.0,
-            share: (0.0, false),
-        };
-        Self { base: start, now: start, kind: "general" }
-    }
-
-    /// Takes what an element sets; the reason if it has no counterpart.
-    fn set(&mut self, e: Element<'d>) -> Result<Result<(), String>, Diagnostic> {
-        let first = |key: &str| -> Result<Option<f64>, Diagnostic> {
-            Ok(e.numbers(key)?.and_then(|numbers| numbers.first().copied()))
-        };
-        if e.name() != "general" && e.name() != self.kind {
-            (self.now, self.kind) = (self.base, e.name());
-            self.now.dynamics = "none";
-        }
-        let own = &mut self.now;
-        match e.name() {
-            "motor" => *own = Self::new().now,
-            "position" | "intvelocity" => {
-                let gain = first("kp")?.unwrap_or(own.gain);
-                let damping = first("kv")?;
-                if damping.is_some_and(|kv| kv < 0.0) {
-                    return Err(e.error("`kv` is negative"));
-                }
-                // a positive one is a damping ratio
-                let rate = damping.map(|kv| -kv).or(first("dampratio")?).unwrap_or(own.bias[2]);
-                (own.gain, own.bias) = (gain, [0.0, -gain, rate]);
-                (own.gain_kind, own.bias_kind) = ("fixed", "affine");
-                own.share = (first("inheritrange")?.unwrap_or(own.share.0), e.name() == "intvelocity");
-                match (e.name(), first("timeconst")?) {
-                    ("intvelocity", _) => own.dynamics = "integrator",
-                    (_, Some(time)) if time < 0.0 => return Err(e.error("`timeconst` is negative")),
-                    (_, Some(time)) => {
-                        (own.time, own.dynamics) = (time, if time > 0.0 { "filterexact" } else { "none" });
-                    }
-                    (_, None) => {}
-                }
-            }
-            "velocity" => {
-                let gain = first("kv")?.unwrap_or(own.gain);
-                (own.gain, own.bias) = (gain, [0.0, 0.0, -gain]);
-                (own.gain_kind, own.bias_kind) = ("fixed", "affine");
-            }
-            "cylinder" => {
-                own.time = first("timeconst")?.unwrap_or(own.time);
-                own.set_bias(e.numbers("bias")?);
-                own.gain = first("area")?.unwrap_or(own.gain);
-                if let Some(diameter) = first("diameter")?.filter(|diameter| *diameter >= 0.0) {
-                    own.gain = core::f64::consts::FRAC_PI_4 * diameter * diameter;
-                }
-                (own.gain_kind, own.bias_kind, own.dynamics) = ("fixed", "affine", "filter");
-            }
-            "general" => {
-                own.gain_kind = e.attribute("gaintype").unwrap_or(own.gain_kind);
-                own.bias_kind = e.attribute("biastype").unwrap_or(own.bias_kind);
-                own.dynamics = e.attribute("dyntype").unwrap_or(own.dynamics);
-                own.gain = first("gainprm")?.unwrap_or(own.gain);
-                own.time = first("dynprm")?.unwrap_or(own.time);
-                own.set_bias(e.numbers("biasprm")?);
-                (self.base, self.kind) = (self.now, "general");
-            }
-            other => {
-                let kind = other;
-                (own.gain_kind, own.bias_kind, own.dynamics) = (kind, kind, kind);
-                return Ok(Err(format!("a `{other}` has no counterpart")));
-            }
-        }
-        Ok(Ok(()))
-    }
-}
-
-impl Numbers<'_> {
-    fn set_bias(&mut self, numbers: Option<Vec<f64>>) {
-        for (own, given) in self.bias.iter_mut().zip(numbers.unwrap_or_default()) {
-            *own = given;
-        }
-    }
-}
-
 impl<'d> Reader<'d> {
-    /// The law of an actuator, with its activation if it has one; the reason if it has no counterpart.
+    /// The law of an actuator that exerts a force, with its activation if it has one; the reason if it has none, or no
+    /// counterpart.
     pub(super) fn law(
         &self,
         e: Element<'d>,
-        Target { range, name: target, path, gear }: Target<'_>,
+        transmission: &Transmission,
         robot: &Robot,
     ) -> Result<Result<Law, String>, Diagnostic> {
-        let mut settings = Settings::new();
-        for element in self.defaults.actuators(e) {
-            let set = settings.set(element)?;
-            // a kind of a class that the element is not counts no more
-            if let (Err(why), true) = (set, element.id() == e.id()) {
-                return Ok(Err(why));
-            }
+        let parameters = match self.parameters(e)? {
+            Ok(parameters) => parameters,
+            Err(why) => return Ok(Err(why)),
+        };
+        if transmission.gear == 0.0 {
+            return Ok(Err("its `gear` is 0: it exerts no force".into()));
         }
-        let numbers = settings.now;
-        let Numbers { gain, mut bias, time, share: (share, of_activation), .. } = numbers;
-        if numbers.gain_kind != "fixed" {
-            return Ok(Err(format!("its gain is of type `{}`", numbers.gain_kind)));
+        let gain = parameters.gain;
+        if parameters.gain_kind != "fixed" {
+            return Ok(Err(format!("its gain is of type `{}`", parameters.gain_kind)));
         }
-        match numbers.bias_kind {
-            "none" => bias = [0.0; 3],
-            // that of a spring with the mass which MuJoCo's actuator moves
-            "affine" if bias[2] > 0.0 && bias[1] == -gain => {
-                let mass = path.and_then(|path| tendon_mass(robot, &path)).map(|mass| mass / (gear * gear));
-                let Some(mass) = mass.filter(|mass| mass.is_finite()) else {
-                    return Ok(Err("its damping is a ratio, which needs the inertia at the reference".into()));
-                };
-                bias[2] = -2.0 * bias[2] * (gain * mass).max(0.0).sqrt();
-                e.change(&format!("its damping ratio is a damping of {:.6} with the inertia {mass:.6}", -bias[2]));
-            }
-            "affine" => {}
-            other => return Ok(Err(format!("its bias is of type `{other}`"))),
+        let bias = match bias(e, &parameters, transmission, robot) {
+            Ok(bias) => bias,
+            Err(why) => return Ok(Err(why)),
+        };
+        if gain == 0.0 && bias == [0.0; 3] {
+            return Ok(Err("its gain is 0: it exerts no force".into()));
         }
-        let time_constant = match numbers.dynamics {
+        let time_constant = match parameters.dynamics {
             "none" => None,
             "integrator" => Some(None),
             // a time constant of zero has no lag
-            "filter" | "filterexact" => Some(time).filter(|time| *time > 0.0).map(Some),
+            "filter" | "filterexact" => Some(parameters.time).filter(|time| *time > 0.0).map(Some),
             other => return Ok(Err(format!("its activation is of type `{other}`"))),
         };
-        let mut control = self.limiting_range(e, "ctrlrange", "ctrllimited")?;
-        let mut limits = match time_constant {
-            Some(_) => self.limiting_range(e, "actrange", "actlimited")?,
-            None => None,
+        let inherited = parameters.inherited_range(e)?;
+        let control = match inherited {
+            Some(InheritedRange::Control(ratio)) => {
+                inherit(self, e, ["ctrlrange", "ctrllimited"], ratio, transmission)?
+            }
+            _ => self.limiting_range(e, "ctrlrange", "ctrllimited")?,
         };
-        if share > 0.0 {
-            let (own, key, flag) = match of_activation {
-                true => (&mut limits, "actrange", "actlimited"),
-                false => (&mut control, "ctrlrange", "ctrllimited"),
-            };
-            let Some([low, high]) = range.filter(|[low, high]| low < high) else {
-                return Err(e
-                    .error(format!("`inheritrange` needs a range of {target}, which has none"))
-                    .with_help(format!("give it a `range`, or the actuator a `{key}`")));
-            };
-            let (middle, half) = (0.5 * (low + high), 0.5 * share * (high - low));
-            let is_limited = self.defaults.text(e, "main", flag) != Some("false");
-            *own = is_limited.then_some([middle - half, middle + half]);
-        }
+        let range = match (time_constant, inherited) {
+            (None, _) => None,
+            (_, Some(InheritedRange::Activation(ratio))) => {
+                inherit(self, e, ["actrange", "actlimited"], ratio, transmission)?
+            }
+            _ => self.limiting_range(e, "actrange", "actlimited")?,
+        };
         let activation = time_constant.map(|time_constant| {
             if self.defaults.text(e, "main", "actearly") == Some("true") {
                 e.change("`actearly` is of steps in time, and has no effect here");
             }
-            Activation { time_constant, input_range: control, range: limits, initial: 0.0 }
+            Activation { time_constant, input_range: control, range, initial: 0.0 }
         });
         Ok(Ok(Law { gain, bias, activation, control }))
     }
 
-    /// True if MuJoCo has an activation of an actuator.
-    pub(super) fn is_activated(&self, e: Element<'d>) -> bool {
-        let mut settings = Settings::new();
-        for element in self.defaults.actuators(e) {
-            let _ = settings.set(element);
-        }
-        !matches!(settings.now.dynamics, "none" | "damper" | "adhesion")
-    }
-
-    /// The range of that name, if its `flag` says that it limits; one that leaves no room limits nothing unless it is
-    /// said to, and is an error then.
+    /// The range of that name, if its `flag` says that it limits; an empty range limits nothing unless it is said to,
+    /// and is an error then.
     pub(super) fn limiting_range(
         &self,
         e: Element<'d>,
@@ -245,4 +114,54 @@ impl<'d> Reader<'d> {
                 .with_help("give two numbers, the lower one first")),
         }
     }
+}
+
+/// Bias with the damping that a ratio means; the reason if it has no counterpart.
+fn bias(
+    e: Element<'_>,
+    parameters: &ActuatorParameters<'_>,
+    transmission: &Transmission,
+    robot: &Robot,
+) -> Result<[f64; 3], String> {
+    let (gain, [constant, length, rate]) = (parameters.gain, parameters.bias);
+    match parameters.bias_kind {
+        "none" => Ok([0.0; 3]),
+        "affine" if rate > 0.0 && length == -gain => {
+            // MuJoCo has none where nothing moves along a path
+            let Ok(path) = &transmission.path else { return Ok([constant, length, 0.0]) };
+            // that of a spring with the mass which MuJoCo's actuator moves
+            let mass = tendon_mass(robot, path).map(|mass| mass / (transmission.gear * transmission.gear));
+            let Some(mass) = mass.filter(|mass| mass.is_finite()) else {
+                return Err("its damping is a ratio, and what it acts on has no inertia at the reference".into());
+            };
+            let damping = 2.0 * rate * (gain * mass).max(0.0).sqrt();
+            e.change(&format!("its damping ratio is a damping of {damping:.6} with the inertia {mass:.6}"));
+            Ok([constant, length, -damping])
+        }
+        "affine" => Ok(parameters.bias),
+        other => Err(format!("its bias is of type `{other}`")),
+    }
+}
+
+/// A range that is inherited by a ratio about its middle, if its flag does not say that it limits nothing.
+fn inherit<'d>(
+    reader: &Reader<'d>,
+    e: Element<'d>,
+    [name, flag]: [&str; 2],
+    ratio: f64,
+    transmission: &Transmission,
+) -> Result<Option<[f64; 2]>, Diagnostic> {
+    let Some([low, high]) = transmission.range.filter(|[low, high]| low < high) else {
+        return Err(e
+            .error(format!("`inheritrange` needs a range of {}, which has none", transmission.called))
+            .with_help(format!("give it a `range`, or the actuator a `{name}`")));
+    };
+    let (middle, half) = (0.5 * (low + high), 0.5 * ratio * (high - low));
+    let is_limited = reader.defaults.text(e, "main", flag) != Some("false");
+    Ok(is_limited.then_some([middle - half, middle + half]))
+}
+
+/// End of a range, infinite where MuJoCo's largest number stands for none.
+pub(super) fn without_limit(x: f64) -> f64 {
+    if x.abs() >= UNLIMITED { x * f64::INFINITY } else { x }
 }

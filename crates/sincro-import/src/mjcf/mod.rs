@@ -14,6 +14,7 @@ mod height_field;
 mod include;
 mod law;
 mod orientation;
+mod parameters;
 mod state;
 mod tendon;
 

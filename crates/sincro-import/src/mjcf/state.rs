@@ -95,10 +95,11 @@ impl<'d> Reader<'d> {
         for (known, control) in self.actuators.iter().zip(controls) {
             match known.made {
                 Some((actuator, unit)) => {
-                    // the command of an integrator is a rate
-                    let is_rate = known.activation.is_some_and(|own| own.time_constant.is_none());
-                    let offset = if is_rate { 0.0 } else { unit.offset };
-                    commands.push((actuator, unit.scale * control + offset));
+                    let acts = unit.clamped(*control);
+                    if acts != *control && unit.scale != 0.0 {
+                        key.change(&format!("a control of {control} is beyond its `ctrlrange`: it is {acts}"));
+                    }
+                    commands.push((actuator, unit.command(*control)));
                 }
                 None if *control != 0.0 => key.change("`ctrl` of an actuator that is no motor here is left out"),
                 None => {}
@@ -109,13 +110,16 @@ impl<'d> Reader<'d> {
 
     /// Actuators with activations, which start within their ranges.
     fn activations_of(&self, key: Element<'d>, given: &[f64]) -> Vec<(Actuator, f64)> {
-        let activated: Vec<_> = self.actuators.iter().filter(|known| known.is_activated).collect();
-        if given.len() != activated.len() {
-            key.change(&format!("`act` has {} numbers, not {}: it is left out", given.len(), activated.len()));
+        let n: usize = self.actuators.iter().map(|known| known.n_activations).sum();
+        if given.len() != n {
+            key.change(&format!("`act` has {} numbers, not {n}: it is left out", given.len()));
             return Vec::new();
         }
-        let mut activations = Vec::new();
-        for (known, x) in activated.into_iter().zip(given) {
+        let (mut rest, mut activations) = (given, Vec::new());
+        for known in &self.actuators {
+            let (values, others) = rest.split_at(known.n_activations);
+            rest = others;
+            let Some(x) = values.first() else { continue };
             match (known.made, known.activation) {
                 (Some((actuator, unit)), Some(own)) => {
                     let wanted = unit.scale * x + unit.offset;
@@ -125,7 +129,9 @@ impl<'d> Reader<'d> {
                     }
                     activations.push((actuator, start));
                 }
-                _ if *x != 0.0 => key.change("`act` of an actuator without activation here is left out"),
+                _ if values.iter().any(|x| *x != 0.0) => {
+                    key.change("`act` of an actuator without activation here is left out")
+                }
                 _ => {}
             }
         }

@@ -9,8 +9,6 @@
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::actuator::no_force;
-use super::law::Law;
 use crate::export::UNLIMITED;
 use crate::findings::Findings;
 use crate::path_mass::tendon_mass;
@@ -113,6 +111,7 @@ impl<'d> Reader<'d> {
                     free_length: [known.reference - known.offset; 2],
                     limits: None,
                     actuator: None,
+                    command: 0.0,
                     activation: None,
                 };
                 if let Some(lengths) = self.defaults.numbers(e, "main", "springlength")?
@@ -323,54 +322,9 @@ impl<'d> Reader<'d> {
             free_length: [length; 2],
             limits: None,
             actuator: None,
+            command: 0.0,
             activation: None,
         });
         Ok(())
-    }
-
-    /// Actuator on a tendon with a law: a tendon of its own, whose command is a force; the reason if it is left out.
-    pub(super) fn tendon_actuator(
-        &self,
-        e: Element<'d>,
-        (law, gear): (&Law, f64),
-        limits: (Option<f64>, Option<f64>),
-    ) -> Result<Result<Tendon, String>, Diagnostic> {
-        let Some(known) = self.tendon_of(e, "tendon")? else { return Ok(Err("it names no tendon".into())) };
-        let path = match &known.path {
-            Ok(path) => path.clone(),
-            Err(why) => return Ok(Err(format!("its tendon has no counterpart: {why}"))),
-        };
-        if gear == 0.0 || (law.gain == 0.0 && law.bias == [0.0; 3]) {
-            return Ok(Err(no_force(gear).into()));
-        }
-        let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
-        if stiffness < 0.0 || damping < 0.0 {
-            return Ok(Err(format!("its bias {:?} is no spring and damper", law.bias)));
-        }
-        let (force, control) = limits;
-        let scale = law.gain * gear;
-        let activation = law.activation.filter(|_| scale != 0.0).map(|own| own.scaled(scale, 0.0));
-        if activation.is_some_and(|own| own.initial != 0.0) {
-            e.change("its activation starts at the end of its range, since zero is outside");
-        }
-        let is_servo = law.bias != [0.0; 3];
-        let max_force = if is_servo { control } else { force.into_iter().chain(control).reduce(f64::min) };
-        let what = if is_servo { "a spring and damper with an actuator" } else { "an actuator" };
-        let without = if is_servo && force.is_some() { "; `forcerange` is left out" } else { "" };
-        e.change(&format!("{what}: its command, a force, is {} times the control{without}", law.gain * gear));
-        let name =
-            e.peek("name").map_or_else(|| format!("{}-actuator", e.peek("tendon").unwrap_or("tendon")), str::to_owned);
-        Ok(Ok(Tendon {
-            name,
-            at: e.location(),
-            path,
-            stiffness,
-            damping,
-            preload: gear * law.bias[0],
-            free_length: [-known.offset; 2],
-            limits: None,
-            actuator: Some(max_force.unwrap_or(f64::INFINITY)),
-            activation,
-        }))
     }
 }

@@ -150,7 +150,14 @@ impl Writer<'_> {
             let limit = motor.max_torque.map_or_else(String::new, |x| format!(", max_torque = {}", number(x)));
             let activation = motor.activation.map_or_else(String::new, |own| format!(", {}", activation(&own)));
             match motor.law {
-                MotorLaw::Torque => self.line(&format!("motor = {{ mode = \"torque\"{limit}{activation} }}")),
+                MotorLaw::Torque => {
+                    let command = if motor.command == 0.0 {
+                        String::new()
+                    } else {
+                        format!(", command = {}", number(motor.command))
+                    };
+                    self.line(&format!("motor = {{ mode = \"torque\"{command}{limit}{activation} }}"));
+                }
                 MotorLaw::Spring(stiffness, damping) => {
                     let command = number(motor.command);
                     let (stiffness, damping) = (number(stiffness), number(damping));

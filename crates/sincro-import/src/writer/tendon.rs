@@ -51,7 +51,9 @@ impl Writer<'_> {
             }
             if let Some(max_force) = tendon.actuator {
                 let limit = max_force.is_finite().then(|| format!("max_force = {}", number(max_force)));
-                let keys: Vec<String> = limit.into_iter().chain(tendon.activation.as_ref().map(activation)).collect();
+                let command = (tendon.command != 0.0).then(|| format!("command = {}", number(tendon.command)));
+                let activation = tendon.activation.as_ref().map(activation);
+                let keys: Vec<String> = [command, limit, activation].into_iter().flatten().collect();
                 self.line(&format!("actuator = {{ {} }}", keys.join(", ")));
             }
             self.line("");

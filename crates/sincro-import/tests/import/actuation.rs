@@ -96,7 +96,7 @@ fn inherited_ranges_are_those_of_what_the_actuator_acts_on() {
 }
 
 #[test]
-fn ranges_without_room_limit_nothing_unless_they_are_said_to() {
+fn empty_ranges_limit_nothing_unless_they_are_said_to() {
     for (actuator, words) in [
         (r#"<motor name="m" joint="j0" ctrlrange="0 0"/>"#, None),
         (r#"<motor name="m" joint="j0" ctrlrange="1 -1" forcerange="0 0"/>"#, None),
@@ -150,6 +150,7 @@ fn actuators_that_exert_no_force_are_left_out_by_name() {
         (r#"<general name="m" joint="j0" gainprm="0" dyntype="integrator" actrange="-1 1"/>"#, "its gain is 0"),
         (r#"<cylinder name="m" tendon="t" area="0" actrange="-1 1"/>"#, "its gain is 0"),
         (r#"<motor name="m" tendon="t" gear="0"/>"#, "its `gear` is 0"),
+        (r#"<position name="m" joint="j0" dampratio="1" gear="0"/>"#, "its `gear` is 0"),
     ] {
         let (folder, imported) = imported(actuator);
         assert!(entry(&imported, "[m]").words.contains(words), "{actuator}: {}", entry(&imported, "[m]").words);
@@ -190,9 +191,11 @@ fn kinds_of_actuators_share_their_defaults() {
         let folder = Folder::new();
         let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
         let model = folder.open(&imported).scene.model;
-        let motor = model.motors()[0];
+        let motor = model.motors().first().map(|motor| (motor.stiffness, motor.damping));
+        // a damper is a tendon
+        let own = motor.unwrap_or_else(|| (0.0, model.spring_dampers()[0].law.damping));
         let time = model.activations().first().and_then(sincro_dynamics::actuation::Activation::time_constant);
-        assert_eq!(((motor.stiffness, motor.damping), time), (servo, lag), "{kind} after {defaults}");
+        assert_eq!((own, time), (servo, lag), "{kind} after {defaults}");
     }
     let text =
         actuated(r#"<general name="m" joint="j0"/>"#).replace("<worldbody>", "<default><muscle/></default><worldbody>");
@@ -359,6 +362,110 @@ fn keyframes_have_commands_and_activations() {
     assert_eq!(entry(&imported, "key[none]").words, "it sets nothing that is here");
 }
 
+/// Values of the commands at the start.
+fn commands(scene: &Scene) -> Vec<f64> {
+    scene.commands.iter().map(|command| command.value(0.0)).collect()
+}
+
+/// MuJoCo's `actuator_force` of a control of 2 and a rate of 0.5 of the joint, and of a `ctrl` of 2 in a keyframe.
+#[test]
+fn a_velocity_servo_of_a_joint_takes_its_control() {
+    let key = r#"<keyframe><key name="k" ctrl="2"/></keyframe></mujoco>"#;
+    for (actuator, damping, command) in [
+        (r#"<velocity name="m" joint="j1" kv="3"/>"#, 3.0, 6.0),
+        (r#"<velocity name="m" joint="j1" kv="3" gear="-2"/>"#, 12.0, -12.0),
+        (r#"<velocity name="m" joint="j1" kv="3" ctrlrange="-1 1" forcerange="-4 4"/>"#, 3.0, 3.0),
+        (r#"<general name="m" joint="j1" gainprm="5" biastype="affine" biasprm="0 0 -3"/>"#, 3.0, 10.0),
+        (r#"<general name="m" joint="j1" gainprm="5" biastype="affine" biasprm="0.5 0 -3"/>"#, 3.0, 10.0),
+    ] {
+        let folder = Folder::new();
+        let text = actuated(actuator).replace("</mujoco>", key);
+        let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        let set = folder.open(&imported).experiment.variants[0].set.clone();
+        let scene = with_settings(&folder, &imported, &set);
+        let law = &scene.model.spring_dampers()[0].law;
+        assert_eq!((law.stiffness, law.damping), (0.0, damping), "{actuator}");
+        assert_eq!((law.preload != 0.0, commands(&scene)), (actuator.contains("0.5"), vec![command]), "{actuator}");
+        let words = &entry(&imported, "[m]").words;
+        assert!(words.contains("a [[tendon]] of joint `j1`, a damper with an actuator"), "{words}");
+        assert_eq!(words.contains("`forcerange` is left out"), actuator.contains("forcerange"), "{words}");
+    }
+    // beside a position servo, and with an activation
+    let (folder, both) = imported(
+        r#"<position name="p" joint="j1" kp="2"/><velocity name="m" joint="j1" kv="3"/>
+<general name="lag" joint="j1" gainprm="5" biastype="affine" biasprm="0 0 -3" dyntype="filter" dynprm="0.1"/>"#,
+    );
+    let model = folder.open(&both).scene.model;
+    let dampings: Vec<f64> = model.spring_dampers().iter().map(|element| element.law.damping).collect();
+    assert_eq!((model.motors()[0].stiffness, dampings, model.activations().len()), (2.0, vec![3.0, 3.0], 1));
+    // without gain there is no control
+    let (folder, damper) =
+        imported(r#"<general name="m" joint="j1" gainprm="0" biastype="affine" biasprm="0 0 -3" dyntype="filter"/>"#);
+    let model = folder.open(&damper).scene.model;
+    assert_eq!((model.motors()[0].damping, model.activations().len()), (3.0, 0));
+    let words = &entry(&damper, "[m]").words;
+    assert!(words.contains("its gain is 0, and it has no command") && !words.contains("activation"), "{words}");
+}
+
+/// MuJoCo clamps a control where it acts, that of zero at the start, too.
+#[test]
+fn controls_beyond_their_range_are_at_its_end() {
+    for (actuator, start, of_key) in [
+        (r#"<motor name="m" joint="j1" ctrlrange="0.2 1"/>"#, 0.2, 0.2),
+        (r#"<motor name="m" joint="j1" ctrlrange="-3 -2" gear="2"/>"#, -4.0, -6.0),
+        (r#"<motor name="m" tendon="t" ctrlrange="0.2 1" gear="3"/>"#, 0.2 * 3.0, 0.2 * 3.0),
+        (r#"<position name="m" joint="j1" kp="5" ctrlrange="0.2 1"/>"#, 0.2 - 0.25, 0.2 - 0.25),
+        (r#"<position name="m" joint="j1" kp="5" ctrlrange="-1 1"/>"#, -0.25, -1.0 - 0.25),
+        (r#"<position name="m" joint="j1" kp="5" ctrlrange="-1 1" ctrllimited="false"/>"#, -0.25, -5.0 - 0.25),
+        (r#"<position name="m" joint="j1" kp="5" inheritrange="1"/>"#, -0.25, -1.0 - 0.25),
+        (r#"<intvelocity name="m" joint="j1" kp="5" gear="2" ctrlrange="0.5 1"/>"#, 0.25, 0.25),
+        (r#"<motor name="m" joint="j1" ctrlrange="-1 1"/>"#, 0.0, -1.0),
+    ] {
+        let folder = Folder::new();
+        let text = actuated(actuator)
+            .replace("</mujoco>", r#"<keyframe><key name="k" ctrl="-5"/></keyframe></mujoco>"#)
+            .replace(r#"name="j1" axis="0 1 0""#, r#"name="j1" axis="0 1 0" ref="0.25""#);
+        let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        let opened = folder.open(&imported);
+        assert_eq!(commands(&opened.scene), [start], "{actuator}");
+        let varied = with_settings(&folder, &imported, &opened.experiment.variants[0].set);
+        assert_eq!(commands(&varied), [of_key], "{actuator}");
+        let excludes_zero = actuator.contains(r#"="0."#) || actuator.contains("-3 -2");
+        let words = &entry(&imported, "[m]").words;
+        assert_eq!(words.contains("its control starts at"), excludes_zero, "{words}");
+        let words = &entry(&imported, "key[k]").words;
+        assert_eq!(words.contains("a control of -5 is beyond its `ctrlrange`"), !actuator.contains("false"), "{words}");
+    }
+    let text = actuated(r#"<motor name="m" site="s" ctrlrange="0.2 1"/>"#)
+        .replace(r#"<body name="b0""#, r#"<site name="s"/><body name="b0""#);
+    let words = entry(&Folder::new().import("m.xml", &text).unwrap(), "motor[m]").words.clone();
+    assert!(words.contains("the force starts at zero, not at that of a control of 0.2"), "{words}");
+}
+
+/// MuJoCo's `actuator_actnum`.
+#[test]
+fn activations_of_a_keyframe_are_counted_as_in_mujoco() {
+    for (actuator, n) in [
+        (r#"<dcmotor joint="j1" motorconst="0.1" resistance="1"/>"#, 0),
+        (r#"<dcmotor joint="j1" motorconst="0.1" resistance="1" inductance="0.1" lugre="0.1 0 0"/>"#, 2),
+        (r#"<dcmotor joint="j1" motorconst="0.1" resistance="1" input="pos" controller="1 0.5 0.1 2"/>"#, 2),
+        (r#"<general joint="j1" dyntype="user" actdim="3"/>"#, 3),
+        (r#"<general joint="j1" dyntype="user"/>"#, 1),
+        (r#"<muscle joint="j1"/>"#, 1),
+        (r#"<damper joint="j1" kv="1" ctrlrange="0 1"/>"#, 0),
+        (r#"<motor joint="j1"/>"#, 0),
+    ] {
+        let activations = vec!["0"; n].join(" ") + " 0.5";
+        let key = format!(r#"<keyframe><key name="k" qpos="0 0 0" act="{activations}"/></keyframe></mujoco>"#);
+        let all = format!(r#"{actuator}<general name="m" joint="j0" dyntype="filter"/>"#);
+        let folder = Folder::new();
+        let imported = folder.import("m.xml", &actuated(&all).replace("</mujoco>", &key)).unwrap();
+        let set = folder.open(&imported).experiment.variants[0].set.clone();
+        let scene = with_settings(&folder, &imported, &set);
+        assert_eq!(scene.initial.rotors, [0.5], "{actuator}: {}", entry(&imported, "key[k]").words);
+    }
+}
+
 /// MuJoCo has the rotations of the joints as none.
 #[test]
 fn a_quaternion_of_zeros_in_a_keyframe_is_no_rotation() {
@@ -469,6 +576,11 @@ fn actuators_on_sites_with_activations_or_springs_are_left_out_by_name() {
         (r#"<general name="m" site="s" dyntype="integrator"/>"#, "its activation has no counterpart on a site"),
         (r#"<position name="m" site="s" kp="2"/>"#, "has no counterpart on a site"),
         (r#"<general name="m" site="s" gainprm="0"/>"#, "its gain is 0"),
+        (r#"<motor name="m" site="s" gear="0 0 0 0 0 0"/>"#, "its `gear` is 0"),
+        (
+            r#"<position name="m" site="s" kp="2" dampratio="1"/>"#,
+            "its bias [0.0, -2.0, 0.0] has no counterpart on a site",
+        ),
         (r#"<muscle name="m" tendon="t"/>"#, "a `muscle` has no counterpart"),
     ] {
         let text = actuated(actuator).replace(r#"<body name="b0""#, r#"<site name="s"/><body name="b0""#);

@@ -44,3 +44,92 @@ fn equalities_have_the_defaults_of_equalities() {
     let held = &model.spring_dampers()[0].law;
     assert!((held.stiffness / held.damping - 50.0 / 3.0).abs() < 1e-12, "{held:?}");
 }
+
+/// A hinge with a range, and an actuator.
+fn with_actuator(defaults: &str, actuator: &str) -> String {
+    format!(
+        r#"<mujoco><compiler angle="radian"/><default>{defaults}</default><worldbody>
+<body name="b"><joint name="j" axis="0 0 1" range="-2 1"/><geom size="0.1" mass="2" pos="0.3 0 0"/></body>
+</worldbody><actuator>{actuator}</actuator></mujoco>"#
+    )
+}
+
+/// MuJoCo's `actuator_ctrlrange` and `actuator_actrange`.
+#[test]
+fn of_inherited_and_given_ranges_the_later_one_counts() {
+    let all = [f64::NEG_INFINITY, f64::INFINITY];
+    let (own, inherited) = ([-0.1, 0.2], [-2.0, 1.0]);
+    let outer = r#"<position inheritrange="1"/>"#;
+    let class = |inner: &str| format!(r#"{outer}<default class="q">{inner}</default>"#);
+    let lagged = r#"<position joint="j" timeconst="0.1" class="q"/>"#;
+    let rated = r#"<intvelocity inheritrange="1"/>"#;
+    for (defaults, actuator, input, range) in [
+        (outer.to_owned(), r#"<position joint="j" timeconst="0.1" ctrlrange="-0.1 0.2"/>"#, own, all),
+        (outer.to_owned(), r#"<position joint="j" timeconst="0.1" ctrlrange="0 0"/>"#, all, all),
+        (outer.to_owned(), r#"<position joint="j" timeconst="0.1" inheritrange="0"/>"#, all, all),
+        (outer.to_owned(), r#"<position joint="j" timeconst="0.1" ctrllimited="false"/>"#, all, all),
+        (class(r#"<position ctrlrange="-0.1 0.2"/>"#), lagged, own, all),
+        (
+            r#"<position ctrlrange="-0.1 0.2"/><default class="q"><position inheritrange="1"/></default>"#.to_owned(),
+            lagged,
+            inherited,
+            all,
+        ),
+        (outer.to_owned(), r#"<general joint="j" dyntype="filterexact" ctrlrange="-0.1 0.2"/>"#, inherited, all),
+        (outer.to_owned(), r#"<general joint="j" dyntype="integrator"/>"#, all, inherited),
+        (outer.to_owned(), r#"<general joint="j" dyntype="filter" gainprm="3"/>"#, all, all),
+        (outer.to_owned(), r#"<intvelocity joint="j"/>"#, all, all),
+        (rated.to_owned(), r#"<intvelocity joint="j" actrange="-0.1 0.2"/>"#, all, own),
+        (rated.to_owned(), r#"<intvelocity joint="j" ctrlrange="-0.1 0.2"/>"#, own, inherited),
+        (rated.to_owned(), r#"<general joint="j" dyntype="filterexact"/>"#, inherited, all),
+    ] {
+        let folder = Folder::new();
+        let imported =
+            folder.import("m.xml", &with_actuator(&defaults, actuator)).unwrap_or_else(|found| panic!("{found}"));
+        let found = folder.open(&imported).scene.model.activations()[0];
+        assert_eq!((found.input_range, found.range), (input, range), "{actuator} after {defaults}");
+    }
+}
+
+/// MuJoCo refuses each of them.
+#[test]
+fn contradicting_parameters_of_actuators_are_refused() {
+    let class = r#"<position inheritrange="1"/><default class="q"><general ctrlrange="-0.1 0.2"/></default>"#;
+    for (defaults, actuator, words) in [
+        (
+            "",
+            r#"<position joint="j" inheritrange="1" ctrlrange="-1 1"/>"#,
+            "`ctrlrange` and `inheritrange` are both given",
+        ),
+        ("", r#"<intvelocity joint="j" inheritrange="1" actrange="-1 1"/>"#, "`actrange` and `inheritrange` are both"),
+        (class, r#"<position joint="j" class="q"/>"#, "`ctrlrange` and `inheritrange` are both given"),
+        ("", r#"<position joint="j" kv="0" dampratio="0"/>"#, "`kv` and `dampratio` are both given"),
+        ("", r#"<intvelocity joint="j" kv="1" dampratio="1"/>"#, "`kv` and `dampratio` are both given"),
+        ("", r#"<position joint="j" dampratio="-1"/>"#, "`dampratio` is negative"),
+        ("", r#"<motor joint="j" inheritrange="1"/>"#, "a `motor` has no `inheritrange`"),
+        (
+            r#"<position inheritrange="1"/>"#,
+            r#"<general joint="j" dyntype="filter"/>"#,
+            "its activation `filter` does not",
+        ),
+    ] {
+        let text = with_actuator(defaults, actuator);
+        let why = Folder::new().import("m.xml", &text).map(|_| ()).unwrap_err().to_string();
+        assert!(why.contains(words) && why.contains("m.xml:3:"), "{actuator}: {why}");
+    }
+    // a damper is no ratio, and zeros are no range
+    for (defaults, actuator) in [
+        (r#"<position kv="1"/>"#, r#"<position joint="j" dampratio="1"/>"#),
+        ("", r#"<position joint="j" inheritrange="1" ctrlrange="0 0"/>"#),
+        ("", r#"<position joint="j" inheritrange="0" ctrlrange="-1 1"/>"#),
+        (r#"<dcmotor motorconst="0.3" resistance="1"/>"#, r#"<motor joint="j"/>"#),
+    ] {
+        let text = with_actuator(defaults, actuator);
+        let folder = Folder::new();
+        let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        assert_eq!(folder.open(&imported).scene.model.motors().len(), 1, "{actuator}");
+    }
+    let of_dcmotor = with_actuator(r#"<dcmotor motorconst="0.3" resistance="1"/>"#, r#"<general name="m" joint="j"/>"#);
+    let imported = Folder::new().import("m.xml", &of_dcmotor).unwrap_or_else(|found| panic!("{found}"));
+    assert!(entry(&imported, "general[m]").words.contains("its gain is of type `dcmotor`"));
+}

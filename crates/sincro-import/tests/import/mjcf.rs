@@ -441,8 +441,8 @@ fn activations_without_counterpart_are_refused_by_name() {
         (r#"<general name="m" joint="j0" dyntype="user"/>"#, "its activation is of type `user`"),
         (r#"<damper name="m" joint="j0" kv="2"/>"#, "a `damper` has no counterpart"),
         (
-            r#"<general name="m" joint="j0" dyntype="filter" biastype="affine" biasprm="0 0 -1"/>"#,
-            "a damper whose command has an activation",
+            r#"<general name="m" joint="j0" dyntype="filter" biastype="affine" biasprm="0 0 1"/>"#,
+            "is no spring and damper",
         ),
     ] {
         let imported = folder.import("m.xml", &actuated(actuator)).unwrap_or_else(|found| panic!("{found}"));
