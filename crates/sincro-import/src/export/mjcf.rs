@@ -193,14 +193,19 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
     if kind != JointKind::Free && !is_zero {
         tree.note(&joint.path, "MJCF starts it at zero");
     }
-    if matches!(kind, JointKind::Universal { .. } | JointKind::Planar) {
-        let words = format!("MJCF has no {} joints: its {} axes are joints each", kind_word(kind), joint.dofs.len());
+    if let Some(word) = word_of_several(kind) {
+        let words = format!("MJCF has no {word} joints: its {} axes are joints each", joint.dofs.len());
         tree.note(&joint.path, &words);
     }
 }
 
-fn kind_word(kind: JointKind) -> &'static str {
-    if kind == JointKind::Planar { "planar" } else { "universal" }
+/// Word for a kind of joint that is several in MJCF.
+fn word_of_several(kind: JointKind) -> Option<&'static str> {
+    match kind {
+        JointKind::Planar => Some("planar"),
+        JointKind::Universal { .. } => Some("universal"),
+        _ => None,
+    }
 }
 
 fn geom(out: &mut String, tree: &mut Tree<'_>, k: usize, piece: &Piece, more: &str, pad: &str) {
