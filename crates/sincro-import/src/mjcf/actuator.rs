@@ -139,8 +139,8 @@ impl<'d> Reader<'d> {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
-        // a spring motor takes no command without stiffness
-        if law.bias != [0.0; 3] && law.bias[1] == 0.0 && law.gain != 0.0 {
+        // a spring motor takes no command without stiffness, and no constant
+        if law.bias[0] != 0.0 || (law.bias != [0.0; 3] && law.bias[1] == 0.0 && law.gain != 0.0) {
             return self.along(e, &law, &transmission);
         }
         if robot.motors.iter().any(|m| m.joint == joint) {
@@ -157,7 +157,7 @@ impl<'d> Reader<'d> {
         let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
         let (own, unit) = if !is_servo {
             (MotorLaw::Torque, Unit::new(law, law.gain * gear, 0.0))
-        } else if law.bias[0] == 0.0 && stiffness >= 0.0 && damping >= 0.0 {
+        } else if stiffness >= 0.0 && damping >= 0.0 {
             // without gain it has no command
             let scale = if law.gain == 0.0 { 0.0 } else { -law.gain / (law.bias[1] * gear) };
             (MotorLaw::Spring(stiffness, damping), Unit::new(law, scale, -self.references[joint]))
@@ -206,7 +206,7 @@ impl<'d> Reader<'d> {
         let is_servo = law.bias != [0.0; 3];
         let max_force = if is_servo { control } else { force.into_iter().chain(control).reduce(f64::min) };
         let what = match (e.peek("tendon"), is_servo) {
-            (None, _) => format!("a [[tendon]] of {}, a damper with an actuator", transmission.called),
+            (None, _) => format!("a [[tendon]] of {}, a spring and damper with an actuator", transmission.called),
             (_, true) => "a spring and damper with an actuator".into(),
             (_, false) => "an actuator".into(),
         };

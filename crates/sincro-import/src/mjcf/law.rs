@@ -75,7 +75,15 @@ impl<'d> Reader<'d> {
             _ => self.limiting_range(e, "ctrlrange", "ctrllimited")?,
         };
         let range = match (time_constant, inherited) {
-            (None, _) => None,
+            (None, _) => {
+                let range = self.limiting_range(e, "actrange", "actlimited")?;
+                if parameters.dynamics == "none" && range.is_some() {
+                    return Err(e
+                        .error("`actrange` is given, and it has no activation")
+                        .with_help("remove it, or give a `dyntype`"));
+                }
+                None
+            }
             (_, Some(InheritedRange::Activation(ratio))) => {
                 inherit(self, e, ["actrange", "actlimited"], ratio, transmission)?
             }

@@ -387,9 +387,15 @@ fn a_velocity_servo_of_a_joint_takes_its_control() {
         assert_eq!((law.stiffness, law.damping), (0.0, damping), "{actuator}");
         assert_eq!((law.preload != 0.0, commands(&scene)), (actuator.contains("0.5"), vec![command]), "{actuator}");
         let words = &entry(&imported, "[m]").words;
-        assert!(words.contains("a [[tendon]] of joint `j1`, a damper with an actuator"), "{words}");
+        assert!(words.contains("a [[tendon]] of joint `j1`, a spring and damper with an actuator"), "{words}");
         assert_eq!(words.contains("`forcerange` is left out"), actuator.contains("forcerange"), "{words}");
     }
+    // a constant is a preload
+    let (folder, constant) =
+        imported(r#"<general name="m" joint="j1" gainprm="2" biastype="affine" biasprm="0.5 -4 -3" gear="-2"/>"#);
+    let model = folder.open(&constant).scene.model;
+    let law = &model.spring_dampers()[0].law;
+    assert_eq!((law.stiffness, law.damping, law.preload.abs()), (16.0, 12.0, 1.0));
     // beside a position servo, and with an activation
     let (folder, both) = imported(
         r#"<position name="p" joint="j1" kp="2"/><velocity name="m" joint="j1" kv="3"/>

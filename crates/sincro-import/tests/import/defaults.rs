@@ -106,6 +106,7 @@ fn contradicting_parameters_of_actuators_are_refused() {
         ("", r#"<position joint="j" kv="0" dampratio="0"/>"#, "`kv` and `dampratio` are both given"),
         ("", r#"<intvelocity joint="j" kv="1" dampratio="1"/>"#, "`kv` and `dampratio` are both given"),
         ("", r#"<position joint="j" dampratio="-1"/>"#, "`dampratio` is negative"),
+        ("", r#"<general joint="j" actrange="-1 1"/>"#, "`actrange` is given, and it has no activation"),
         ("", r#"<motor joint="j" inheritrange="1"/>"#, "a `motor` has no `inheritrange`"),
         (
             r#"<position inheritrange="1"/>"#,
