@@ -1,7 +1,7 @@
 //! Triangle meshes of surfaces.
 //!
 //! Meshes, hulls and height fields are given as they are; solids of closed form are approximated: their surfaces of
-//! revolution by [`SEGMENTS`] meridians, arcs by [`ARC`] parts a quarter.
+//! revolution by `SEGMENTS` meridians, arcs by `ARC` parts a quarter.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
