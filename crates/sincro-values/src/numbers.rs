@@ -38,7 +38,7 @@ impl NumberFormat {
         })
     }
 
-    /// Size of one number [bytes].
+    /// Size of one number `[bytes]`.
     #[must_use]
     pub fn width(self) -> usize {
         match self {

@@ -148,11 +148,12 @@ def joints_of_mujoco(model, head):
 
 def without_soft_constraints(folder):
     """Takes stops of tendons, and tendons and bushings that stand for equalities, out of a scene: they are soft
-    constraints there. Springs and dampers of actuators on tendons go, too: actuation is off there."""
+    constraints there. Springs and dampers of actuators on tendons, or on joints that have a tendon for it, go, too:
+    actuation is off there."""
     with open(os.path.join(folder, "import-report.json")) as text:
         elements = json.load(text)["elements"]
-    words = ("a stiff [[tendon]]", "a spring and damper with an actuator")
-    held = {str(e["line"]) for e in elements if e["words"].startswith(words)}
+    words = re.compile(r"a stiff \[\[tendon\]\]|(a \[\[tendon\]\] of .*, )?a spring and damper with an actuator")
+    held = {str(e["line"]) for e in elements if words.match(e["words"])}
     path = os.path.join(folder, "scene.toml")
     with open(path) as text:
         blocks = text.read().split("\n\n")

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use sincro::Loaded;
+#[cfg(feature = "formats")]
 use sincro::export_c::{Compilable, compilable};
 use sincro_blocks::program::Rate;
 use sincro_scene::diagram::ControlDiagram;
@@ -92,6 +93,7 @@ fn print(loaded: &Loaded) {
         experiment.record.len()
     );
     say!("  integrator {} (asked for: {})", method_word(method), experiment.integrator.word());
+    #[cfg(feature = "formats")]
     print_compilable(&compilable(loaded));
     say!(
         "  {}, {}{}",
@@ -109,6 +111,7 @@ fn print(loaded: &Loaded) {
 }
 
 /// Parts of the scene that batches compile, and why not the rest.
+#[cfg(feature = "formats")]
 fn print_compilable(compilable: &Compilable) {
     let plant = match compilable {
         Compilable { step: Ok(()), .. } => "the steps of the mechanism".to_owned(),
