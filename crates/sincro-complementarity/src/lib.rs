@@ -12,7 +12,7 @@
 //! | `admm` | ADMM for the same problem, without an active set |
 //! | `gauss_seidel` | projected Gauss–Seidel for the same problem, where both fail |
 //! | `uniqueness` | search for a second solution |
-//! | `sweeps` | problem of a whole step at velocity level with many contacts |
+//! | `sweeps` | problem of a whole step at velocity level with many contacts; islands and what sleeps |
 
 mod active_set;
 mod admm;

@@ -42,7 +42,9 @@ impl Detector {
     /// Finds the contact candidates of every pair whose surfaces are not farther apart than its `margin`, in the order
     /// of their slots; `poses` are those of the links in the world, `velocity` gives the velocity of a collider at a
     /// point of the world [m/s] and its angular speed [rad/s], `former` the [`ContactCandidate::id`] of a feature that
-    /// a pair touched with so far, or 0.
+    /// a pair touched with so far, or 0. Pairs both surfaces of which are left out are passed
+    /// over.
+    #[allow(clippy::too_many_arguments)]
     pub fn detect(
         &mut self,
         (colliders, pairs): (&[Collider], &[Pair]),
@@ -50,9 +52,10 @@ impl Detector {
         margin: Margin,
         velocity: impl Fn(&Collider, Vec3<f64>) -> (Vec3<f64>, f64),
         former: impl Fn(&Pair) -> u32,
+        is_left_out: impl Fn(&Collider) -> bool,
         found: &mut CandidateList,
     ) {
-        self.broad_phase.find((colliders, pairs), poses, margin, velocity);
+        self.broad_phase.find((colliders, pairs), poses, margin, velocity, is_left_out);
         found.clear();
         for n in 0..self.broad_phase.near.len() {
             let k = self.broad_phase.near[n] as usize;

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 use std::sync::atomic::AtomicBool;
 
-use sincro_dynamics::world::MethodKind;
+use sincro_dynamics::actuation::ExternalForce;
+use sincro_dynamics::integrate::Control;
+use sincro_dynamics::prelude::*;
 use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::run::LockStep;
 use sincro_sim::snapshot::Snapshot;
@@ -134,4 +136,91 @@ fn a_heap_goes_on_bit_for_bit_from_a_snapshot() {
         other.advance().unwrap();
         assert_eq!(run.state(), other.state(), "tick {tick}");
     }
+}
+
+/// World of a scene, stepped by semi-implicit Euler without totals.
+fn world(scene: &str) -> World {
+    let scene = sincro_scene::scene::from_text(scene).unwrap_or_else(|e| panic!("{e}"));
+    let model = (*scene.model).clone();
+    let mut world =
+        World::with_totals(model, scene.initial, MethodKind::SemiImplicitEuler, Control::new(1e-9, STEP), false);
+    world.initialize(0.0);
+    world
+}
+
+fn bits(world: &World) -> Vec<u64> {
+    let State { q, v, contacts, .. } = &world.state;
+    q.iter().chain(v).chain(contacts).map(|x| x.to_bits()).collect()
+}
+
+fn moving(world: &World) -> usize {
+    world.state.v.chunks(6).filter(|v| v.iter().any(|v| *v != 0.0)).count()
+}
+
+#[test]
+fn a_heap_asleep_is_the_heap_awake_bit_for_bit() {
+    for seed in [1, 2, 3] {
+        let (scene, _) = heap(10, seed);
+        // one world leaves out what rests; the other is told in every step that something may have changed; a third
+        // one is looked at
+        let [mut asleep, mut awake, mut seen] = [world(&scene), world(&scene), world(&scene)];
+        let mut slept = [0; 3];
+        for k in 0..3000 {
+            let t = STEP * f64::from(k);
+            for world in [&mut asleep, &mut awake, &mut seen] {
+                match k {
+                    // thrown up, it falls on what sleeps
+                    1600 => world.state.v[..6].copy_from_slice(&[0.3, 0.0, 2.0, 0.1, -0.1, 4.0]),
+                    // pushed by a force that moves nothing, and lifted
+                    2300 => world.apply_external_force(push([0.0, 0.0, -1.0])),
+                    2320 => world.apply_external_force(push([0.0, 0.0, 60.0])),
+                    2340 => world.clear_external_forces(),
+                    // what lay on it is pushed off
+                    2800 => world.set_gravity(Vec3([0.5, 0.0, -G])),
+                    _ => {}
+                }
+            }
+            awake.mark_changed();
+            if k % 3 == 0 {
+                seen.observe(t);
+            }
+            for world in [&mut asleep, &mut awake, &mut seen] {
+                world.advance(t, STEP).unwrap();
+            }
+            if k % 20 == 0 || [1601, 2301, 2321, 2341, 2801].contains(&k) {
+                assert!(bits(&asleep) == bits(&awake), "seed {seed}: asleep and awake differ at step {k}");
+                assert!(bits(&asleep) == bits(&seen), "seed {seed}: it matters at step {k} whether it is looked at");
+            }
+            for (slept, end) in slept.iter_mut().zip([1600, 2300, 2800]) {
+                *slept = if k + 1 == end { 10 - moving(&asleep) } else { *slept };
+            }
+        }
+        assert!(slept.into_iter().all(|slept| slept >= 5), "seed {seed}: {slept:?} of 10 boxes came to rest");
+    }
+}
+
+fn push(force: [f64; 3]) -> ExternalForce<f64> {
+    ExternalForce { link: 3, point: Vec3([0.0; 3]), force: Vec3(force), torque: Vec3([0.0; 3]) }
+}
+
+#[test]
+fn what_sleeps_does_not_move_and_the_floor_carries_it() {
+    let (scene, mass) = heap(12, 4);
+    let mut world = world(&scene);
+    for k in 0..2400 {
+        world.advance(STEP * f64::from(k), STEP).unwrap();
+    }
+    assert_eq!(moving(&world), 0, "boxes still move: {:?}", world.state.v);
+    let before = bits(&world);
+    for k in 2400..4400 {
+        world.advance(STEP * f64::from(k), STEP).unwrap();
+        if k % 500 == 0 {
+            world.rates(STEP * f64::from(k + 1));
+            let floor = world.model().constraints().colliders.iter().position(|c| c.name.contains("floor"));
+            let on_floor = world.contacts().filter(|point| floor.is_some_and(|floor| point.surfaces.contains(&floor)));
+            let carried: f64 = on_floor.map(|point| point.force[2].abs()).sum();
+            assert!((carried / (mass * G) - 1.0).abs() < 1e-6, "{carried} N for {} N", mass * G);
+        }
+    }
+    assert!(bits(&world) == before, "what sleeps has moved");
 }

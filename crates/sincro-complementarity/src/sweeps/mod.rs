@@ -10,8 +10,10 @@
 //! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
 //! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
 
+pub mod islands;
 mod local;
 mod newton;
+pub mod rest;
 
 use sincro_math::{Real, Task};
 
@@ -31,6 +33,16 @@ const REST_SWEEPS: usize = 10;
 
 /// Speed of all contacts of an island below which it hardly moves [m/s].
 const REST_SPEED: f64 = 2e-3;
+
+/// Share of that speed below which Newton steps follow where those sweeps do not get near it, up to which residual, and
+/// their number a step.
+const STILL: f64 = 0.05;
+const STILL_TOLERANCE: f64 = 1e-9;
+const STILL_NEWTON_STEPS: usize = 4;
+
+/// Residual up to which the forces of an island in which nothing moves stand where a step does not halve it: several
+/// pairs may want gap corrections that contradict each other.
+const STANDING_RESIDUAL: f64 = 1e-8;
 
 /// Number of sweeps before the first Newton step, with one more for every eight blocks.
 const FIRST_SWEEPS: usize = 50;
@@ -169,6 +181,17 @@ enum Local {
 struct IslandRange {
     blocks: (usize, usize),
     z: (usize, usize),
+    /// True if nothing in it moves.
+    is_still: bool,
+}
+
+/// Result of an island.
+#[derive(Clone, Copy, Debug)]
+struct Outcome {
+    residual: f64,
+    sweeps: usize,
+    /// True if the forces are those to start from.
+    stands: bool,
 }
 
 /// Blocks of all islands with their whitened rows.
@@ -193,6 +216,8 @@ pub struct Sweeper {
     along: Vec<f64>,
     /// Forces with the least residual so far.
     best: Vec<[f64; 3]>,
+    /// Forces that an island starts from in which nothing moves.
+    start: Vec<[f64; 3]>,
     newton: NewtonStep,
     last: Solved,
 }
@@ -207,6 +232,8 @@ struct Solved {
     /// Law, first row, b and the forces to start from, of each block.
     blocks: Vec<(Law, usize, [f64; 3], [f64; 3])>,
     forces: Vec<[f64; 3]>,
+    /// One for each island.
+    outcomes: Vec<Outcome>,
     /// Entries that its solution added to the report.
     report: SolverReport,
 }
@@ -274,10 +301,23 @@ impl Sweeper {
         self.lambda.push(lambda);
     }
 
-    /// Ends an island.
-    pub fn end_island(&mut self) {
+    /// Ends an island; where nothing in it moves (`is_still`) and the forces to start from solve its problem within
+    /// 1e-10, or within 1e-8 and hardly better ones are found, they stand as they are.
+    pub fn end_island(&mut self, is_still: bool) {
         let (blocks, z) = self.islands.last().map_or((0, 1), |island| (island.blocks.1, island.z.1));
-        self.islands.push(IslandRange { blocks: (blocks, self.blocks.len()), z: (z, self.z.len()) });
+        self.islands.push(IslandRange { blocks: (blocks, self.blocks.len()), z: (z, self.z.len()), is_still });
+    }
+
+    /// Returns true if an island of the problem last solved has a residual within the tolerance.
+    #[must_use]
+    pub fn is_solved(&self, island: usize) -> bool {
+        self.last.outcomes[island].residual <= TOLERANCE
+    }
+
+    /// Returns true if the forces of an island of the problem last solved are those that it started from.
+    #[must_use]
+    pub fn was_at_rest(&self, island: usize) -> bool {
+        self.last.outcomes[island].stands
     }
 
     /// Solves all islands of a step of length `h` `[s]` from the forces given as a start.
@@ -324,10 +364,13 @@ impl Sweeper {
     fn solve_islands(&mut self, h: f64) {
         let mut report = SolverReport::default();
         self.resize_buffers();
+        self.last.outcomes.clear();
         for k in 0..self.islands.len() {
-            let IslandRange { blocks, z } = self.islands[k];
+            let IslandRange { blocks, z, is_still } = self.islands[k];
             let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
-            let (residual, sweeps) = Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h }.solve();
+            let outcome = Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h }.solve(is_still);
+            self.last.outcomes.push(outcome);
+            let Outcome { residual, sweeps, .. } = outcome;
             report.islands += 1;
             report.sweeps += sweeps as u64;
             report.unconverged_islands += u64::from(residual > TOLERANCE);
@@ -543,8 +586,8 @@ impl Sweeper {
 struct Swept {
     residual: f64,
     sweeps: usize,
-    /// True if the island hardly moves.
-    rests: bool,
+    /// Largest rate of what carries a force, over that below which the island hardly moves.
+    motion: f64,
 }
 
 /// One island to be solved.
@@ -557,17 +600,42 @@ struct Island<'a> {
 }
 
 impl Island<'_> {
-    /// Residual, and number of sweeps.
-    fn solve(mut self) -> (f64, usize) {
+    /// Solves the island, in which nothing moves if it `is_still`.
+    fn solve(mut self, is_still: bool) -> Outcome {
         self.find_velocities();
-        let Swept { residual: mut best, mut sweeps, .. } = self.sweep(FIRST_SWEEPS + self.blocks.len() / 8);
-        if best <= TOLERANCE {
-            return (best, sweeps);
+        if !is_still {
+            return self.improve();
+        }
+        let Sweeper { start, lambda, .. } = &mut *self.sweeper;
+        let forces = &lambda[self.blocks.clone()];
+        let largest = forces.iter().map(|force| square(*force)).fold(0.0, f64::max).sqrt();
+        start.clear();
+        start.extend_from_slice(forces);
+        let (residual, _) = residual(self.sweeper, self.blocks.clone(), largest);
+        if residual <= REST_TOLERANCE {
+            return Outcome { residual, sweeps: 0, stands: true };
+        }
+        let improved = self.improve();
+        if residual > STANDING_RESIDUAL || improved.residual < 0.5 * residual {
+            return improved;
+        }
+        let Sweeper { start, lambda, .. } = &mut *self.sweeper;
+        lambda[self.blocks.clone()].copy_from_slice(start);
+        Outcome { residual, sweeps: improved.sweeps, stands: true }
+    }
+
+    /// Makes sweeps and Newton steps from the present forces on.
+    fn improve(&mut self) -> Outcome {
+        let Swept { residual: mut best, mut sweeps, motion } = self.sweep(FIRST_SWEEPS + self.blocks.len() / 8);
+        if best <= if motion < STILL { STILL_TOLERANCE } else { TOLERANCE } {
+            return Outcome { residual: best, sweeps, stands: false };
         }
         let mut newton = core::mem::take(&mut self.sweeper.newton);
         self.keep();
         let next_sweeps = NEXT_SWEEPS + self.blocks.len() / 16;
-        for _ in 0..MAX_NEWTON_STEPS {
+        let mut stalls = 0;
+        for step in 1..=MAX_NEWTON_STEPS {
+            let last = best;
             newton.make(self.sweeper, self.blocks.clone(), self.z.clone());
             let mut swept = self.sweep(next_sweeps);
             sweeps += swept.sweeps;
@@ -582,7 +650,14 @@ impl Island<'_> {
                 best = swept.residual;
                 self.keep();
             }
-            if best <= if swept.rests { TOLERANCE } else { ROUGH_TOLERANCE } {
+            let enough = match swept.motion {
+                m if m < STILL && step < STILL_NEWTON_STEPS => STILL_TOLERANCE,
+                m if m < 1.0 => TOLERANCE,
+                _ => ROUGH_TOLERANCE,
+            };
+            // what hardly gets better within the tolerance is left
+            stalls += usize::from(best > 0.5 * last);
+            if best <= enough || (best <= TOLERANCE && stalls > 1) {
                 break;
             }
         }
@@ -602,7 +677,7 @@ impl Island<'_> {
             self.keep();
         }
         self.restore();
-        (best, sweeps)
+        Outcome { residual: best, sweeps, stands: false }
     }
 
     /// The velocities of the present forces.
@@ -659,10 +734,10 @@ impl Task for Sweeps<'_, '_> {
             let is_last = sweep == most;
             if change <= TOLERANCE * TOLERANCE * largest || is_last || largest == 0.0 {
                 let (residual, fastest) = residual(sweeper, blocks.clone(), largest.sqrt());
-                let rests = fastest < *rest_rate;
-                let tolerance = if rests && sweep < REST_SWEEPS { REST_TOLERANCE } else { TOLERANCE };
+                let motion = fastest / *rest_rate;
+                let tolerance = if motion < 1.0 && sweep < REST_SWEEPS { REST_TOLERANCE } else { TOLERANCE };
                 if residual <= tolerance || is_last {
-                    return Swept { residual, sweeps: sweep, rests };
+                    return Swept { residual, sweeps: sweep, motion };
                 }
             }
             // further along the last direction
@@ -710,7 +785,8 @@ fn square_of_difference(x: &[f64], y: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// Residual of an island relative to its `largest` force, and its largest rate.
+/// Residual of an island relative to its `largest` force, and the largest rate of what carries a force: surfaces that
+/// do not touch may have any.
 #[inline(always)]
 fn residual(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64) -> (f64, f64) {
     let (mut worst, mut fastest) = (0.0_f64, 0.0_f64);
@@ -719,7 +795,9 @@ fn residual(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64
         let miss = sweeper.natural_map(k, u);
         // a maximum passes over what is not a number
         worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
-        fastest = u.iter().fold(fastest, |s, u| s.max(u.abs()));
+        if sweeper.lambda[k] != [0.0; 3] {
+            fastest = u.iter().fold(fastest, |s, u| s.max(u.abs()));
+        }
     }
     (if worst > 0.0 { worst / largest } else { 0.0 }, fastest)
 }

@@ -286,7 +286,7 @@ mod tests {
             b[0] -= if upper { 0.0 } else { 9.81 };
             sweeper.add(Law::Coulomb { friction: 0.5 }, 3 * k, 3, &dofs, &values, b, [0.0; 3]);
         }
-        sweeper.end_island();
+        sweeper.end_island(false);
         sweeper
     }
 

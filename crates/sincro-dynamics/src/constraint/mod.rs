@@ -46,6 +46,7 @@ mod time_stepping;
 pub(crate) mod warm_start;
 
 pub(crate) use sincro_complementarity::HeldLaw;
+use sincro_complementarity::sweeps::rest::Rest;
 use sincro_complementarity::{
     ContactProblem, HELD_RATE, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable,
 };
@@ -183,6 +184,7 @@ pub(crate) struct Constraints<R> {
     pub is_locating: bool,
     pub solver: Solver<R>,
     time_stepping: TimeStepping,
+    pub rest: Rest<R>,
     /// Wrench on each link about the world's origin, world axes.
     wrenches: Vec<Force<R>>,
     /// Generalized forces of all constraints but drives, of a problem solved by sweeps.
@@ -237,6 +239,7 @@ impl<R: Real> Constraints<R> {
             is_locating: false,
             solver: Solver::default(),
             time_stepping: TimeStepping::default(),
+            rest: Rest::new(model.all_trees()),
             wrenches: vec![Force::zero(); model.links.len()],
             contact_torque: vec![R::zero(); model.n_v()],
             sweeps: false,
@@ -286,8 +289,13 @@ impl<R: Real> Constraints<R> {
         // at velocity level the poses and twists of the last contact detection stand
         self.assemble(model, q, v, scratch, level == Level::Acceleration);
         self.add_kinks();
+        let left_out = self.rest.hold(v_dot);
+        self.solver.report.islands += left_out;
         if self.rows.is_empty() {
             self.is_swept = false;
+            if left_out > 0 {
+                self.leave_all_out();
+            }
             if let Some(implicit) = implicit {
                 implicit.respond(model, scratch, v_dot, has_drives);
             }

@@ -44,6 +44,8 @@ impl ZenoFallback {
 struct Entry<R> {
     slot: u32,
     closed: bool,
+    /// True if the slot is left out of the classification that is being made, and stays as it is.
+    is_held: bool,
     /// True if the slot has closed since it was last asked for.
     is_new: bool,
     is_sliding: [bool; 3],
@@ -64,6 +66,7 @@ impl<R: Real> Entry<R> {
         Self {
             slot: slot as u32,
             closed: false,
+            is_held: false,
             is_new: false,
             is_sliding: [false; 3],
             numbers: zeros,
@@ -103,6 +106,8 @@ pub(crate) struct WarmStart<R> {
     of_features: Vec<(u32, [R; SLOT_LEN])>,
     /// Numbers of its new points, from the last to the first.
     continued: Vec<[R; SLOT_LEN]>,
+    /// Slots at rest with their numbers.
+    resting: Vec<(u32, [R; SLOT_LEN])>,
     zeno_fallback: ZenoFallback,
     /// True if there are slots at all.
     has_slots: bool,
@@ -117,6 +122,7 @@ impl<R: Real> WarmStart<R> {
             taken: 0,
             of_features: Vec::new(),
             continued: Vec::new(),
+            resting: Vec::new(),
             zeno_fallback: ZenoFallback::default(),
             has_slots: n_slots > 0,
         }
@@ -246,12 +252,38 @@ impl<R: Real> WarmStart<R> {
         of_range.map(|entry| feature(&entry.numbers)).find(|feature| *feature != 0).unwrap_or(0)
     }
 
-    /// Begins a classification of all slots.
-    pub fn begin_classification(&mut self) {
+    /// Begins a classification of all slots but those that `is_held` says stay as they are.
+    pub fn begin_classification(&mut self, is_held: impl Fn(usize) -> bool) {
         core::mem::swap(&mut self.entries, &mut self.former);
+        for entry in &mut self.former {
+            entry.is_held = is_held(entry.slot as usize);
+        }
         self.entries.clear();
         self.continued.clear();
         self.taken = 0;
+    }
+
+    /// Goes back to what was known before the classification last made.
+    pub fn undo_classification(&mut self) {
+        core::mem::swap(&mut self.entries, &mut self.former);
+    }
+
+    /// Keeps the numbers of the closed slots that are at rest.
+    pub fn keep_resting(&mut self, rests: impl Fn(usize) -> bool) {
+        self.resting.clear();
+        let closed = self.entries.iter().filter(|entry| entry.closed && rests(entry.slot as usize));
+        self.resting.extend(closed.map(|entry| (entry.slot, entry.numbers)));
+    }
+
+    /// Returns true if there are slots at rest, all of them closed and with the numbers kept, to the last bit.
+    pub fn rests(&self) -> bool {
+        let mut entries = self.entries.iter();
+        let same = |one: &R, two: &R| one.lane(0).to_bits() == two.lane(0).to_bits();
+        let holds = |(slot, numbers): &(u32, [R; SLOT_LEN])| {
+            let entry = entries.find(|entry| entry.slot == *slot);
+            entry.is_some_and(|entry| entry.closed && entry.numbers.iter().zip(numbers).all(|(x, y)| same(x, y)))
+        };
+        !self.resting.is_empty() && self.resting.iter().all(holds)
     }
 
     /// Begins the slots of a pair with the features of its new points in the order of slots. Where the features of the
@@ -304,7 +336,9 @@ impl<R: Real> WarmStart<R> {
         while let Some(entry) = self.former.get(self.taken).filter(|entry| (entry.slot as usize) < slot) {
             let mut entry = *entry;
             self.taken += 1;
-            entry.classify(false, [false; 3]);
+            if !entry.is_held {
+                entry.classify(false, [false; 3]);
+            }
             self.keep_entry(entry);
         }
     }

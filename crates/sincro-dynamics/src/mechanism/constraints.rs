@@ -7,7 +7,7 @@ use crate::constraint::row::Motions;
 use crate::constraint::warm_start::WarmStart;
 use crate::constraint::{
     CLOSED_DISTANCE, ConstraintSet, Constraints, DIRECT_ROWS, HeldLaw, LEAST_ZERO_SPEED, MAX_ZERO_SPEED, ModeRule,
-    SETTLING_SPEED,
+    SETTLING_SPEED, pair_of,
 };
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::candidate_list::SlotCandidate;
@@ -16,6 +16,7 @@ use crate::integrate::System;
 use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
 use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
+use crate::scratch::Scratch;
 use crate::spatial::{Pose, Vec3};
 
 /// Projection tolerance of positions and rates `[m]`, [m/s], of a mechanism of 1 m or more.
@@ -90,6 +91,16 @@ pub(crate) enum ActivationRule {
 impl Mechanism<f64> {
     /// Detects contacts at the chart's origin for velocities `v`, and classifies every slot.
     pub(crate) fn detect_contacts(&mut self, v: &[f64], closing: ActivationRule) -> ContactStatus {
+        self.detect_awake_contacts(v, closing, false)
+    }
+
+    /// Detects contacts as [`Mechanism::detect_contacts`] does; islands at rest may be left out.
+    pub(crate) fn detect_awake_contacts(
+        &mut self,
+        v: &[f64],
+        closing: ActivationRule,
+        may_leave_out: bool,
+    ) -> ContactStatus {
         let Some(c) = self.constraints.as_deref_mut() else { return ContactStatus::default() };
         let (model, scratch) = (&self.model, &mut self.scratch);
         kinematics::poses(model, &self.base, scratch);
@@ -100,45 +111,68 @@ impl Mechanism<f64> {
             ActivationRule::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
             _ => Margin::of(1e-6),
         };
-        c.detect(set, &scratch.poses, margin);
-        let mut touch = ContactStatus::default();
-        let zero_speed = c.zero_speed;
-        let closes = |distance: f64, rate: f64| match closing {
-            ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= zero_speed,
-            ActivationRule::All => distance <= CLOSED_DISTANCE,
-            ActivationRule::Within(h) => {
-                distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity
-            }
-        };
-        c.memory.begin_classification();
-        for (slot, limit) in set.limits.iter().enumerate() {
-            let distance = limit.sign * (self.base[limit.coordinate] - limit.bound);
-            let rate = limit.sign * v[limit.dof];
-            c.memory.classify(slot, closes(distance, rate), [false; 3]);
-            touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -zero_speed;
+        c.rest.begin(&self.base);
+        if c.rest.is_stale() {
+            let of_loops = set.loop_joints.iter().flat_map(|joint| [joint.a.link, joint.b.link]);
+            let of_gears = set.gears.iter().flat_map(|gear| gear.dofs);
+            let of_limits = set.limits.iter().map(|limit| limit.dof);
+            c.rest.allow(of_loops, model.params.drives.iter().map(|drive| drive.dof).chain(of_gears).chain(of_limits));
         }
-        let candidates = core::mem::take(&mut c.candidates);
-        for of_pair in candidates.by_pair() {
-            let (first_slot, pair) = (set.limits.len(), &set.pairs[of_pair[0].pair as usize]);
-            let slots = first_slot + pair.first..first_slot + pair.first + pair.slots;
-            c.memory.begin_pair(slots, of_pair.iter().map(|found| found.candidate.id));
-            for SlotCandidate { slot, candidate, .. } in of_pair {
-                let slot = first_slot + *slot as usize;
-                let at = candidate.kinematics(&c.motions.at(scratch));
-                let rate = normal_rate(&c.motions, candidate, &at);
-                let slides = || slides(&c.motions, candidate, &at, pair, zero_speed);
-                if pair.material.stiffness.is_finite() {
-                    c.memory.classify(slot, at.distance < 0.0, slides());
-                    continue;
-                }
-                let closed = closes(at.distance, rate);
-                c.memory.classify(slot, closed, if closed { slides() } else { [false; 3] });
-                touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -zero_speed;
-            }
+        if let (true, ActivationRule::Within(h)) = (may_leave_out && c.memory.rests(), closing) {
+            c.rest.leave_out(v, h);
         }
-        c.memory.end_classification();
-        c.candidates = candidates;
-        touch
+        loop {
+            c.detect(set, &scratch.poses, margin);
+            let touch = c.classify(set, scratch, (&self.base, v), closing, gravity);
+            if !c.wake_touched(set) {
+                return touch;
+            }
+            c.memory.undo_classification();
+        }
+    }
+
+    /// Wakes what is at rest: the model may have changed.
+    pub(crate) fn wake(&mut self) {
+        if let Some(c) = &mut self.constraints {
+            c.rest.forget();
+        }
+    }
+
+    /// Says whether bodies may come to rest in the steps at velocity level that follow.
+    pub(crate) fn allow_rest(&mut self, is_allowed: bool) {
+        if let Some(c) = &mut self.constraints {
+            c.rest.is_allowed = is_allowed;
+        }
+    }
+
+    /// Returns true if everything that the last problem solved by sweeps looked at is at rest.
+    pub(crate) fn is_all_at_rest(&self) -> bool {
+        self.constraints.as_ref().is_some_and(|c| c.rest.is_all_at_rest)
+    }
+
+    /// Returns true if something left out of the last step has been accelerated.
+    pub(crate) fn has_woken(&self) -> bool {
+        self.constraints.as_ref().is_some_and(|c| c.rest.has_woken)
+    }
+
+    /// Ends the motion of what has come to rest in the last step, which was solved by sweeps and began at the
+    /// coordinates `before` (n_q); `v` are the velocities (n_v).
+    pub(crate) fn stop_quiet_motion(&mut self, before: &[f64], v: &mut [f64]) {
+        if let Some(c) = &self.constraints {
+            c.rest.stop(before, &mut self.base, v);
+        }
+    }
+
+    /// Returns true if islands are left out of the step for which contacts were last detected.
+    pub(crate) fn leaves_islands_out(&self) -> bool {
+        self.constraints.as_ref().is_some_and(|c| c.rest.leaves_any_out())
+    }
+
+    /// Goes back to what was known of contacts before they were last detected.
+    pub(crate) fn undo_classification(&mut self) {
+        if let Some(c) = &mut self.constraints {
+            c.memory.undo_classification();
+        }
     }
 
     /// Returns true if the constraints last classified as closed make a problem that is solved by sweeps.
@@ -437,6 +471,72 @@ impl Constraints<f64> {
         self.motions.velocity_of(collider.link, at).norm() + around
     }
 
+    /// Classifies every slot of what is not left out, for the coordinates `q` and velocities `v`.
+    fn classify(
+        &mut self,
+        set: &ConstraintSet,
+        scratch: &Scratch<f64>,
+        (q, v): (&[f64], &[f64]),
+        closing: ActivationRule,
+        gravity: f64,
+    ) -> ContactStatus {
+        let mut touch = ContactStatus::default();
+        let zero_speed = self.zero_speed;
+        let closes = |distance: f64, rate: f64| match closing {
+            ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= zero_speed,
+            ActivationRule::All => distance <= CLOSED_DISTANCE,
+            ActivationRule::Within(h) => {
+                distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity
+            }
+        };
+        let rest = &self.rest;
+        self.memory.begin_classification(|slot| {
+            let contact = slot.checked_sub(set.limits.len());
+            contact.is_some_and(|contact| rest.leaves_out(set.links_of(&set.pairs[pair_of(set, contact)])))
+        });
+        for (slot, limit) in set.limits.iter().enumerate() {
+            let distance = limit.sign * (q[limit.coordinate] - limit.bound);
+            let rate = limit.sign * v[limit.dof];
+            self.memory.classify(slot, closes(distance, rate), [false; 3]);
+            touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -zero_speed;
+        }
+        let candidates = core::mem::take(&mut self.candidates);
+        for of_pair in candidates.by_pair() {
+            let (first_slot, pair) = (set.limits.len(), &set.pairs[of_pair[0].pair as usize]);
+            let slots = first_slot + pair.first..first_slot + pair.first + pair.slots;
+            self.memory.begin_pair(slots, of_pair.iter().map(|found| found.candidate.id));
+            for SlotCandidate { slot, candidate, .. } in of_pair {
+                let slot = first_slot + *slot as usize;
+                let at = candidate.kinematics(&self.motions.at(scratch));
+                let rate = normal_rate(&self.motions, candidate, &at);
+                let slides = || slides(&self.motions, candidate, &at, pair, zero_speed);
+                if pair.material.stiffness.is_finite() {
+                    self.memory.classify(slot, at.distance < 0.0, slides());
+                    continue;
+                }
+                let closed = closes(at.distance, rate);
+                self.memory.classify(slot, closed, if closed { slides() } else { [false; 3] });
+                touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -zero_speed;
+            }
+        }
+        self.memory.end_classification();
+        self.candidates = candidates;
+        touch
+    }
+
+    /// Wakes the islands at rest that others touch; returns true if there are any.
+    fn wake_touched(&mut self, set: &ConstraintSet) -> bool {
+        let mut woken = false;
+        if self.rest.leaves_any_out() {
+            for SlotCandidate { slot, candidate, .. } in self.candidates.iter() {
+                if self.memory.is_closed(set.limits.len() + *slot as usize) {
+                    woken |= self.rest.wake_touched([candidate.a, candidate.b]);
+                }
+            }
+        }
+        woken
+    }
+
     /// Detects the contact candidates at the motions last placed.
     fn detect(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
         let motions = &self.motions;
@@ -444,13 +544,23 @@ impl Constraints<f64> {
             |c: &Collider, p: Vec3<f64>| (motions.velocity_of(c.link, p), motions.twist_of(c.link).ang.norm());
         let (memory, first_slot) = (&self.memory, set.limits.len());
         let former = |pair: &Pair| memory.feature_among(first_slot + pair.first..first_slot + pair.first + pair.slots);
-        self.detector.detect((&set.colliders, &set.pairs), poses, margin, velocity, former, &mut self.candidates);
+        let leaves_out = |c: &Collider| self.rest.leaves_out([c.link]);
+        self.detector.detect(
+            (&set.colliders, &set.pairs),
+            poses,
+            margin,
+            velocity,
+            former,
+            leaves_out,
+            &mut self.candidates,
+        );
     }
 
     /// Detects the contact candidates of a later instant.
     fn detect_later(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
         let at_rest = |_: &Collider, _| (Vec3::zero(), 0.0);
-        self.detector.detect((&set.colliders, &set.pairs), poses, margin, at_rest, |_| 0, &mut self.later_candidates);
+        let (later, none) = (&mut self.later_candidates, |_: &Collider| false);
+        self.detector.detect((&set.colliders, &set.pairs), poses, margin, at_rest, |_| 0, none, later);
     }
 }
 

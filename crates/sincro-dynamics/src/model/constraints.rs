@@ -178,6 +178,11 @@ impl ConstraintSet {
         self.limits.len() + self.n_contacts()
     }
 
+    /// Links of the two surfaces of a pair; `WORLD` for none.
+    pub(crate) fn links_of(&self, pair: &Pair) -> [u32; 2] {
+        [pair.a, pair.b].map(|k| self.colliders[k].link)
+    }
+
     /// Upper bound of the number of constraint rows, whatever the materials: six a contact point.
     pub(crate) fn max_rows(&self) -> usize {
         self.n_bilateral() + self.limits.len() + 6 * self.n_contacts()

@@ -23,6 +23,7 @@ mod structure;
 use std::ops::Deref;
 use std::sync::Arc;
 
+use sincro_complementarity::sweeps::rest::Trees;
 use sincro_math::Real;
 
 pub use crate::geometry::{MassProperties, Shape};
@@ -153,6 +154,18 @@ impl<R: Real> Model<R> {
             tree[i] = if link.parent == WORLD { i as u32 } else { tree[link.parent as usize] };
         }
         tree
+    }
+
+    /// Trees of links, degrees of freedom and coordinates.
+    pub(crate) fn all_trees(&self) -> Trees {
+        let of_link = self.trees();
+        let (mut of_dof, mut of_coordinate) = (vec![WORLD; self.n_v()], vec![WORLD; self.n_q()]);
+        for (link, tree) in self.links.iter().zip(&of_link) {
+            let (q, v) = (link.q_idx as usize, link.v_idx as usize);
+            of_coordinate[q..q + link.kind.n_q()].fill(*tree);
+            of_dof[v..v + link.kind.n_v()].fill(*tree);
+        }
+        Trees { of_link, of_dof, of_coordinate }
     }
 
     /// Link that each degree of freedom moves.

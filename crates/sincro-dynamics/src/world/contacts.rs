@@ -122,8 +122,19 @@ impl World {
         h: f64,
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
-        let is_large = self.detect_step_contacts(h);
+        let is_semi_implicit = matches!(self.method, Method::SemiImplicitEuler);
+        self.mechanism.allow_rest(is_semi_implicit);
+        // forces that were looked at are found already, by a problem that leaves nothing out
+        let is_new = !core::mem::take(&mut self.knows_step_forces) || self.mechanism.is_all_at_rest();
+        let is_large = self.detect_step_contacts(h, is_semi_implicit && is_new);
         self.try_step(t, h, is_large, system);
+        if self.mechanism.has_woken() {
+            // a force on what rests has changed
+            self.restore();
+            self.mechanism.undo_classification();
+            let is_large = self.detect_step_contacts(h, false);
+            self.try_step(t, h, is_large, system);
+        }
         self.statistics.steps += 1;
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::forget_start);
         if !self.y.iter().all(|x| x.is_finite()) {
@@ -131,7 +142,10 @@ impl World {
             return Err((t, Stop::Integration(Failure::NotFinite { t })));
         }
         let layout = self.layout();
-        self.project_penetrations(is_large && matches!(self.method, Method::SemiImplicitEuler));
+        if is_large {
+            self.mechanism.stop_quiet_motion(&self.base_before, &mut self.y[layout.velocities()]);
+        }
+        self.project_penetrations(is_large && is_semi_implicit);
         for i in 0..self.target_velocities.len() {
             if self.mechanism.drives[i] == 0.0 {
                 self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities[i];
@@ -145,14 +159,20 @@ impl World {
     }
 
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is
-    /// solved by sweeps.
-    fn detect_step_contacts(&mut self, h: f64) -> bool {
+    /// solved by sweeps. Then islands at rest may be left out.
+    fn detect_step_contacts(&mut self, h: f64, may_leave_out: bool) -> bool {
         if !self.is_constrained() {
             return false;
         }
-        let layout = self.layout();
-        self.mechanism.detect_contacts(&self.y[layout.velocities()], ActivationRule::Within(h));
-        self.mechanism.is_large_contact_problem()
+        let velocities = self.layout().velocities();
+        self.mechanism.detect_awake_contacts(&self.y[velocities.clone()], ActivationRule::Within(h), may_leave_out);
+        let is_large = self.mechanism.is_large_contact_problem();
+        if !is_large && self.mechanism.leaves_islands_out() {
+            // few contacts are solved all together
+            self.mechanism.undo_classification();
+            self.mechanism.detect_contacts(&self.y[velocities], ActivationRule::Within(h));
+        }
+        is_large
     }
 
     /// Makes a step at velocity level with the contacts last detected, by sweeps if they are many (`is_large`), without
@@ -192,7 +212,11 @@ impl World {
     /// has detected them then. Forces and accelerations are those of whole steps.
     pub(super) fn is_next_step_large(&mut self) -> bool {
         let is_time_stepping = matches!(self.method, Method::SemiImplicitEuler);
-        is_time_stepping && self.mechanism.can_have_many_contacts() && self.detect_step_contacts(self.next_step)
+        if !is_time_stepping || !self.mechanism.can_have_many_contacts() {
+            return false;
+        }
+        self.mechanism.allow_rest(true);
+        self.detect_step_contacts(self.next_step, false)
     }
 
     /// Finds the forces of the next step from the present state with the contacts last detected, by sweeps, and stays
@@ -200,6 +224,7 @@ impl World {
     pub(super) fn find_step_forces(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         let layout = self.layout();
         self.try_step(t, self.next_step, true, &mut { system });
+        self.knows_step_forces = true;
         self.step_end_velocities.copy_from_slice(&self.y[layout.velocities()]);
         self.restore();
         if !self.step_end_velocities.iter().all(|v| v.is_finite()) {

@@ -192,6 +192,8 @@ pub struct World {
     decided_slope: Vec<f64>,
     /// Velocities at the end of the next step, where its forces are found over the whole of it.
     step_end_velocities: Vec<f64>,
+    /// True if the forces of the next step have been looked at.
+    knows_step_forces: bool,
     negated_jacobian_diagonal: Vec<f64>,
     attached_before: Vec<f64>,
     substeps: u32,
@@ -278,6 +280,7 @@ impl World {
             slope: vec![0.0; dim],
             decided_slope: vec![0.0; dim],
             step_end_velocities: accelerations.clone(),
+            knows_step_forces: false,
             negated_jacobian_diagonal: vec![0.0; n_states],
             attached_before: vec![0.0; n_states],
             substeps: 1,
@@ -439,6 +442,7 @@ impl World {
     /// ([`Observation::law_residuals`]) only after the next tick.
     pub fn mark_changed(&mut self) {
         self.settled_at = None;
+        self.mechanism.wake();
     }
 
     /// Bytes that this world takes on the heap, the model left out; for memory statistics.

@@ -18,10 +18,11 @@
 //!
 //! Sources: keys `acary2008` (chapters 10 and 13), `jain2011` (chapter 7), `jean1999`, `silcowitz2010`.
 
-pub(super) mod islands;
 #[cfg(test)]
 mod tests;
 
+use sincro_complementarity::sweeps::islands::Islands;
+use sincro_complementarity::sweeps::rest::QUIET;
 use sincro_complementarity::sweeps::{Law, Sweeper};
 use sincro_complementarity::{ContactMode, UnilateralConstraint};
 use sincro_math::Real;
@@ -32,7 +33,6 @@ use crate::joint::WORLD;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
-use islands::Islands;
 
 /// Number of rows above which a step at velocity level is solved here, and not by an active set.
 pub(crate) const DIRECT_ROWS: usize = 24;
@@ -43,6 +43,9 @@ const DEAD_ZONE: f64 = 1e-6;
 
 /// Share of a penetration beyond the dead zone that a step removes.
 const CORRECTION: f64 = 0.2;
+
+/// Velocity of a correction that is not made [m/s]: at the arm of a meter it takes more than bodies at rest may have.
+const NO_CORRECTION: f64 = 10.0 * QUIET;
 
 /// Share of the friction limit beyond which a group counts as one that slips.
 const AT_LIMIT: f64 = 1.0 - 1e-9;
@@ -57,10 +60,10 @@ struct UsableDistance {
 }
 
 impl UsableDistance {
-    /// For points at these distances.
-    fn of(distances: impl Iterator<Item = f64>) -> Self {
+    /// For points at these distances, over a step of length `h` `[s]`.
+    fn of(distances: impl Iterator<Item = f64>, h: f64) -> Self {
         let (least, most) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
-        let (of_least, of_most) = (usable(least), usable(most));
+        let (of_least, of_most) = (usable(least, h), usable(most, h));
         let slope = if most > least { (of_most - of_least) / (most - least) } else { 0.0 };
         Self { least, of_least, slope }
     }
@@ -71,15 +74,12 @@ impl UsableDistance {
     }
 }
 
-/// Distance that a single point at `distance` may use up within a step `[m]`; below zero it has to separate.
-fn usable(distance: f64) -> f64 {
-    if distance > DEAD_ZONE {
-        distance - DEAD_ZONE
-    } else if distance < -DEAD_ZONE {
-        CORRECTION * (distance + DEAD_ZONE)
-    } else {
-        0.0
-    }
+/// Distance that a single point at `distance` may use up within a step of length `h` `[s]`, in metres; below zero it
+/// has to separate. One for which bodies would hardly have to move is zero: those at rest would not gain it.
+fn usable(distance: f64, h: f64) -> f64 {
+    let beyond = distance - distance.clamp(-DEAD_ZONE, DEAD_ZONE);
+    let usable = if beyond < 0.0 { CORRECTION * beyond } else { beyond };
+    if usable.abs() > NO_CORRECTION * h { usable } else { 0.0 }
 }
 
 /// Working memory; grows to the largest problem it has seen.
@@ -97,12 +97,16 @@ impl<R: Real> Constraints<R> {
     /// solved by sweeps.
     pub fn is_large(&self, model: &Model<R>) -> bool {
         let set = &*model.params.constraints;
-        let rows = self.memory.closed_slots().map(|slot| match slot.checked_sub(set.limits.len()) {
+        let of_slots = self.memory.closed_slots().map(|slot| match slot.checked_sub(set.limits.len()) {
             Some(contact) => set.pairs[pair_of(set, contact)].rows_per_point(),
             None => 1,
         });
-        let bilateral = self.is_independent.iter().filter(|used| **used).count();
-        bilateral + rows.sum::<usize>() > DIRECT_ROWS
+        let mut rows = self.is_independent.iter().filter(|used| **used).count();
+        rows > DIRECT_ROWS
+            || of_slots.into_iter().any(|more| {
+                rows += more;
+                rows > DIRECT_ROWS
+            })
     }
 
     /// Solves the problem of a step of length `h` and adds the constraint forces to the accelerations `v_dot` of the
@@ -121,10 +125,11 @@ impl<R: Real> Constraints<R> {
         self.find_step_rates(model, (h, v), v_dot);
         self.aim_at_targets(h);
         let mut sweeps = core::mem::take(&mut self.time_stepping);
-        self.collect_blocks(model, scratch, &mut sweeps);
+        self.find_islands(model, scratch, &mut sweeps.islands);
+        self.rest.begin_solution(v, v_dot, &sweeps.islands);
+        self.collect_blocks(model, &mut sweeps);
         sweeps.sweeper.solve(h, &mut self.solver.report);
         self.read_blocks(&sweeps);
-        self.time_stepping = sweeps;
         self.memory.keep(&self.blocks, &self.lambda);
         let n_limits = model.params.constraints.limits.len();
         let id = |slot: usize| self.candidates.get(slot - n_limits).map_or(0, |candidate| candidate.id);
@@ -132,7 +137,27 @@ impl<R: Real> Constraints<R> {
         (self.conditioning, self.is_swept) = (1.0, true);
         (self.violation, self.lost_modes) = (None, false);
         self.push_wrenches(model, scratch, v_dot, has_drives);
+        self.rest.settle((v, h), &sweeps.islands, &sweeps.sweeper, v_dot);
+        self.keep_slots_at_rest(model);
+        self.time_stepping = sweeps;
         self.take_drive_torques(false, scratch, v_dot);
+    }
+
+    /// Keeps the warm start of the contacts at rest.
+    fn keep_slots_at_rest(&mut self, model: &Model<R>) {
+        let (set, rest) = (&*model.params.constraints, &self.rest);
+        let has_sleepers = rest.has_sleepers();
+        self.memory.keep_resting(|slot| {
+            let contact = slot.checked_sub(set.limits.len()).filter(|_| has_sleepers);
+            contact.is_some_and(|contact| rest.rests(set.links_of(&set.pairs[pair_of(set, contact)])))
+        });
+    }
+
+    /// Ends a step at velocity level in which everything that touches is left out.
+    pub(super) fn leave_all_out(&mut self) {
+        self.contact_torque.fill(R::zero());
+        (self.conditioning, self.is_swept) = (1.0, true);
+        (self.violation, self.lost_modes) = (None, false);
     }
 
     /// Vector b: rates of the free motion over the step, by its length, with distances and restitution.
@@ -157,7 +182,7 @@ impl<R: Real> Constraints<R> {
             k = manifold.end;
             let bounce = restitution(model, first.slot);
             let distances = self.blocks[manifold.clone()].iter().map(|block| self.residual[block.row].lane(0));
-            let usable = UsableDistance::of(distances);
+            let usable = UsableDistance::of(distances, h);
             for block in &self.blocks[manifold] {
                 let i = block.row;
                 let distance = self.residual[i].lane(0);
@@ -174,12 +199,21 @@ impl<R: Real> Constraints<R> {
         }
     }
 
-    /// Whitened rows of all blocks, island by island.
-    fn collect_blocks(&mut self, model: &Model<R>, scratch: &Scratch<R>, sweeps: &mut TimeStepping) {
-        let TimeStepping { islands, sweeper, values, dofs } = sweeps;
+    /// Islands of all constraints: bilateral rows come first, then unilateral constraints and drives.
+    fn find_islands(&mut self, model: &Model<R>, scratch: &Scratch<R>, islands: &mut Islands) {
         self.delassus_factors.place(model, scratch);
+        // the last row of a constraint is that of a drive, whose first one acts on nothing
+        let last_row = |block: &UnilateralConstraint<R>| {
+            block.groups[0].as_ref().filter(|_| block.is_drive()).map_or(block.row, |group| group.row)
+        };
+        let items = (0..self.n_free).chain(self.blocks.iter().map(last_row));
+        islands.find(items.map(|row| self.delassus_factors.trees(&self.rows[row])));
+    }
+
+    /// Whitened rows of all blocks, island by island.
+    fn collect_blocks(&mut self, model: &Model<R>, sweeps: &mut TimeStepping) {
+        let TimeStepping { islands, sweeper, values, dofs } = sweeps;
         let rows = &self.rows;
-        islands.find(rows, &self.blocks, self.n_free, |row| self.delassus_factors.trees(row));
         sweeper.clear(model.n_v());
         let columns = self.motions.columns();
         for k in 0..islands.len() {
@@ -226,7 +260,7 @@ impl<R: Real> Constraints<R> {
                     add(sweeper, Law::Disc { coefficient: group.coefficient, normal }, group.row, group.dim);
                 }
             }
-            sweeper.end_island();
+            sweeper.end_island(self.rest.is_still(k));
         }
     }
 

@@ -4,15 +4,12 @@
 //! through others. Islands and the constraints in them come in the order of their first constraint, which depends on
 //! the model alone and not on how the sets were joined.
 
-use sincro_complementarity::UnilateralConstraint;
-use sincro_math::Real;
+/// In the place of a tree: none, the world.
+pub const NO_TREE: u32 = u32::MAX;
 
-use crate::constraint::row::Row;
-use crate::joint::WORLD;
-
-/// Constraints by island. An item is a bilateral row, or the number of these plus the index of a unilateral constraint.
+/// Constraints by island.
 #[derive(Clone, Debug, Default)]
-pub(in crate::constraint) struct Islands {
+pub struct Islands {
     /// Parent of each tree in its set.
     parent: Vec<u32>,
     /// Island of each root.
@@ -28,27 +25,16 @@ pub(in crate::constraint) struct Islands {
 const NONE: u32 = u32::MAX;
 
 impl Islands {
-    /// Finds the islands; `trees` gives the trees that a row acts on, by the index of their first link.
-    pub fn find<R: Real>(
-        &mut self,
-        rows: &[Row<R>],
-        blocks: &[UnilateralConstraint<R>],
-        n_free: usize,
-        trees: impl Fn(&Row<R>) -> [u32; 2],
-    ) {
-        // the last row of a constraint is that of a drive, whose first one acts on nothing
-        let last_row = |block: &UnilateralConstraint<R>| {
-            block.groups[0].as_ref().filter(|_| block.is_drive()).map_or(block.row, |group| group.row)
-        };
-        let item_rows = || (0..n_free).chain(blocks.iter().map(last_row));
+    /// Finds the islands of constraints, the `items`, each given by the trees that it acts on, by the index of their
+    /// first link; [`NO_TREE`] for none.
+    pub fn find(&mut self, items: impl Iterator<Item = [u32; 2]> + Clone) {
         self.parent.clear();
-        for row in item_rows() {
-            let [one, two] = trees(&rows[row]);
-            for tree in [one, two].into_iter().filter(|tree| *tree != WORLD) {
+        for [one, two] in items.clone() {
+            for tree in [one, two].into_iter().filter(|tree| *tree != NO_TREE) {
                 let known = self.parent.len() as u32;
                 self.parent.extend(known..known.max(tree + 1));
             }
-            if one != WORLD && two != WORLD {
+            if one != NO_TREE && two != NO_TREE {
                 let (one, two) = (self.root(one), self.root(two));
                 self.parent[one.max(two) as usize] = one.min(two);
             }
@@ -57,13 +43,12 @@ impl Islands {
         self.island.resize(self.parent.len(), NONE);
         self.of_item.clear();
         self.first.clear();
-        for row in item_rows() {
-            let [one, two] = trees(&rows[row]);
-            let island = if one == WORLD && two == WORLD {
+        for [one, two] in items {
+            let island = if one == NO_TREE && two == NO_TREE {
                 // a constraint that moves nothing is an island of its own
                 self.first.len() as u32
             } else {
-                let root = self.root(if one == WORLD { two } else { one }) as usize;
+                let root = self.root(if one == NO_TREE { two } else { one }) as usize;
                 if self.island[root] == NONE {
                     self.island[root] = self.first.len() as u32;
                 }
@@ -100,14 +85,61 @@ impl Islands {
         tree
     }
 
+    /// Root of the set of a tree, without a change; `None` if no constraint acts on it.
+    fn known_root(&self, mut tree: u32) -> Option<u32> {
+        while *self.parent.get(tree as usize)? != tree {
+            tree = self.parent[tree as usize];
+        }
+        (self.island[tree as usize] != NONE).then_some(tree)
+    }
+
+    /// Island of a tree, given by the index of its first link; `None` if no constraint acts on it.
+    #[must_use]
+    pub fn of_tree(&self, tree: u32) -> Option<usize> {
+        Some(self.island[self.known_root(tree)? as usize] as usize)
+    }
+
+    /// The first of the trees that belong to the island of a tree.
+    #[must_use]
+    pub fn first_tree(&self, tree: u32) -> u32 {
+        self.known_root(tree).unwrap_or(tree)
+    }
+
     /// Number of islands.
+    #[must_use]
     pub fn len(&self) -> usize {
         self.first.len()
+    }
+
+    /// Returns true if there are no constraints.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.first.is_empty()
     }
 
     /// Items of an island, in increasing order.
     pub fn items(&self, island: usize) -> impl Iterator<Item = usize> {
         let end = self.first.get(island + 1).copied().unwrap_or(self.items.len());
         self.items[self.first[island]..end].iter().copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_that_touch_through_others_are_one_island() {
+        let none = NO_TREE;
+        let items = [[3, none], [1, 2], [5, none], [2, 3], [none, 4], [1, none], [none, none]];
+        let mut islands = Islands::default();
+        // twice, so that nothing is left of the first time
+        for _ in 0..2 {
+            islands.find(items.into_iter());
+            let found: Vec<Vec<usize>> = (0..islands.len()).map(|k| islands.items(k).collect()).collect();
+            assert_eq!(found, [vec![0, 1, 3, 5], vec![2], vec![4], vec![6]]);
+            assert_eq!([0, 1, 3, 4, 9].map(|tree| islands.of_tree(tree)), [None, Some(0), Some(0), Some(2), None]);
+            assert_eq!([2, 3, 5].map(|tree| islands.first_tree(tree)), [1, 1, 5]);
+        }
     }
 }
