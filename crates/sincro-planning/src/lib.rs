@@ -24,5 +24,5 @@ mod task;
 pub use call::{Scene, call, ends};
 pub use goal::descend;
 pub use planner::{MAX_POINTS, MAX_STATES, Planner};
-pub use space::{Kind, Part, Space};
+pub use space::{Kind, MAX_BOUND, MAX_WEIGHT, Part, Space};
 pub use task::{Component, Region, Task, Tasks, checks_in};

@@ -202,6 +202,9 @@ impl<'a> Planner<'a> {
         let mut from = 0;
         while from + 2 < path.len() {
             for to in (from + 2..path.len()).rev() {
+                if self.checks_left == 0 {
+                    return Ok(());
+                }
                 if self.is_clear(&path[from].clone(), &path[to].clone(), check)? {
                     path.drain(from + 1..to);
                     break;
@@ -271,7 +274,8 @@ impl<'a> Planner<'a> {
             let pieces = match n {
                 0 => self.space.n_pieces(&ends[0], &ends[1], self.resolution),
                 _ if length_left > 0.0 => 1 + (((left as f64) * length / length_left).round() as usize).min(left),
-                _ => 1,
+                // a path of one place
+                _ => 1 + left,
             };
             left = left.saturating_sub(pieces - 1);
             length_left -= length;

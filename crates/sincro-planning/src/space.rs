@@ -8,6 +8,12 @@ use sincro_math::random::SplitMix64;
 /// Weight of an angle `[rad]` against lengths `[m]` in the distance of poses in the plane.
 const TURN_WEIGHT: f64 = 0.5;
 
+/// Largest bound of a position `[m]` or `[rad]`: the squares of distances stay finite, and steps of a tree far above
+/// the rounding of a state.
+pub const MAX_BOUND: f64 = 1e6;
+/// Largest weight of a part in distances (dimensionless).
+pub const MAX_WEIGHT: f64 = 1e6;
+
 /// Kind of a part of a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -32,15 +38,15 @@ pub struct Part {
 
 impl Part {
     /// A part with its bounds, of the positions only where it is a pose, and its weight in distances (dimensionless).
-    /// None if the bounds are not as many numbers as the kind has, not finite, or the lower ones are above the upper
-    /// ones, or if the weight is negative or not finite.
+    /// None if the bounds are not as many numbers as the kind has, not finite, beyond ±[`MAX_BOUND`], or the lower ones
+    /// are above the upper ones, or if the weight is negative or above [`MAX_WEIGHT`].
     #[must_use]
     pub fn new(kind: Kind, low: Vec<f64>, high: Vec<f64>, weight: f64) -> Option<Self> {
         let part = Self { kind, low, high, weight };
         let n = part.n_bounded();
-        let is_within = |(low, high): (&f64, &f64)| low.is_finite() && high.is_finite() && low <= high;
+        let is_within = |(low, high): (&f64, &f64)| -MAX_BOUND <= *low && low <= high && *high <= MAX_BOUND;
         let has_bounds = part.low.len() == n && part.high.len() == n && part.low.iter().zip(&part.high).all(is_within);
-        (has_bounds && weight.is_finite() && weight >= 0.0).then_some(part)
+        (has_bounds && (0.0..=MAX_WEIGHT).contains(&weight)).then_some(part)
     }
 
     fn n_bounded(&self) -> usize {

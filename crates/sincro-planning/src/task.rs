@@ -6,7 +6,7 @@ use sincro_values::{ApiError, Handle};
 
 use crate::names::{ALGORITHMS, FIRST_ALGORITHM, FIRST_SPACE, SPACES};
 use crate::planner::Planner;
-use crate::space::{Kind, Part, Space};
+use crate::space::{Kind, MAX_BOUND, MAX_WEIGHT, Part, Space};
 
 /// Tasks and components that may exist at once.
 const MAX_COUNT: usize = 1_000;
@@ -76,9 +76,9 @@ impl Component {
         };
         let (low, high) = if form == Kind::Cyclic { (Vec::new(), Vec::new()) } else { (low, high) };
         let part = Part::new(form, low, high, weight).ok_or_else(|| {
-            let bounds =
-                "lower and upper bounds of each position, finite, the lower ones below, and a weight of 0 or more";
-            ApiError(format!("the state space {} needs {bounds}; angles have none", SPACES[place]))
+            let bounds = "lower and upper bounds of each position, the lower ones not above, and a weight of 0 or more";
+            let limits = format!("bounds within ±{MAX_BOUND:e} m or rad, weights up to {MAX_WEIGHT:e}");
+            ApiError(format!("the state space {} needs {bounds}; angles have none; {limits}", SPACES[place]))
         })?;
         let name = name.chars().take(100).collect();
         Ok(Self { name, kind: place, object, reference, part })
