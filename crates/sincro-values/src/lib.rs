@@ -4,8 +4,10 @@
 //! |---|---|
 //! | `handle.rs`, `value.rs`, `error.rs` | [`Handle`], [`Value`] and [`Arguments`], [`ApiError`]: what functions take and give |
 //! | `cbor.rs`, `unpack.rs` | values as bytes and back |
+//! | `bits.rs` | bits of whole numbers |
 //! | `coercion.rs` | numbers as text and texts as numbers, by the parameters of call tips |
 //! | `numbers.rs` | types of numbers in buffers |
+//! | `graphs.rs` | streams of graphs |
 //! | `fields.rs` | maps that functions take and give back |
 //! | `stored.rs` | data under tags |
 //! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
@@ -13,11 +15,13 @@
 //! | `work.rs` | limit of the work of one call |
 //! | `ports.rs` | TCP ports that scripts ask for |
 
+pub mod bits;
 pub mod cbor;
 pub mod clouds;
 pub mod coercion;
 mod error;
 pub mod fields;
+pub mod graphs;
 mod handle;
 pub mod numbers;
 mod ports;

@@ -1,64 +1,9 @@
 //! Graphs: what clients and scripts record by `sim.addGraphStream` and `sim.setGraphStreamValue`. Any object of the
 //! scene is a graph, a `[[frame]]` named `graph` say; each stream becomes a column of the run, `/graph.name`.
 
-use super::registry::Handle;
-use super::{ApiError, SimApi};
+use super::{ApiError, Handle, SimApi};
 
-/// Streams that may exist at once.
-const MAX_STREAMS: usize = 200;
-/// Bytes of a name or unit.
-const MAX_LABEL_LEN: usize = 100;
-
-/// A stream of a graph.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Stream {
-    graph: Handle,
-    /// Its number in the graph, from 1: stays when others go.
-    number: i64,
-    name: String,
-    /// Name of its column.
-    pub column: String,
-    /// Its unit, as it was given.
-    pub unit: String,
-    /// Latest value; not a number before the first.
-    pub value: f64,
-    factor: f64,
-    offset: f64,
-    /// Made during a run: removed when the next one starts.
-    of_run: bool,
-}
-
-/// The streams of all graphs.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Graphs {
-    streams: Vec<Stream>,
-    /// Streams whose past is to be forgotten.
-    cleared: Vec<usize>,
-}
-
-impl Graphs {
-    /// All streams, in the order in which they were made; those of a run stay until the next one.
-    #[must_use]
-    pub(crate) fn streams(&self) -> &[Stream] {
-        &self.streams
-    }
-
-    /// Takes the streams whose past is to be forgotten.
-    pub(crate) fn take_cleared(&mut self) -> Vec<usize> {
-        std::mem::take(&mut self.cleared)
-    }
-
-    /// Forgets what the last run made.
-    pub(super) fn forget_run(&mut self) {
-        self.streams.retain(|stream| !stream.of_run);
-        self.streams.iter_mut().for_each(|stream| stream.value = f64::NAN);
-        self.cleared.clear();
-    }
-
-    fn place(&self, graph: Handle, name: &str) -> Option<usize> {
-        self.streams.iter().position(|s| s.graph == graph && s.name == name)
-    }
-}
+pub(crate) use sincro_values::graphs::Graphs;
 
 impl SimApi<'_> {
     /// A stream of a graph; that of the same name if there is one. Its number in the graph.
@@ -67,36 +12,8 @@ impl SimApi<'_> {
     ///
     /// There is no such object, there are too many streams, or the name is none.
     pub(crate) fn add_stream(&mut self, graph: Handle, name: &str, unit: &str) -> Result<i64, ApiError> {
-        let path = self.registry.entry(graph)?.path.clone();
-        let is_plain = |text: &str| text.len() <= MAX_LABEL_LEN && !text.chars().any(char::is_control);
-        if name.is_empty() || !is_plain(name) || !is_plain(unit) {
-            return Err(ApiError(format!(
-                "a stream of a graph has a name and a unit of up to {MAX_LABEL_LEN} bytes in one line"
-            )));
-        }
-        let of_run = self.is_running();
-        let graphs = &mut self.registry.graphs;
-        if let Some(k) = graphs.place(graph, name) {
-            unit.clone_into(&mut graphs.streams[k].unit);
-            return Ok(graphs.streams[k].number);
-        }
-        if graphs.streams.len() >= MAX_STREAMS {
-            return Err(ApiError(format!("there are {MAX_STREAMS} streams of graphs already")));
-        }
-        let (name, unit, column) = (name.to_owned(), unit.to_owned(), format!("{path}.{name}"));
-        let of_graph = graphs.streams.iter().filter(|s| s.graph == graph);
-        let number = of_graph.map(|s| s.number).max().unwrap_or(0) + 1;
-        let (value, factor, offset) = (f64::NAN, 1.0, 0.0);
-        graphs.streams.push(Stream { graph, number, name, column, unit, value, factor, offset, of_run });
-        Ok(number)
-    }
-
-    fn stream(&mut self, graph: Handle, number: i64) -> Result<&mut Stream, ApiError> {
-        let path = self.registry.entry(graph)?.path.clone();
-        let found = self.registry.graphs.streams.iter_mut().find(|s| s.graph == graph && s.number == number);
-        found.ok_or_else(|| {
-            ApiError(format!("the graph `{path}` has no stream {number}: addGraphStream gives their numbers"))
-        })
+        let (path, of_run) = (self.registry.entry(graph)?.path.clone(), self.is_running());
+        self.registry.graphs.add((graph, &path), (name, unit), of_run)
     }
 
     /// Sets the value of a stream from now on.
@@ -105,9 +22,8 @@ impl SimApi<'_> {
     ///
     /// There is no such object or stream.
     pub(crate) fn set_stream(&mut self, graph: Handle, number: i64, value: f64) -> Result<(), ApiError> {
-        let stream = self.stream(graph, number)?;
-        stream.value = stream.factor * value + stream.offset;
-        Ok(())
+        let path = &self.registry.entry(graph)?.path.clone();
+        self.registry.graphs.set((graph, path), number, value)
     }
 
     /// Values of a stream are multiplied and shifted before they are recorded.
@@ -115,18 +31,9 @@ impl SimApi<'_> {
     /// # Errors
     ///
     /// There is no such object or stream, or a number is not finite.
-    pub(crate) fn scale_stream(
-        &mut self,
-        graph: Handle,
-        number: i64,
-        (factor, offset): (f64, f64),
-    ) -> Result<(), ApiError> {
-        if !(factor.is_finite() && offset.is_finite()) {
-            return Err(ApiError(format!("factor {factor} and offset {offset}, expected numbers")));
-        }
-        let stream = self.stream(graph, number)?;
-        (stream.factor, stream.offset) = (factor, offset);
-        Ok(())
+    pub(crate) fn scale_stream(&mut self, graph: Handle, number: i64, by: (f64, f64)) -> Result<(), ApiError> {
+        let path = &self.registry.entry(graph)?.path.clone();
+        self.registry.graphs.scale((graph, path), number, by)
     }
 
     /// Forgets what the streams of a graph have shown so far, of all graphs if none is given.
@@ -138,13 +45,7 @@ impl SimApi<'_> {
         if let Some(graph) = graph {
             self.registry.entry(graph)?;
         }
-        let graphs = &mut self.registry.graphs;
-        for (k, stream) in graphs.streams.iter_mut().enumerate().filter(|(_, s)| graph.is_none_or(|g| s.graph == g)) {
-            stream.value = f64::NAN;
-            if !graphs.cleared.contains(&k) {
-                graphs.cleared.push(k);
-            }
-        }
+        self.registry.graphs.clear(graph);
         Ok(())
     }
 }
