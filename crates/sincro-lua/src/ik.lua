@@ -1,15 +1,6 @@
 -- Searches of `simIK` with a function that says which configurations are good: all that are found are tried here.
-local ik = ...
+local ik, of = ...
 local find_config, find_configs, generate_path = ik.findConfig, ik.findConfigs, ik.generatePath
-
-local function of(f)
-  if f == '' then return nil end
-  if type(f) == 'string' then
-    if type(_G[f]) ~= 'function' then error('there is no function `' .. f .. '` to call back', 3) end
-    return _G[f]
-  end
-  return f
-end
 
 function ik.findConfig(env, group, joints, dist, time, metric, valid, aux)
   valid = of(valid)

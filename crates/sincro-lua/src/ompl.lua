@@ -1,15 +1,7 @@
 -- `simOMPL` with a function of the script that says which states are good, and its names of V-REP 3.
-local ompl, search = ...
+local ompl, of, search = ...
 local solve, simplify, is_valid = ompl.solve, ompl.simplifyPath, ompl.isStateValid
 local valid = {}
-
-local function of(f)
-  if type(f) == 'string' then
-    if type(_G[f]) ~= 'function' then error('there is no function `' .. f .. '` to call back', 3) end
-    return _G[f]
-  end
-  return f
-end
 
 function ompl.setStateValidationCallback(task, callback)
   ompl.getStateSpaceDimension(task)

@@ -99,6 +99,11 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     lua.globals().set("require", require)
 }
 
+/// The Lua function that finds callbacks by their names.
+pub(super) fn callback(lua: &mlua::Lua) -> mlua::Result<Function> {
+    lua.load(include_str!("../callback.lua")).set_name(crate::sandbox::OWN_SOURCE).call(())
+}
+
 /// The table `simIK`.
 fn inverse_kinematics(context: &ApiContext<'_>) -> mlua::Result<Table> {
     let module = context.lua.create_table()?;
@@ -112,7 +117,11 @@ fn inverse_kinematics(context: &ApiContext<'_>) -> mlua::Result<Table> {
         module.set(*name, *value)?;
     }
     // validation callbacks cannot leave the script
-    context.lua.load(include_str!("../ik.lua")).set_name(crate::sandbox::OWN_SOURCE).call::<()>(&module)?;
+    context
+        .lua
+        .load(include_str!("../ik.lua"))
+        .set_name(crate::sandbox::OWN_SOURCE)
+        .call::<()>((&module, callback(context.lua)?))?;
     context.lua.globals().set("simIK", &module)?;
     Ok(module)
 }

@@ -54,7 +54,7 @@ pub(super) fn module(context: &ApiContext<'_>) -> mlua::Result<Table> {
         Ok(found)
     })?;
     let own_text = lua.load(include_str!("../ompl.lua")).set_name(crate::sandbox::OWN_SOURCE);
-    own_text.call::<()>((&module, search))?;
+    own_text.call::<()>((&module, super::modules::callback(lua)?, search))?;
     // the first is here
     for (name, why) in functions::absent_planning_functions().skip(1) {
         let message = format!("simOMPL.{name} is not offered: {why}");
