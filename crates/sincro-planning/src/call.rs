@@ -2,6 +2,7 @@
 
 use sincro_values::{ApiError, Arguments, Handle, Value};
 
+use crate::calculations::Calculations;
 use crate::goal::descend;
 use crate::planner::MAX_POINTS;
 use crate::task::{Component, Region, Task, Tasks, checks_in, limit};
@@ -17,6 +18,20 @@ const SEED: u64 = 0xd1b5_4a32_d192_ed03;
 pub trait Scene {
     /// Tasks of clients and scripts.
     fn tasks(&mut self) -> &mut Tasks;
+    /// Collision and distance objects of clients and scripts.
+    fn calculations(&mut self) -> &mut Calculations;
+    /// Objects of two of [`Scene::collider`] that meet or press on each other, none if none do.
+    ///
+    /// # Errors
+    ///
+    /// One of them is gone, or has no shape.
+    fn touching(&mut self, pair: [Handle; 2]) -> Result<Option<[Handle; 2]>, ApiError>;
+    /// Smallest distance of two of [`Scene::collider`] `[m]`, none if there is nothing to measure.
+    ///
+    /// # Errors
+    ///
+    /// One of them is gone, or has no shape and is no point.
+    fn distance_between(&mut self, pair: [Handle; 2]) -> Result<Option<f64>, ApiError>;
     /// Finds an object; with `is_joint` one with a position.
     ///
     /// # Errors
@@ -28,7 +43,7 @@ pub trait Scene {
     /// # Errors
     ///
     /// There is none.
-    fn collider(&mut self, handle: i32) -> Result<Handle, ApiError>;
+    fn collider(&self, handle: i32) -> Result<Handle, ApiError>;
     /// Numbers of a component where the scene is `[m]`, `[rad]`.
     ///
     /// # Errors
@@ -134,7 +149,10 @@ pub fn call<S: Scene>(scene: &mut S, name: &str, a: Arguments<'_>) -> Result<Vec
         }
         "getStateSpaceDimension" => return one(task.space().len() as i64),
         "setAlgorithm" => task.set_algorithm(a.int(1)?)?,
-        "setCollisionPairs" => set_pairs(scene, handle, a)?,
+        "setCollisionPairs" => {
+            let pairs = collision_pairs(scene, a, 1)?;
+            scene.tasks().task(handle)?.pairs = pairs;
+        }
         "setStartState" => task.start = Some(task.state(reals(a, 1)?)?),
         "setGoalState" => {
             task.goals = vec![task.state(reals(a, 1)?)?];
@@ -261,8 +279,13 @@ fn create_space<S: Scene>(scene: &mut S, a: Arguments<'_>) -> Result<Vec<Value>,
     one(scene.tasks().add_component(component)?)
 }
 
-fn set_pairs<S: Scene>(scene: &mut S, handle: i64, a: Arguments<'_>) -> Result<(), ApiError> {
-    let list = ints(a, 1)?;
+/// Pairs of colliders of argument `k`, a list of handles: two of each pair.
+///
+/// # Errors
+///
+/// It is no such list, too long, or has a handle of nothing that can meet others.
+pub fn collision_pairs<S: Scene>(scene: &S, a: Arguments<'_>, k: usize) -> Result<Vec<[Handle; 2]>, ApiError> {
+    let list = ints(a, k)?;
     if !list.len().is_multiple_of(2) {
         return Err(ApiError(format!("{} handles of collision pairs, expected two of each pair", list.len())));
     }
@@ -274,8 +297,7 @@ fn set_pairs<S: Scene>(scene: &mut S, handle: i64, a: Arguments<'_>) -> Result<(
         }
         pairs.push([scene.collider(handle_of(pair[0])?)?, scene.collider(handle_of(pair[1])?)?]);
     }
-    scene.tasks().task(handle)?.pairs = pairs;
-    Ok(())
+    Ok(pairs)
 }
 
 fn set_goal<S: Scene>(scene: &mut S, handle: i64, a: Arguments<'_>) -> Result<(), ApiError> {

@@ -317,6 +317,23 @@ def simxCheckDistance(client, one, other, mode):
     return _read(_call(client, 0x2010, _ints(one, other), b'', mode), 'f', [0.0])
 
 
+def simxGetCollisionHandle(client, name, mode):
+    return _read(_call(client, 0x300a, _name(name), b'', mode), 'i', [-1])
+
+
+def simxReadCollision(client, handle, mode):
+    code, state = _read(_call(client, 0x1026, _ints(handle), b'', mode), 'i', [0])
+    return code, state != 0
+
+
+def simxGetDistanceHandle(client, name, mode):
+    return _read(_call(client, 0x300b, _name(name), b'', mode), 'i', [-1])
+
+
+def simxReadDistance(client, handle, mode):
+    return _read(_call(client, 0x1027, _ints(handle), b'', mode), 'f', [0.0])
+
+
 def simxGetObjectFloatParameter(client, handle, number, mode):
     return _read(_call(client, 0x2007, _ints(handle, number), b'', mode), 'f', [0.0])
 

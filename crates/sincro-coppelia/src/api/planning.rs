@@ -3,7 +3,7 @@
 
 use sincro_conventions::poses::{numbers_of_pose, rotation_of_euler, rotation_vector};
 use sincro_dynamics::spatial::Pose;
-use sincro_planning::{Component, Region, Scene, Tasks};
+use sincro_planning::{Calculations, Component, Region, Scene, Tasks};
 use sincro_sim::runtime_object::{DrawingKind, DrawingStyle};
 
 use super::convention::{euler_of, pose_of_numbers};
@@ -33,6 +33,28 @@ impl SimApi<'_> {
         Ok(shifts.fold(at, |at, (_, shift)| shift.compose(&at)))
     }
 
+    /// Returns true if none of some pairs meets where joints are at some positions `[rad]` or `[m]`.
+    ///
+    /// # Errors
+    ///
+    /// One of the joints or colliders is gone.
+    pub(super) fn is_free(&mut self, joints: &[Handle], q: &[f64], pairs: &[[Handle; 2]]) -> Result<bool, ApiError> {
+        self.spend(pairs.len());
+        self.trial(|sim| {
+            for (joint, q) in joints.iter().zip(q) {
+                let q_idx = sim.registry.joint(*joint)?.q_idx;
+                sim.world.state.q[q_idx] = *q;
+            }
+            sim.moved();
+            for pair in pairs {
+                if sim.meets(*pair)? {
+                    return Ok(false);
+                }
+            }
+            Ok(true)
+        })
+    }
+
     /// Pose in the world that the numbers of a component say; what they do not say stays.
     fn meant(&mut self, component: &Component, numbers: &[f64]) -> Result<Pose<f64>, ApiError> {
         let x_wr = self.tried(component.reference)?;
@@ -59,12 +81,25 @@ impl Scene for SimApi<'_> {
         &mut self.registry.planning
     }
 
+    fn calculations(&mut self) -> &mut Calculations {
+        &mut self.registry.calculations
+    }
+
+    fn touching(&mut self, [one, two]: [Handle; 2]) -> Result<Option<[Handle; 2]>, ApiError> {
+        self.collision(self.entity(one)?, self.entity(two)?)
+    }
+
+    fn distance_between(&mut self, [one, two]: [Handle; 2]) -> Result<Option<f64>, ApiError> {
+        let [one, two] = [self.entity(one)?, self.entity(two)?];
+        Ok(self.distance(one, two, f64::INFINITY)?.map(|found| found.distance))
+    }
+
     fn object(&mut self, handle: i32, is_joint: bool) -> Result<Handle, ApiError> {
         let object = super::functions::plain(self, handle)?;
         if is_joint { Ok(self.registry.joint(object)?.handle) } else { Ok(object) }
     }
 
-    fn collider(&mut self, handle: i32) -> Result<Handle, ApiError> {
+    fn collider(&self, handle: i32) -> Result<Handle, ApiError> {
         match self.registry.is_collection(Handle(handle)) || handle == -2 {
             true => Ok(Handle(handle)),
             false => super::functions::plain(self, handle),

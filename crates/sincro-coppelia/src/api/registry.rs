@@ -207,6 +207,8 @@ pub struct ObjectRegistry {
     pub(super) environments: Vec<Option<super::ik::Environment>>,
     /// Tasks of path planning.
     pub(super) planning: sincro_planning::Tasks,
+    /// Collision and distance objects.
+    pub(super) calculations: sincro_planning::Calculations,
     pub(super) zero: Vec<f64>,
     /// Differences from the scene.
     pub(super) changes: Vec<Change>,
@@ -355,6 +357,7 @@ impl ObjectRegistry {
             vision: Vision::default(),
             environments: Vec::new(),
             planning: sincro_planning::Tasks::default(),
+            calculations: sincro_planning::Calculations::default(),
             zero: vec![0.0; scene.model.n_v()],
             changes: Vec::new(),
             are_forces_spent: false,

@@ -33,9 +33,6 @@ pub(super) enum Function {
 use Function::{Client, Refused, Session, Sim};
 
 const BALL_JOINTS: &str = "a ball joint is moved by forces and by its initial state, not put somewhere";
-const CONSOLES: &str = "there are no consoles here: use simxAddStatusbarMessage";
-const COLLISIONS: &str = "there are no collision objects here: use simxCheckCollision with two bodies or collections";
-const DISTANCES: &str = "there are no distance objects here: use simxCheckDistance with two bodies or collections";
 const DIALOGS: &str = "there is nobody to answer a dialog here";
 const INTERFACES: &str = "there are no user interfaces here";
 
@@ -86,9 +83,9 @@ pub(super) const COMMANDS: &[Row] = &[
     row(0x1010, "simxBreakForceSensor", Sim(sensing::break_force_sensor)),
     row(0x1011, "simxReadVisionSensor", Sim(seeing::read)),
     row(0x1012, "simxGetObjectParent", Sim(objects::parent)),
-    row(0x1014, "simxAuxiliaryConsoleClose", Refused(CONSOLES)),
-    row(0x1015, "simxAuxiliaryConsolePrint", Refused(CONSOLES)),
-    row(0x1016, "simxAuxiliaryConsoleShow", Refused(CONSOLES)),
+    row(0x1014, "simxAuxiliaryConsoleClose", Sim(functions::nothing)),
+    row(0x1015, "simxAuxiliaryConsolePrint", Sim(functions::nothing)),
+    row(0x1016, "simxAuxiliaryConsoleShow", Sim(functions::nothing)),
     row(0x1017, "simxGetVisionSensorDepthBuffer", Sim(seeing::depths)),
     // of older clients: the reference frame is in the data
     row(0x1018, "simxGetObjectOrientation", Sim(objects::old_orientation)),
@@ -105,8 +102,8 @@ pub(super) const COMMANDS: &[Row] = &[
     row(0x1023, "simxGetFloatingParameter", Sim(parameters::float)),
     row(0x1024, "simxSetFloatingParameter", Sim(parameters::set_float)),
     row(0x1025, "simxGetStringParameter", Sim(parameters::text)),
-    row(0x1026, "simxReadCollision", Refused(COLLISIONS)),
-    row(0x1027, "simxReadDistance", Refused(DISTANCES)),
+    row(0x1026, "simxReadCollision", Sim(sensing::read_collision)),
+    row(0x1027, "simxReadDistance", Sim(sensing::read_distance)),
     row(0x1028, "simxRemoveObject", Sim(objects::remove)),
     row(0x1029, "simxRemoveUI", Refused(INTERFACES)),
     row(0x102a, "simxGetObjects", Sim(objects::of_type)),
@@ -146,9 +143,9 @@ pub(super) const COMMANDS: &[Row] = &[
     row(0x3006, "simxEraseFile", Session(files::erase)),
     row(0x3007, "simxGetUIHandle", Refused(INTERFACES)),
     row(0x3008, "simxAddStatusbarMessage", Sim(functions::log)),
-    row(0x3009, "simxAuxiliaryConsoleOpen", Refused(CONSOLES)),
-    row(0x300a, "simxGetCollisionHandle", Refused(COLLISIONS)),
-    row(0x300b, "simxGetDistanceHandle", Refused(DISTANCES)),
+    row(0x3009, "simxAuxiliaryConsoleOpen", Sim(functions::console)),
+    row(0x300a, "simxGetCollisionHandle", Sim(sensing::collision_handle)),
+    row(0x300b, "simxGetDistanceHandle", Sim(sensing::distance_handle)),
     row(0x300c, "simxDisplayDialog", Refused(DIALOGS)),
     row(0x300d, "simxClearFloatSignal", Sim(signals::clear_float)),
     row(0x300e, "simxClearIntegerSignal", Sim(signals::clear_int)),

@@ -94,6 +94,17 @@ pub(super) fn close(guard: &mut SessionGuard, _: &Call<'_>) -> Reply {
     after(guard.act(Session::stop))
 }
 
+/// A console that is not shown: its handle.
+pub(super) fn console(_: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    call.name()?;
+    ints([1])
+}
+
+/// Taken without effect: nothing is shown.
+pub(super) fn nothing(_: &mut SimApi<'_>, _: &Call<'_>) -> Reply {
+    done()
+}
+
 pub(super) fn log(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     sim.log(450, call.name()?);
     done()

@@ -1,6 +1,6 @@
 //! Commands of the legacy API: sensors, collisions, distances.
 
-use sincro_coppelia::api::{ApiError, Entity, Handle, SimApi, functions};
+use sincro_coppelia::api::{ApiError, Entity, Handle, SimApi, Value, functions};
 
 use super::functions::{Call, Reply, done, ints, reals};
 
@@ -55,4 +55,31 @@ pub(super) fn seen(sim: &SimApi<'_>, sensor: Handle) -> Result<(i32, i32, [f64; 
         }
         None => (0, -1, [0.0; 6]),
     })
+}
+
+/// Handle of a collision object by its name.
+pub(super) fn collision_handle(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    by_name(sim, "getCollisionHandle", call)
+}
+
+/// Handle of a distance object by its name.
+pub(super) fn distance_handle(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    by_name(sim, "getDistanceHandle", call)
+}
+
+fn by_name(sim: &mut SimApi<'_>, function: &str, call: &Call<'_>) -> Reply {
+    ints(functions::call(sim, function, &[call.name()?.into()])?.first().and_then(Value::as_int).map(|n| n as i32))
+}
+
+/// True if the two of a collision object meet.
+pub(super) fn read_collision(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let read = functions::call(sim, "readCollision", &[call.parameter()?.into()])?;
+    ints(read.first().and_then(Value::as_int).map(|n| n as i32))
+}
+
+/// Smallest distance of the two of a distance object.
+pub(super) fn read_distance(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let read = functions::call(sim, "readDistance", &[call.parameter()?.into()])?;
+    let distance = read.get(1).and_then(Value::as_real);
+    reals([distance.ok_or_else(|| ApiError::new("there is nothing that a distance could be measured to"))?])
 }

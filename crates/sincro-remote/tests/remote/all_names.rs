@@ -92,8 +92,8 @@ fn every_name_of_sim_ik_answers_any_arguments_and_what_is_absent_says_why() {
         assert!(why.starts_with(&format!("sim.{name} is not offered: ")) && why.len() > 40, "{why}");
         assert!(sincro_coppelia::api::functions::function(name).is_none(), "{name} is there and absent");
     }
-    let why = client.call("simReadDistance", &[Value::Int(1)]).unwrap_err();
-    assert!(why.contains("sim.readDistance is not offered"), "{why}");
+    let why = client.call("simHandlePath", &[Value::Int(1)]).unwrap_err();
+    assert!(why.contains("sim.handlePath is not offered"), "{why}");
     assert!(client.call("sim.getSimulationTime", &[]).is_ok());
 }
 

@@ -19,7 +19,7 @@ pub const ELSEWHERE: [&str; 8] = [
 
 /// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops,
 /// couplings, groups, a motion, mesh files.
-pub const NEEDS_MORE: [&str; 32] = [
+pub const NEEDS_MORE: [&str; 34] = [
     "getEngineFloatParameter",
     "setEngineFloatParameter",
     "addScript",
@@ -36,6 +36,8 @@ pub const NEEDS_MORE: [&str; 32] = [
     "getIkGroupHandle",
     "handleIkGroup",
     "checkIkGroup",
+    "getConfigForTipPose",
+    "generateIkPath",
     "setIkGroupProperties",
     "setIkElementProperties",
     "moveToConfig_step",
@@ -270,6 +272,11 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "getObjectCustomData" => vec![joint.clone(), int(5)],
         "setUIButtonLabel" => vec![int(500_000), int(1), text()],
         _ if name.contains("UI") => vec![int(500_000), int(1), int(2)],
+        "createCollisionObject" | "createDistanceObject" => vec![text(), body.clone(), int(-2)],
+        // those that were made under the names before
+        "getCollisionHandle" | "getDistanceHandle" => vec![text()],
+        "handleCollision" | "readCollision" | "resetCollision" => vec![int(2_000_000)],
+        "handleDistance" | "readDistance" | "resetDistance" => vec![int(2_000_001)],
         "boolOr32" | "boolAnd32" | "boolXor32" | "boolOr16" | "boolAnd16" | "boolXor16" => vec![int(6), int(-1)],
         "tubeOpen" => vec![int(0), text(), int(2)],
         "tubeWrite" => vec![int(0), text()],

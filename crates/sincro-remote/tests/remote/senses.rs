@@ -91,5 +91,16 @@ fn distances_collections_and_readings_are_told_to_legacy_clients() {
     assert!(client.call(0x1009, &ints(&[cart]), &[]).is_err());
     assert!(client.last_errors()[0].contains("`/rail/cart` is no proximity sensor"));
     assert!(client.call(0x1027, &ints(&[0]), &floats(&[])).is_err());
-    assert!(client.last_errors()[0].contains("simxCheckDistance"));
+    assert!(client.last_errors()[0].contains("sim.createDistanceObject"));
+    // the cart and the post as a distance and a collision object
+    let [cart, post] = [cart, post].map(|handle| Value::Int(handle.into()));
+    for maker in ["sim.createDistanceObject", "sim.createCollisionObject"] {
+        other.call(maker, &[Value::from("gap"), cart.clone(), post.clone()]).unwrap();
+    }
+    let expected = other.call("sim.checkDistance", &[cart, post]).unwrap().remove(1).as_reals().unwrap()[6];
+    let gap = client.call(0x300b, &text("gap#"), &[]).unwrap().int(0);
+    assert_eq!(client.call(0x1027, &ints(&[gap]), &[]).unwrap().float(0), expected as f32);
+    let touch = client.call(0x300a, &text("gap"), &[]).unwrap().int(0);
+    assert_eq!((touch == gap, client.call(0x1026, &ints(&[touch]), &[]).unwrap().int(0)), (false, 0));
+    assert!(client.call(0x1026, &ints(&[gap]), &[]).is_err(), "one of the other kind");
 }

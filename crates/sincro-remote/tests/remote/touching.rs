@@ -123,13 +123,10 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x1009, "proximity"),
         (0x100b, "ball joint"),
         (0x1011, "vision"),
-        (0x1014, "consoles"),
-        (0x1015, "consoles"),
-        (0x1016, "consoles"),
         (0x1017, "vision"),
         (0x101e, "vector parameter"),
-        (0x1026, "collision"),
-        (0x1027, "distance objects"),
+        (0x1026, "no collision object"),
+        (0x1027, "no distance object"),
         (0x1029, "user interfaces"),
         (0x102b, "dialog"),
         (0x102c, "dialog"),
@@ -142,9 +139,8 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x3005, "user interfaces"),
         (0x3006, "--grant files"),
         (0x3007, "user interfaces"),
-        (0x3009, "consoles"),
-        (0x300a, "collision"),
-        (0x300b, "distance objects"),
+        (0x300a, "sim.createCollisionObject"),
+        (0x300b, "sim.createDistanceObject"),
         (0x300c, "dialog"),
         (0x3019, "no such collection"),
     ];
@@ -153,6 +149,11 @@ fn what_touches_is_told_to_legacy_clients() {
         assert!(client.call(function, &ident, &[0; 64]).is_err(), "0x{function:04x}");
         let errors = client.last_errors();
         assert!(errors.len() == 1 && errors[0].contains(why), "0x{function:04x}: {errors:?}");
+    }
+    // consoles are taken without effect
+    let console = client.call(0x3009, &text("console"), &[0; 32]).unwrap().int(0);
+    for function in [0x1014, 0x1015, 0x1016] {
+        client.call(function, &ints(&[console]), &[0; 8]).unwrap();
     }
     assert!(client.call(0x1010, &ints(&[floor]), &[]).is_err());
     assert!(client.last_errors()[0].contains("is no force sensor"));

@@ -9,6 +9,9 @@ const FIRST: i64 = 900_000;
 /// Groups of an environment.
 const IN_ONE: i64 = 32;
 
+/// Configurations of which one is looked for that is good.
+const MAX_CONFIGURATIONS: usize = 50;
+
 /// Results of a calculation.
 const NOT_PERFORMED: i64 = 0;
 const SUCCESS: i64 = 1;
@@ -21,6 +24,16 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "checkIkGroup",
         tip: "int result,float[] jointValues=sim.checkIkGroup(int ikGroupHandle,int[] jointHandles)",
         run: check,
+    },
+    Function {
+        name: "getConfigForTipPose",
+        tip: "float[] jointPositions=sim.getConfigForTipPose(int ikGroupHandle,int[] jointHandles,float distanceThreshold,int maxTimeInMs,float[4] metric=nil,int[] collisionPairs=nil,int[] jointOptions=nil,float[] lowLimits=nil,float[] ranges=nil)",
+        run: config,
+    },
+    Function {
+        name: "generateIkPath",
+        tip: "float[] path=sim.generateIkPath(int ikGroupHandle,int[] jointHandles,int pointCount,int[] collisionPairs=nil,int[] jointOptions=nil)",
+        run: path,
     },
     Function {
         name: "setIkGroupProperties",
@@ -108,11 +121,58 @@ fn solve(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     one(outcome.map_or(NOT_PERFORMED, |outcome| if outcome.is_reached { SUCCESS } else { FAIL }))
 }
 
+/// Joints of the second argument.
+fn joints(sim: &SimApi<'_>, a: Arguments<'_>) -> Result<Vec<Handle>, ApiError> {
+    let Value::List(joints) = a.get(1) else { return Err(ApiError::new("argument 2 is no list of handles")) };
+    (0..joints.len()).map(|k| handle(sim, Arguments(joints), k)).collect()
+}
+
+/// Collision pairs of an argument that may be left out.
+fn pairs(sim: &SimApi<'_>, a: Arguments<'_>, k: usize) -> Result<Vec<[Handle; 2]>, ApiError> {
+    if a.has(k) { sincro_planning::collision_pairs(sim, a, k) } else { Ok(Vec::new()) }
+}
+
+/// Configuration in which a group reaches its targets, within limits and where no pair meets; nothing if none is found.
+fn config(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (group, joints, pairs) = (parts(a.int(0)?)?, joints(sim, a)?, pairs(sim, a, 5)?);
+    let mut limits = [Vec::new(), Vec::new()];
+    for (k, limit) in [7, 8].into_iter().zip(&mut limits).filter(|(k, _)| a.has(*k)) {
+        let numbers = a.get(k).as_reals().filter(|numbers| numbers.len() == joints.len());
+        *limit = numbers.ok_or_else(|| ApiError(format!("argument {} is no list of a number a joint", k + 1)))?;
+    }
+    let [low, range] = limits;
+    let is_within = |q: &[f64]| {
+        q.iter().zip(&low).all(|(q, low)| q >= low)
+            && q.iter().zip(&low).zip(&range).all(|((q, low), range)| q - low <= *range)
+    };
+    let n = if pairs.is_empty() && low.is_empty() { 1 } else { MAX_CONFIGURATIONS };
+    for q in sim.find_configurations(group, &joints, n, a.real(3)?.abs() / 1000.0)? {
+        if is_within(&q) && sim.is_free(&joints, &q, &pairs)? {
+            return Ok(vec![Value::reals(q)]);
+        }
+    }
+    one(Value::Nil)
+}
+
+/// Configurations along the straight way of the first tip of a group to its target; nothing if a point is not reached
+/// or a pair meets there.
+fn path(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (group, joints, pairs) = (parts(a.int(0)?)?, joints(sim, a)?, pairs(sim, a, 3)?);
+    let n = usize::try_from(a.int(2)?).map_err(|_| ApiError::new("the number of points is negative"))?;
+    let tip = sim.element(group.0, group.1, 0)?.tip;
+    let Some(path) = sim.generate_path(group, &joints, tip, n)? else { return one(Value::Nil) };
+    for q in path.chunks(joints.len().max(1)) {
+        if !sim.is_free(&joints, q, &pairs)? {
+            return one(Value::Nil);
+        }
+    }
+    Ok(vec![Value::reals(path)])
+}
+
 /// Solved positions of joints, in the order of the request; joints outside the group keep their positions.
 fn check(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (environment, group) = parts(a.int(0)?)?;
-    let Value::List(joints) = a.get(1) else { return Err(ApiError::new("argument 2 is no list of handles")) };
-    let joints = (0..joints.len()).map(|k| handle(sim, Arguments(joints), k)).collect::<Result<Vec<Handle>, _>>()?;
+    let joints = joints(sim, a)?;
     let (outcome, found) = sim.solve_group(environment, group)?;
     let place = |joint: Handle| match found.iter().find(|(own, _)| *own == joint) {
         Some((_, q)) => Ok(*q),

@@ -128,6 +128,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         images::FUNCTIONS,
         sensing::FUNCTIONS,
         distances::FUNCTIONS,
+        planning::CALCULATIONS,
         collections::FUNCTIONS,
         shapes::FUNCTIONS,
         clouds::FUNCTIONS,
