@@ -1,8 +1,9 @@
--- Files that the scene gives a script, read when it was loaded: io.open and io.lines for reading, as Lua has them.
-local text_of = ...
-local type, error, tonumber, select, math_type = type, error, tonumber, select, math.type
+-- Files that the scene gives a script, read when it was loaded, and files that scripts write into the results of the
+-- run: io.open and io.lines, as Lua has them.
+local text_of, keep, has_files = ...
+local type, error, tonumber, tostring, select, math_type = type, error, tonumber, tostring, select, math.type
 local find, sub, match, gsub = string.find, string.sub, string.match, string.gsub
-local setmetatable, getmetatable, unpack = setmetatable, getmetatable, table.unpack
+local setmetatable, getmetatable, unpack, concat = setmetatable, getmetatable, table.unpack, table.concat
 
 local File = {}
 File.__index = File
@@ -64,13 +65,54 @@ function File:close()
   return true
 end
 
-local function open(name, mode)
-  if mode and not match(mode, '^rb?$') then
-    return nil, name .. ': files are for reading only'
+local Written = {}
+Written.__index = Written
+
+function Written:write(...)
+  if self.is_closed then error('the file is closed', 2) end
+  local parts = {}
+  for k = 1, select('#', ...) do
+    local part = select(k, ...)
+    if type(part) ~= 'string' and type(part) ~= 'number' then
+      error('a file is written by texts and numbers, argument ' .. k .. ' is a ' .. type(part), 2)
+    end
+    parts[k] = tostring(part)
   end
-  local text = text_of(name)
-  if not text then return nil, name .. ": not among the script's `files` in the scene" end
-  return setmetatable({ text = text, at = 1 }, File)
+  keep(self.name, concat(parts), true)
+  return self
+end
+
+function Written:flush() return self end
+
+function Written:setvbuf() return true end
+
+function Written:read() return nil, self.name .. ' is open for writing' end
+
+function Written:seek(whence, offset)
+  if (whence or 'cur') == 'set' or (offset or 0) ~= 0 then
+    error('what is written goes to the end of a file: there is no going back', 2)
+  end
+  return #(text_of(self.name) or '')
+end
+
+function Written:close()
+  self.is_closed = true
+  return true
+end
+
+local function open(name, mode)
+  local text, is_given = text_of(name)
+  if mode and match(mode, '^[wa]b?$') then
+    if is_given then return nil, name .. ': for reading only, it is a file of the scene' end
+    keep(name, '', sub(mode, 1, 1) == 'a')
+    return setmetatable({ name = name }, Written)
+  end
+  if mode and not match(mode, '^rb?$') then
+    return nil, name .. ': a file is opened to be read, written or written on: r, w or a'
+  end
+  if text then return setmetatable({ text = text, at = 1 }, File) end
+  if has_files then return nil, name .. ": not among the script's `files` in the scene" end
+  error('io.open is not allowed: scripts read no files but those under `files` in the scene, and what they wrote', 2)
 end
 
 local function lines(name, format)
@@ -80,7 +122,8 @@ local function lines(name, format)
 end
 
 local function kind(value)
-  if getmetatable(value) ~= File then return nil end
+  local class = getmetatable(value)
+  if class ~= File and class ~= Written then return nil end
   return value.is_closed and 'closed file' or 'file'
 end
 

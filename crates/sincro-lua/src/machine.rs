@@ -124,7 +124,7 @@ impl Machine {
         let seed = seed_of(shared.setting.seed, &script.path);
         let waits = sandbox::furnish(&lua, &guard, seed, services)?;
         api::offer(&lua, shared, index, &guard, &waits)?;
-        files::offer(&lua, script)?;
+        files::offer(&lua, shared, index, &guard)?;
         let chunk = compile(&lua, script)?;
         lua.set_named_registry_value(TEXT, &chunk)?;
         let (style, entries) = (script.style, Entries::default());

@@ -71,7 +71,7 @@ pub struct ScriptFailure {
     pub message: String,
 }
 
-/// Picture that a script has saved, kept with the results of the run.
+/// Picture that a script has saved, or text that it has written, kept with the results of the run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SavedImage {
     /// Name of the file: letters, digits, `.`, `_`, `-` and spaces.

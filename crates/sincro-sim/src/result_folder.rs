@@ -38,8 +38,16 @@ const FILES: [&str; 14] = [
 ];
 
 /// Folders of a result, with the extensions of the files in them; an empty list: folders of results.
-const FOLDERS: [(&str, &[&str]); 4] =
-    [("figures", &["svg"]), ("frames", &["svg", "png"]), ("images", &["png", "bmp"]), ("variants", &[])];
+const FOLDERS: [(&str, &[&str]); 5] = [
+    ("figures", &["svg"]),
+    ("frames", &["svg", "png"]),
+    ("images", &["png", "bmp"]),
+    ("files", &TEXT_FILES),
+    ("variants", &[]),
+];
+
+/// Extensions of the texts that scripts write into the folder `files` of a result.
+pub const TEXT_FILES: [&str; 7] = ["txt", "csv", "tsv", "dat", "log", "json", "xml"];
 
 /// Files that file managers leave anywhere.
 const IGNORED: [&str; 3] = [".DS_Store", "Thumbs.db", "desktop.ini"];

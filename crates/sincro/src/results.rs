@@ -83,14 +83,15 @@ fn write_with(
     write_text(&out.join("report.html"), &report::html(&page))
 }
 
-/// Writes the pictures that scripts have saved into the folder `images` of a result.
+/// Writes the pictures that scripts have saved into the folder `images` of a result, the texts into `files`.
 pub(crate) fn write_images(images: &[SavedImage], out: &Path) -> Result<(), FileError> {
-    if images.is_empty() {
-        return Ok(());
+    for image in images {
+        let is_picture = image.name.ends_with(".png") || image.name.ends_with(".bmp");
+        let folder = out.join(if is_picture { "images" } else { "files" });
+        prepare(&folder)?;
+        file::write_atomically(&folder.join(&image.name), &image.bytes)?;
     }
-    let folder = out.join("images");
-    prepare(&folder)?;
-    images.iter().try_for_each(|image| file::write_atomically(&folder.join(&image.name), &image.bytes))
+    Ok(())
 }
 
 /// Report of an experiment that was run as one HTML text that needs no other file, with its replay and the program that

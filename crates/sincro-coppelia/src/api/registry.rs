@@ -48,7 +48,7 @@ const MAX_BYTES: usize = 256 << 20;
 const MAX_LINES: usize = 1_000;
 /// Files of models that may wait to be written.
 const MAX_SAVES: usize = 16;
-/// Pictures of scripts that are kept with a run, and bytes of all of them.
+/// Pictures and files of scripts that are kept with a run, and bytes of all of them.
 const MAX_IMAGES: (usize, usize) = (1_000, 64 << 20);
 
 /// Type of an object of the registry, with what its functions need to know of it.
@@ -279,7 +279,7 @@ pub struct ObjectRegistry {
     pub(super) restructured: Option<Restructured>,
     /// True if the last of these only put objects elsewhere.
     pub(super) is_last_placement: bool,
-    /// Pictures that scripts have saved in this run, by the names of their files.
+    /// Pictures and texts that scripts have saved in this run, by the names of their files.
     pub(crate) images: BTreeMap<String, Vec<u8>>,
     /// Velocities that bodies begin with when their dynamics are reset, component by component.
     pub(super) initial_velocities: BTreeMap<Handle, [Option<f64>; 6]>,
@@ -743,14 +743,41 @@ impl ObjectRegistry {
     ///
     /// There are many already, or they are large.
     pub(crate) fn keep_image(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ApiError> {
+        self.check_saved(name, bytes.len())?;
+        self.images.insert(name.to_owned(), bytes);
+        Ok(())
+    }
+
+    /// Keeps what a script writes into a file with the run: behind what the file has, or in its place.
+    ///
+    /// # Errors
+    ///
+    /// The name is none of a file in a folder, there are many already, or they are large.
+    pub fn keep_text(&mut self, name: &str, text: &[u8], is_behind: bool) -> Result<(), ApiError> {
+        super::functions::check_file_name(name)?;
+        let before = if is_behind { self.images.get(name).map_or(0, Vec::len) } else { 0 };
+        self.check_saved(name, before + text.len())?;
+        let file = self.images.entry(name.to_owned()).or_default();
+        file.truncate(before);
+        file.extend_from_slice(text);
+        Ok(())
+    }
+
+    /// Text that scripts have written into a file in this run; none if there is no such file.
+    #[must_use]
+    pub fn kept_text(&self, name: &str) -> Option<&[u8]> {
+        self.images.get(name).map(Vec::as_slice)
+    }
+
+    fn check_saved(&self, name: &str, n_bytes: usize) -> Result<(), ApiError> {
         let others = self.images.iter().filter(|(known, _)| *known != name);
-        let (n, total) = others.fold((1, bytes.len()), |(n, total), (_, other)| (n + 1, total + other.len()));
+        let (n, total) = others.fold((1, n_bytes), |(n, total), (_, other)| (n + 1, total + other.len()));
         let (max_n, max_total) = MAX_IMAGES;
         if n > max_n || total > max_total {
             let mib = max_total >> 20;
-            return Err(ApiError(format!("scripts save {max_n} pictures of {mib} MiB together in a run, no more")));
+            let what = "pictures and files";
+            return Err(ApiError(format!("scripts save {max_n} {what} of {mib} MiB together in a run, no more")));
         }
-        self.images.insert(name.to_owned(), bytes);
         Ok(())
     }
 

@@ -215,3 +215,45 @@ fn a_script_reads_the_files_that_its_scene_gives_it_and_no_other() {
         "{problems}"
     );
 }
+
+#[test]
+fn what_a_script_writes_is_kept_with_the_run_and_nowhere_else() {
+    let code = "function sysCall_init()
+        file = io.open('C:/Users/somebody/Desktop/forces.csv', 'w')
+        file:write('t', ',', 'force', '\\n')
+        file:close()
+    end
+    function sysCall_sensing()
+        local log = io.open('../out/forces.csv', 'a')
+        assert(log:write(1.5, ',', 2, '\\n') == log and log:seek() > 8 and io.type(log) == 'file')
+        log:close()
+    end
+    function sysCall_cleanup()
+        local other = io.open('notes', 'w')
+        print(io.open('forces.csv'):read('l'), pcall(other.write, other, {}))
+        print(io.open('forces.csv', 'r+'))
+        print(pcall(io.open, 'never.txt'))
+        print(pcall(io.open, '.profile', 'w'))
+        print(pcall(file.write, file, 'x'))
+    end";
+    let first = run(&with_script(code, "").unwrap());
+    assert_eq!(first.status, Status::Completed, "{:?}", first.messages);
+    let names: Vec<&str> = first.images.iter().map(|file| file.name.as_str()).collect();
+    assert_eq!(names, ["forces.csv", "notes.txt"]);
+    let text = std::str::from_utf8(&first.images[0].bytes).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0] == "t,force" && lines.len() > 5 && lines[1..].iter().all(|line| *line == "1.5,2"), "{text}");
+    let said: Vec<String> = first.messages.iter().map(|m| m.text.clone()).collect();
+    for (text, reason) in said.iter().zip([
+        "argument 1 is a table",
+        "a file is opened to be read, written or written on",
+        "io.open is not allowed",
+        "no name of a file here",
+        "the file is closed",
+    ]) {
+        assert!(text.contains(reason), "{reason}: {said:?}");
+    }
+    assert!(said[0].starts_with("t,force\tfalse"), "{said:?}");
+    let again = run(&with_script(code, "").unwrap());
+    assert_eq!(first.images, again.images);
+}

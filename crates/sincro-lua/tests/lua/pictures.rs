@@ -53,5 +53,5 @@ fn pictures_of_a_run_have_limits() {
     let code = "function sysCall_actuation()
             for k = 1, 1001 do sim.saveImage('abc', { 1, 1 }, 0, k .. '.png', -1) end
         end";
-    assert!(stop(code).0.contains("1000 pictures of 64 MiB together"));
+    assert!(stop(code).0.contains("1000 pictures and files of 64 MiB together"));
 }

@@ -96,7 +96,7 @@ pub struct Simulated {
     pub messages: Vec<Message>,
     /// Changes of the model by clients and scripts.
     pub changes: Vec<Change>,
-    /// Pictures that scripts have saved.
+    /// Pictures that scripts have saved, and texts that they have written.
     pub images: Vec<SavedImage>,
     /// Number of the table's last columns that come from data streams of controllers.
     pub n_streams: usize,
