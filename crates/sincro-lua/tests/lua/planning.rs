@@ -241,3 +241,50 @@ fn a_search_without_end_is_work_that_a_script_pays_for() {
         print(solved, #path)";
     assert_eq!(said(code), ["false\t0"]);
 }
+
+#[test]
+fn paths_among_random_obstacles_in_a_turned_frame_meet_none_and_move_nothing() {
+    let code = "
+        local frame = sim.createDummy(0.01)
+        local n_solved, n_states, n_bad, n_moved, gap = 0, 0, 0, 0, 0
+        for round, kind in ipairs({ 'position2d', 'pose2d', 'pose3d' }) do
+            sim.setObjectPose(frame, { 5, 6, 0, 0, 0, math.sin(round), math.cos(round) })
+            local function place(h, x, y, turn)
+                local inside = { x, y, 0.2, 0, 0, math.sin(turn), math.cos(turn) }
+                sim.setObjectPose(h, sim.multiplyPoses(sim.getObjectPose(frame), inside))
+            end
+            local robot = sim.createPrimitiveShape(sim.primitiveshape_cuboid, { 0.3, 0.1, 0.1 }, 0)
+            place(robot, -0.8, -0.8, 0)
+            local obstacles = sim.createCollection(0)
+            for _ = 1, 6 do
+                local box = sim.createPrimitiveShape(sim.primitiveshape_cuboid, { 0.3, 0.2, 0.3 }, 0)
+                place(box, 1.2 * math.random() - 0.6, 1.2 * math.random() - 0.6, 3 * math.random())
+                sim.addItemToCollection(obstacles, sim.handle_single, box, 0)
+            end
+            local task, low, high = simOMPL.createTask('t'), { -1, -1 }, { 1, 1 }
+            if kind == 'pose3d' then low[3], high[3] = 0.1, 0.5 end
+            local type = simOMPL.StateSpaceType[kind]
+            simOMPL.setStateSpace(task, { simOMPL.createStateSpace('s', type, robot, low, high, 1, 1, frame) })
+            simOMPL.setStateValidityCheckingResolution(task, 0.002)
+            simOMPL.setCollisionPairs(task, { robot, obstacles })
+            local start = simOMPL.readState(task)
+            local goal = { table.unpack(start) }
+            goal[1], goal[2] = 0.8, 0.8
+            simOMPL.setGoalState(task, goal)
+            local before = sim.getObjectPose(robot)
+            local solved, path = simOMPL.compute(task, 20, 1, 60)
+            if solved then n_solved = n_solved + 1 end
+            for k, x in ipairs(sim.getObjectPose(robot)) do
+                if x ~= before[k] then n_moved = n_moved + 1 end
+            end
+            for k = 1, simOMPL.getPathStateCount(task, path) do
+                local state = simOMPL.getPathState(task, path, k)
+                simOMPL.writeState(task, state)
+                gap = math.max(gap, math.abs(simOMPL.stateDistance(task, simOMPL.readState(task), state)))
+                n_states = n_states + 1
+                if sim.checkCollision(robot, obstacles) > 0 then n_bad = n_bad + 1 end
+            end
+        end
+        print(n_solved, n_states, n_bad, n_moved, gap < 1e-6)";
+    assert_eq!(said(code), ["3\t180\t0\t0\ttrue"]);
+}
