@@ -92,6 +92,33 @@ fn activations_stop_at_the_ends_of_their_ranges() {
     }
 }
 
+/// The stop is left where the free command allows it: 2 q = a = u.
+#[test]
+fn a_trim_leaves_the_end_of_a_range_with_a_free_command() {
+    let named = |name: &str| sincro_scene::overrides::Override::new(name, "").path;
+    for activation in [
+        "kind = \"filter\", time_constant = 0.1, range = { upper = 0.5 }, initial = 0.5",
+        "kind = \"filter\", time_constant = 0.1, range = { upper = 0.5 }",
+        "kind = \"integrator\", range = { upper = 0.5 }, initial = 0.5",
+    ] {
+        let loaded = with_activation(activation);
+        let from = operating_point(&loaded, 0.0).unwrap();
+        let wanted = |q: f64| TrimRequest {
+            free: vec![named("/shaft")],
+            wanted: vec![(named("/shaft.position"), q)],
+            ..TrimRequest::default()
+        };
+        let found = trim(&loaded, &from, &wanted(0.1)).unwrap_or_else(|why| panic!("{activation}: {why}"));
+        let (state, command) = (found.at.state(), found.trim.inputs[0].1);
+        let u = if activation.contains("filter") { 0.2 } else { 0.0 };
+        for (x, expected) in [(state.q[0], 0.1), (state.rotors[0], 0.2), (command, u)] {
+            assert!((x - expected).abs() < 1e-9, "{activation}: {:?} {:?} {command}", state.q, state.rotors);
+        }
+        // beyond the end there is nothing
+        assert!(trim(&loaded, &from, &wanted(0.4)).is_err(), "{activation}");
+    }
+}
+
 /// The equilibrium is at the end of the range, where the dynamics stays, too.
 #[test]
 fn a_trim_ends_where_activations_stop() {

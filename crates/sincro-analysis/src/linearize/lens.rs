@@ -39,6 +39,8 @@ pub(super) struct Lens<R: Number> {
     locks: Vec<Lock>,
     /// Full states that rest at an end of their range, where they were last evaluated: activations.
     stopped: Vec<usize>,
+    /// Full states that may leave the end of their range: the rate out of it is as without range.
+    released: Vec<usize>,
     t: f64,
     y: Vec<R>,
     slope: Vec<R>,
@@ -126,6 +128,7 @@ impl<R: Number + CompiledNumber> Lens<R> {
             places,
             locks: locks(at, names),
             stopped: Vec::new(),
+            released: Vec::new(),
             t: at.t(),
             y: vec![R::zero(); own + z.len()],
             slope: vec![R::zero(); own + z.len()],
@@ -255,11 +258,19 @@ impl<R: Number + CompiledNumber> Lens<R> {
         &self.stopped
     }
 
-    /// Stops activations at the ends of their ranges, as the dynamics does.
+    /// Lets these full states, and no others, have rates that lead out of their ranges.
+    pub fn release(&mut self, states: &[usize]) {
+        self.released = states.to_vec();
+    }
+
+    /// Stops activations at the ends of their ranges, as the dynamics does, but for those that are released.
     fn stop_activations(&mut self) {
         let states = self.mechanism.layout().rotor_states();
+        let free: Vec<(usize, R)> =
+            self.released.iter().map(|k| (self.places[*k], self.slope[self.places[*k]])).collect();
         let driven: Vec<bool> = self.slope[states.clone()].iter().map(|rate| rate.lane(0) != 0.0).collect();
         self.mechanism.model().stop_activations(&self.y[states.clone()], &mut self.slope[states.clone()]);
+        free.into_iter().for_each(|(place, rate)| self.slope[place] = rate);
         let is_stopped = |place: usize| {
             let state = place.checked_sub(states.start).filter(|state| *state < driven.len());
             state.is_some_and(|state| driven[state] && self.slope[place].lane(0) == 0.0)

@@ -286,6 +286,15 @@ struct Residuals {
     labels: Vec<String>,
 }
 
+/// Step of Newton's method in the full states and inputs.
+struct Direction {
+    change: Vec<f64>,
+    /// Sum of the squares of the residuals before it.
+    square: f64,
+    /// Derivative of that sum along the step.
+    slope: f64,
+}
+
 impl Search<'_> {
     fn find(&mut self, at: &mut LockStep) -> Result<(), Diagnostics> {
         loop {
@@ -311,32 +320,80 @@ impl Search<'_> {
                 return Err(self.failure(&now, "the steps ran out while it was still getting smaller"));
             }
             let manifold = Manifold::of(&mut duals, at, self.names);
-            let (unknowns, jacobian) = self.jacobian(&mut duals, &manifold.tangent);
-            let r = DVector::from_column_slice(&now.values);
-            let nothing = "no position near the start changes it";
-            let Some((step, _)) = newton_step(&jacobian, &r) else { return Err(self.failure(&now, nothing)) };
-            let gradient = jacobian.tr_mul(&r);
-            let mut direction = rest.clone();
-            for (share, column) in step.iter().zip(&unknowns) {
-                direction.iter_mut().zip(column).for_each(|(d, c)| *d += share * c);
-            }
-            // not by rounding either
-            duals.stopped().iter().for_each(|k| direction[*k] = 0.0);
-            // farther than this the loops may close on another branch
-            let largest = direction[..values.n_v()].iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-            let share = if manifold.rows.is_empty() { 1.0 } else { (MAX_MOVE / largest).min(1.0) };
-            direction.iter_mut().for_each(|d| *d *= share);
-            let slope = 2.0 * share * gradient.dot(&step);
-            if gradient.norm() <= 1e-9 * jacobian.norm() * r.norm() {
-                return Err(self.failure(&now, nothing));
-            }
-            let Some(change) = self.line_search(&mut values, &manifold, &direction, (r.norm_squared(), slope)) else {
-                return Err(self.failure(&now, "every step makes it greater, or leads beyond a limit"));
+            let change = match self.released_change(&mut values, &mut duals, &manifold) {
+                Some(change) => change,
+                None => {
+                    values.release(&[]);
+                    duals.release(&[]);
+                    let direction = self.direction(&mut duals, &manifold, &now);
+                    let change = direction.and_then(|direction| {
+                        let found = self.line_search(&mut values, &manifold, &direction);
+                        found.ok_or("every step makes it greater, or leads beyond a limit")
+                    });
+                    change.map_err(|why| self.failure(&now, why))?
+                }
             };
             let (state, z) = values.displaced(&change);
             at.set_state(state, &z);
             self.iterations += 1;
         }
+    }
+
+    /// A step that leads activations away from the ends of their ranges at which they rest, where free commands can.
+    /// Active set: the ends are first left out, and count again for activations that the step would take beyond them.
+    fn released_change(
+        &self,
+        values: &mut Lens<f64>,
+        duals: &mut Lens<Dual<1>>,
+        manifold: &Manifold,
+    ) -> Option<Vec<f64>> {
+        if values.n_inputs() == 0 {
+            return None;
+        }
+        let rest = vec![0.0; values.n_full() + values.n_inputs()];
+        let mut released = values.stopped().to_vec();
+        while !released.is_empty() {
+            values.release(&released);
+            duals.release(&released);
+            let found = values.evaluate(&rest, None);
+            let now = self.residuals(&found, values.axes(), values.n_v());
+            let direction = self.direction(duals, manifold, &now).ok()?;
+            let n = released.len();
+            // the rate leads out of the range
+            released.retain(|k| direction.change[*k] * found.rates[*k] < 0.0);
+            if released.len() == n {
+                return self.line_search(values, manifold, &direction);
+            }
+        }
+        None
+    }
+
+    /// The step of Newton's method, for the residuals at the operating point; the reason if there is none.
+    fn direction(
+        &self,
+        duals: &mut Lens<Dual<1>>,
+        manifold: &Manifold,
+        now: &Residuals,
+    ) -> Result<Direction, &'static str> {
+        let nothing = "no position near the start changes it";
+        let (unknowns, jacobian) = self.jacobian(duals, &manifold.tangent);
+        let r = DVector::from_column_slice(&now.values);
+        let (step, _) = newton_step(&jacobian, &r).ok_or(nothing)?;
+        let gradient = jacobian.tr_mul(&r);
+        let mut change = vec![0.0; duals.n_full() + duals.n_inputs()];
+        for (share, column) in step.iter().zip(&unknowns) {
+            change.iter_mut().zip(column).for_each(|(d, c)| *d += share * c);
+        }
+        // stopped states are left out of the step exactly
+        duals.stopped().iter().for_each(|k| change[*k] = 0.0);
+        // farther than this the loops may close on another branch
+        let largest = change[..duals.n_v()].iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+        let share = if manifold.rows.is_empty() { 1.0 } else { (MAX_MOVE / largest).min(1.0) };
+        change.iter_mut().for_each(|d| *d *= share);
+        if gradient.norm() <= 1e-9 * jacobian.norm() * r.norm() {
+            return Err(nothing);
+        }
+        Ok(Direction { change, square: r.norm_squared(), slope: 2.0 * share * gradient.dot(&step) })
     }
 
     /// The residuals of an evaluation: rates of speeds, of rotors and diagram, velocities that motors ask for, wanted
@@ -404,8 +461,7 @@ impl Search<'_> {
         &self,
         values: &mut Lens<f64>,
         manifold: &Manifold,
-        direction: &[f64],
-        (square, slope): (f64, f64),
+        &Direction { change: ref direction, square, slope }: &Direction,
     ) -> Option<Vec<f64>> {
         let n_v = values.n_v();
         let before = depth(self.loaded, &values.displaced(&vec![0.0; direction.len()]).0);
