@@ -6,6 +6,7 @@ use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
 use super::law::{Law, Transmission};
+use super::record::ActuatorRecord;
 use crate::findings::Findings;
 use crate::number::list;
 use crate::robot::{Activation, Actuator, CommandedForce, Motor, MotorLaw, Robot, Tendon, TendonPath};
@@ -52,6 +53,8 @@ pub(super) struct KnownActuator {
     pub made: Option<(Actuator, Unit)>,
     /// Number of activations that MuJoCo has of it.
     pub n_activations: usize,
+    /// Number of controls that MuJoCo has of it.
+    pub n_controls: usize,
     /// Activation in the robot, in the unit of its command.
     pub activation: Option<Activation>,
 }
@@ -66,8 +69,10 @@ impl<'d> Reader<'d> {
             }
             element.keep();
             element.attribute("name");
-            let mut known = KnownActuator { made: None, n_activations: self.n_activations(element), activation: None };
-            match findings.take(self.actuator(element, robot)) {
+            let Some(record) = findings.take(self.defaults.actuator(element)) else { continue };
+            let (n_activations, n_controls) = (record.law.n_activations(), record.law.n_controls());
+            let mut known = KnownActuator { made: None, n_activations, n_controls, activation: None };
+            match findings.take(self.actuator(element, &record, robot)) {
                 Some(Ok(Made::Motor(motor, unit))) => {
                     (known.made, known.activation) = (Some((Actuator::Motor(motor.joint), unit)), motor.activation);
                     robot.motors.push(motor);
@@ -88,40 +93,52 @@ impl<'d> Reader<'d> {
         }
     }
 
-    fn actuator(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
+    fn actuator(
+        &self,
+        e: Element<'d>,
+        record: &ActuatorRecord<'d>,
+        robot: &Robot,
+    ) -> Result<Result<Made, String>, Diagnostic> {
         if e.peek("tendon").is_some() {
-            self.on_tendon(e, robot)
+            self.on_tendon(e, record, robot)
         } else if e.peek("site").is_some() {
-            self.on_site(e, robot)
+            self.on_site(e, record, robot)
         } else if let Some(name) = e.attribute("joint").or_else(|| e.attribute("jointinparent")) {
-            self.on_joint(e, name, robot)
+            self.on_joint(e, record, name, robot)
         } else {
             let on = ["body", "cranksite"].into_iter().find(|key| e.peek(key).is_some());
             Ok(Err(format!("it acts on a {}, and motors here act on joints", on.unwrap_or("thing without name"))))
         }
     }
 
-    fn gear(&self, e: Element<'d>) -> Result<f64, Diagnostic> {
-        Ok(self.defaults.number(e, "main", "gear")?.unwrap_or(1.0))
-    }
-
-    fn on_tendon(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
+    fn on_tendon(
+        &self,
+        e: Element<'d>,
+        record: &ActuatorRecord<'d>,
+        robot: &Robot,
+    ) -> Result<Result<Made, String>, Diagnostic> {
         let Some(known) = self.tendon_of(e, "tendon")? else { return Ok(Err("it names no tendon".into())) };
         let transmission = Transmission {
             range: known.range,
             called: "its tendon".into(),
             path: known.path.clone(),
             offset: known.offset,
-            gear: self.gear(e)?,
+            gear: record.gear[0],
         };
-        let law = match self.law(e, &transmission, robot)? {
+        let law = match self.law(e, record, &transmission, robot)? {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
-        self.along(e, &law, &transmission)
+        Ok(self.along(e, &law, &transmission))
     }
 
-    fn on_joint(&self, e: Element<'d>, name: &str, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
+    fn on_joint(
+        &self,
+        e: Element<'d>,
+        record: &ActuatorRecord<'d>,
+        name: &str,
+        robot: &Robot,
+    ) -> Result<Result<Made, String>, Diagnostic> {
         let Some(&joint) = self.joints.get(name) else {
             return Err(e.error(format!("there is no joint `{name}`")));
         };
@@ -129,30 +146,31 @@ impl<'d> Reader<'d> {
             return Ok(Err("its joint has not one degree of freedom".into()));
         }
         let transmission = Transmission {
-            range: self.ranges.get(&joint).copied(),
+            // of the parent's side there is none in MuJoCo
+            range: self.ranges.get(&joint).copied().filter(|_| e.peek("joint").is_some()),
             called: format!("joint `{name}`"),
             path: Ok(TendonPath::Joints(vec![(joint, 1.0)])),
             offset: self.references[joint],
-            gear: self.gear(e)?,
+            gear: record.gear[0],
         };
-        let law = match self.law(e, &transmission, robot)? {
+        let law = match self.law(e, record, &transmission, robot)? {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
         // a spring motor takes no command without stiffness, and no constant
         if law.bias[0] != 0.0 || (law.bias != [0.0; 3] && law.bias[1] == 0.0 && law.gain != 0.0) {
-            return self.along(e, &law, &transmission);
+            return Ok(self.along(e, &law, &transmission));
         }
         if robot.motors.iter().any(|m| m.joint == joint) {
             return Ok(Err("a joint has one motor, and this one has it already".into()));
         }
-        self.motor(e, joint, &law, transmission.gear)
+        Ok(self.motor(e, joint, &law, transmission.gear))
     }
 
     /// Motor of a joint with a law.
-    fn motor(&self, e: Element<'d>, joint: usize, law: &Law, gear: f64) -> Result<Result<Made, String>, Diagnostic> {
+    fn motor(&self, e: Element<'d>, joint: usize, law: &Law, gear: f64) -> Result<Made, String> {
         let is_servo = law.bias != [0.0; 3];
-        let (force, control) = self.force_limits(e, law, gear, !is_servo)?;
+        let (force, control) = force_limits(e, law, gear, !is_servo);
         let max_torque = force.into_iter().chain(control).reduce(f64::min);
         let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
         let (own, unit) = if !is_servo {
@@ -162,7 +180,7 @@ impl<'d> Reader<'d> {
             let scale = if law.gain == 0.0 { 0.0 } else { -law.gain / (law.bias[1] * gear) };
             (MotorLaw::Spring(stiffness, damping), Unit::new(law, scale, -self.references[joint]))
         } else {
-            return Ok(Err(no_spring(law)));
+            return Err(no_spring(law));
         };
         let activation = scaled_activation(e, law, unit);
         let with = if activation.is_some() { " with an activation" } else { "" };
@@ -181,25 +199,20 @@ impl<'d> Reader<'d> {
             e.change(&format!("the range of its control, from {low} to {high}, is left out: commands have no limits"));
         }
         let command = start(e, unit);
-        Ok(Ok(Made::Motor(Motor { joint, law: own, max_torque, command, activation }, unit)))
+        Ok(Made::Motor(Motor { joint, law: own, max_torque, command, activation }, unit))
     }
 
     /// Actuator along a path with a law: a tendon of its own, whose command is a force.
-    fn along(
-        &self,
-        e: Element<'d>,
-        law: &Law,
-        transmission: &Transmission,
-    ) -> Result<Result<Made, String>, Diagnostic> {
+    fn along(&self, e: Element<'d>, law: &Law, transmission: &Transmission) -> Result<Made, String> {
         let path = match &transmission.path {
             Ok(path) => path.clone(),
-            Err(why) => return Ok(Err(format!("its tendon has no counterpart: {why}"))),
+            Err(why) => return Err(format!("its tendon has no counterpart: {why}")),
         };
         let gear = transmission.gear;
-        let (force, control) = self.force_limits(e, law, gear, true)?;
+        let (force, control) = force_limits(e, law, gear, true);
         let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
         if stiffness < 0.0 || damping < 0.0 {
-            return Ok(Err(no_spring(law)));
+            return Err(no_spring(law));
         }
         let unit = Unit::new(law, law.gain * gear, 0.0);
         let activation = scaled_activation(e, law, unit);
@@ -226,25 +239,29 @@ impl<'d> Reader<'d> {
             command: start(e, unit),
             activation,
         };
-        Ok(Ok(Made::Tendon(tendon, unit)))
+        Ok(Made::Tendon(tendon, unit))
     }
 
     /// Actuator on a site: the force and torque along its axes that one unit of the control gives.
-    fn on_site(&self, e: Element<'d>, robot: &Robot) -> Result<Result<Made, String>, Diagnostic> {
+    fn on_site(
+        &self,
+        e: Element<'d>,
+        record: &ActuatorRecord<'d>,
+        robot: &Robot,
+    ) -> Result<Result<Made, String>, Diagnostic> {
         let name = e.attribute("site").unwrap_or_default();
         let Some(&link) = self.sites.get(name) else { return Err(e.error(format!("there is no site `{name}`"))) };
         if e.peek("refsite").is_some() {
             return Ok(Err("it acts between two sites".into()));
         }
-        let gear = self.defaults.numbers(e, "main", "gear")?.unwrap_or_else(|| vec![1.0]);
         let transmission = Transmission {
             range: None,
             called: "a site".into(),
             path: Err("a force on a site has no path".into()),
             offset: 0.0,
-            gear: if gear.iter().take(6).all(|x| *x == 0.0) { 0.0 } else { 1.0 },
+            gear: if record.gear == [0.0; 6] { 0.0 } else { 1.0 },
         };
-        let law = match self.law(e, &transmission, robot)? {
+        let law = match self.law(e, record, &transmission, robot)? {
             Ok(law) => law,
             Err(why) => return Ok(Err(why)),
         };
@@ -254,7 +271,7 @@ impl<'d> Reader<'d> {
         if law.bias != [0.0; 3] {
             return Ok(Err(format!("its bias {:?} has no counterpart on a site", law.bias)));
         }
-        let wrench: [f64; 6] = std::array::from_fn(|k| law.gain * gear.get(k).copied().unwrap_or(0.0));
+        let wrench: [f64; 6] = record.gear.map(|x| law.gain * x);
         let (force, torque) = (list(&wrench[..3]), list(&wrench[3..]));
         e.change(&format!(
             "a [[force]] with input, in its axes: force {force} N, torque {torque} N·m for a control of 1"
@@ -266,30 +283,24 @@ impl<'d> Reader<'d> {
         let name = e.peek("name").map_or_else(|| format!("{name}-force"), str::to_owned);
         Ok(Ok(Made::Force(CommandedForce { name, at: e.location(), link, wrench })))
     }
+}
 
-    /// Largest forces: from the range of the force, and from that of the control, if that is a force: not with an
-    /// activation.
-    fn force_limits(
-        &self,
-        e: Element<'d>,
-        law: &Law,
-        gear: f64,
-        is_force: bool,
-    ) -> Result<(Option<f64>, Option<f64>), Diagnostic> {
-        let largest = |name: &str, range: Option<[f64; 2]>| {
-            range.map(|[low, high]| {
-                if low != -high {
-                    let words = "has two ends that differ: the larger one bounds the force in both directions";
-                    e.change(&format!("`{name}` {words}"));
-                }
-                low.abs().max(high.abs())
-            })
-        };
-        let force = largest("forcerange", self.limiting_range(e, "forcerange", "forcelimited")?);
-        let control = law.control.filter(|_| is_force && law.activation.is_none());
-        let control = largest("ctrlrange", control).map(|u| (u * law.gain * gear).abs());
-        Ok((force.map(|f| f * gear.abs()).filter(|x| *x > 0.0), control.filter(|x| *x > 0.0)))
-    }
+/// Largest forces: from the range of the force, and from that of the control, if that is a force: not with an
+/// activation.
+fn force_limits(e: Element<'_>, law: &Law, gear: f64, is_force: bool) -> (Option<f64>, Option<f64>) {
+    let largest = |name: &str, range: Option<[f64; 2]>| {
+        range.map(|[low, high]| {
+            if low != -high {
+                let words = "has two ends that differ: the larger one bounds the force in both directions";
+                e.change(&format!("`{name}` {words}"));
+            }
+            low.abs().max(high.abs())
+        })
+    };
+    let force = largest("forcerange", law.force).map(|force| force * gear.abs());
+    let control = law.control.filter(|_| is_force && law.activation.is_none());
+    let control = largest("ctrlrange", control).map(|control| (control * law.gain * gear).abs());
+    (force.filter(|x| *x > 0.0), control.filter(|x| *x > 0.0))
 }
 
 /// Activation of an actuator in the unit of its command, if it has one and a command.

@@ -4,8 +4,8 @@ use sincro_dynamics::spatial::Quat;
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::law::without_limit;
 use super::orientation::{placement, rotation};
+use super::record::Range;
 use crate::findings::Findings;
 use crate::path_mass::tendon_mass;
 use crate::robot::{
@@ -332,33 +332,25 @@ impl<'d> Reader<'d> {
         angle: &dyn Fn(f64) -> f64,
     ) -> Result<Option<[f64; 2]>, Diagnostic> {
         let d = &self.defaults;
-        let range = d.numbers(e, class, "range")?;
-        let limited = match d.text(e, class, "limited") {
-            Some("true") => true,
-            Some("false") => false,
-            _ => self.settings.autolimits && range.is_some(),
+        let range = Range::of(d, e, class, ["range", "limited"])?;
+        let limiting = match joint.kind {
+            JointKind::Free => None,
+            _ => self.limiting_range(e, range, "range", "limited")?,
         };
         let force = d.numbers(e, class, "actuatorfrcrange")?;
         if let Some([low, high]) = force.as_deref() {
             joint.effort = Some(low.abs().max(high.abs())).filter(|x| *x > 0.0);
         }
-        match range.as_deref() {
-            Some([low, high]) if limited && joint.kind.dofs() == 1 => {
-                let [low, high] = [*low, *high].map(|x| angle(without_limit(x)) - reference);
-                if low < high {
-                    joint.limits = Some([low, high]);
-                } else {
-                    e.change("its range is empty: the joint moves without limits");
-                }
+        match (limiting, range) {
+            (Some(ends), _) if joint.kind.dofs() == 1 => joint.limits = Some(ends.map(|x| angle(x) - reference)),
+            (None, Range { ends: Some(_), limits: None }) if joint.kind.dofs() == 1 => {
+                e.change("its range is empty: the joint moves without limits");
             }
-            Some(_) if limited => e.change("limits of a joint that has not one degree of freedom are left out"),
+            (Some(_), _) => e.change("limits of a joint that has not one degree of freedom are left out"),
             _ => {}
         }
-        Ok(match range.as_deref() {
-            // MuJoCo leaves degrees of a range that does not limit as they are, and takes them for radians
-            Some(&[low, high]) => Some([low, high].map(|x| if limited { angle(x) } else { x })),
-            _ => None,
-        })
+        // MuJoCo leaves degrees of a range that does not limit as they are, and takes them for radians
+        Ok(range.ends.map(|ends| ends.map(|x| if limiting.is_some() { angle(x) } else { x })))
     }
 
     fn inertial(&self, e: Element<'d>) -> Result<Inertial, Diagnostic> {

@@ -3,7 +3,7 @@
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
-use super::parameters::{ActuatorParameters, InheritedRange};
+use super::record::{self, ActuatorRecord, InheritedRange, Range};
 use crate::export::UNLIMITED;
 use crate::path_mass::tendon_mass;
 use crate::robot::{Activation, Robot, TendonPath};
@@ -17,6 +17,8 @@ pub(super) struct Law {
     pub activation: Option<Activation>,
     /// Range of the control.
     pub control: Option<[f64; 2]>,
+    /// Range of the force.
+    pub force: Option<[f64; 2]>,
 }
 
 /// Transmission of an actuator: where and how its force acts.
@@ -39,85 +41,83 @@ impl<'d> Reader<'d> {
     pub(super) fn law(
         &self,
         e: Element<'d>,
+        record: &ActuatorRecord<'d>,
         transmission: &Transmission,
         robot: &Robot,
     ) -> Result<Result<Law, String>, Diagnostic> {
-        let parameters = match self.parameters(e)? {
-            Ok(parameters) => parameters,
-            Err(why) => return Ok(Err(why)),
-        };
+        let own = &record.law;
+        let (mut control, mut activation) = (record.control, record.activation);
+        match record.inherited_range(e)? {
+            Some(InheritedRange::Control(ratio)) => {
+                control.ends = Some(inherited(e, "ctrlrange", ratio, transmission)?);
+            }
+            Some(InheritedRange::Activation(ratio)) => {
+                activation.ends = Some(inherited(e, "actrange", ratio, transmission)?);
+            }
+            None => {}
+        }
+        let control = self.limiting_range(e, control, "ctrlrange", "ctrllimited")?;
+        let force = self.limiting_range(e, record.force, "forcerange", "forcelimited")?;
+        let range = self.limiting_range(e, activation, "actrange", "actlimited")?;
+        if own.dynamics == "none" && range.is_some() {
+            return Err(e
+                .error("`actrange` is given, and it has no activation")
+                .with_help("remove it, or give a `dyntype`"));
+        }
+        if own.gain_kind != "fixed" {
+            return Ok(Err(match e.name() {
+                "general" => format!("its gain is of type `{}`", own.gain_kind),
+                kind => format!("a `{kind}` has no counterpart"),
+            }));
+        }
+        if let Some(kind) = record.foreign() {
+            return Err(e
+                .error(format!("its class gives it numbers of a `{kind}`, which has no counterpart"))
+                .with_help("give it another class"));
+        }
         if transmission.gear == 0.0 {
             return Ok(Err("its `gear` is 0: it exerts no force".into()));
         }
-        let gain = parameters.gain;
-        if parameters.gain_kind != "fixed" {
-            return Ok(Err(format!("its gain is of type `{}`", parameters.gain_kind)));
-        }
-        let bias = match bias(e, &parameters, transmission, robot) {
+        let bias = match bias(e, own, transmission, robot) {
             Ok(bias) => bias,
             Err(why) => return Ok(Err(why)),
         };
-        if gain == 0.0 && bias == [0.0; 3] {
+        if own.gain == 0.0 && bias == [0.0; 3] {
             return Ok(Err("its gain is 0: it exerts no force".into()));
         }
-        let time_constant = match parameters.dynamics {
+        let time_constant = match own.dynamics {
             "none" => None,
             "integrator" => Some(None),
             // a time constant of zero has no lag
-            "filter" | "filterexact" => Some(parameters.time).filter(|time| *time > 0.0).map(Some),
+            "filter" | "filterexact" => Some(own.time).filter(|time| *time > 0.0).map(Some),
             other => return Ok(Err(format!("its activation is of type `{other}`"))),
         };
-        let inherited = parameters.inherited_range(e)?;
-        let control = match inherited {
-            Some(InheritedRange::Control(ratio)) => {
-                inherit(self, e, ["ctrlrange", "ctrllimited"], ratio, transmission)?
-            }
-            _ => self.limiting_range(e, "ctrlrange", "ctrllimited")?,
-        };
-        let range = match (time_constant, inherited) {
-            (None, _) => {
-                let range = self.limiting_range(e, "actrange", "actlimited")?;
-                if parameters.dynamics == "none" && range.is_some() {
-                    return Err(e
-                        .error("`actrange` is given, and it has no activation")
-                        .with_help("remove it, or give a `dyntype`"));
-                }
-                None
-            }
-            (_, Some(InheritedRange::Activation(ratio))) => {
-                inherit(self, e, ["actrange", "actlimited"], ratio, transmission)?
-            }
-            _ => self.limiting_range(e, "actrange", "actlimited")?,
-        };
         let activation = time_constant.map(|time_constant| {
-            if self.defaults.text(e, "main", "actearly") == Some("true") {
+            if own.acts_early {
                 e.change("`actearly` is of steps in time, and has no effect here");
             }
             Activation { time_constant, input_range: control, range, initial: 0.0 }
         });
-        Ok(Ok(Law { gain, bias, activation, control }))
+        Ok(Ok(Law { gain: own.gain, bias, activation, control, force }))
     }
 
-    /// The range of that name, if its `flag` says that it limits; an empty range limits nothing unless it is said to,
-    /// and is an error then.
+    /// A range, if its `flag` says that it limits; an empty range limits nothing unless it is said to, and is an error
+    /// then.
     pub(super) fn limiting_range(
         &self,
         e: Element<'d>,
+        range: Range,
         name: &str,
         flag: &str,
     ) -> Result<Option<[f64; 2]>, Diagnostic> {
-        let d = &self.defaults;
-        let range = d.numbers(e, "main", name)?;
-        let (on, is_explicit) = match d.text(e, "main", flag) {
-            Some("true") => (true, true),
-            Some("false") => (false, false),
-            _ => (self.settings.autolimits, false),
-        };
-        match range.as_deref() {
-            _ if !on => Ok(None),
-            Some(&[low, high]) if low < high => Ok(Some([low, high].map(without_limit))),
-            None | Some([_, _]) if !is_explicit => Ok(None),
-            _ => Err(e
+        match (range.ends, range.limits) {
+            (_, Some(false)) => Ok(None),
+            (Some([low, high]), None) if (low, high) != (0.0, 0.0) && !self.settings.autolimits => Err(e
+                .error(format!("`{name}` is given, and neither `{flag}` nor `autolimits` says that it limits"))
+                .with_help(format!("give `{flag}`"))),
+            (Some([low, high]), _) if low < high => Ok(Some([low, high].map(without_limit))),
+            (_, None) => Ok(None),
+            (_, Some(true)) => Err(e
                 .error(format!("`{name}` is no range, and `{flag}` says that it limits"))
                 .with_help("give two numbers, the lower one first")),
         }
@@ -125,14 +125,9 @@ impl<'d> Reader<'d> {
 }
 
 /// Bias with the damping that a ratio means; the reason if it has no counterpart.
-fn bias(
-    e: Element<'_>,
-    parameters: &ActuatorParameters<'_>,
-    transmission: &Transmission,
-    robot: &Robot,
-) -> Result<[f64; 3], String> {
-    let (gain, [constant, length, rate]) = (parameters.gain, parameters.bias);
-    match parameters.bias_kind {
+fn bias(e: Element<'_>, own: &record::Law<'_>, transmission: &Transmission, robot: &Robot) -> Result<[f64; 3], String> {
+    let (gain, [constant, length, rate]) = (own.gain, own.bias);
+    match own.bias_kind {
         "none" => Ok([0.0; 3]),
         "affine" if rate > 0.0 && length == -gain => {
             // MuJoCo has none where nothing moves along a path
@@ -146,30 +141,23 @@ fn bias(
             e.change(&format!("its damping ratio is a damping of {damping:.6} with the inertia {mass:.6}"));
             Ok([constant, length, -damping])
         }
-        "affine" => Ok(parameters.bias),
+        "affine" => Ok(own.bias),
         other => Err(format!("its bias is of type `{other}`")),
     }
 }
 
-/// A range that is inherited by a ratio about its middle, if its flag does not say that it limits nothing.
-fn inherit<'d>(
-    reader: &Reader<'d>,
-    e: Element<'d>,
-    [name, flag]: [&str; 2],
-    ratio: f64,
-    transmission: &Transmission,
-) -> Result<Option<[f64; 2]>, Diagnostic> {
-    let Some([low, high]) = transmission.range.filter(|[low, high]| low < high) else {
+/// A range that is inherited by a ratio about its middle.
+fn inherited(e: Element<'_>, name: &str, ratio: f64, transmission: &Transmission) -> Result<[f64; 2], Diagnostic> {
+    let Some([low, high]) = transmission.range.filter(|[low, high]| low != high) else {
         return Err(e
             .error(format!("`inheritrange` needs a range of {}, which has none", transmission.called))
             .with_help(format!("give it a `range`, or the actuator a `{name}`")));
     };
     let (middle, half) = (0.5 * (low + high), 0.5 * ratio * (high - low));
-    let is_limited = reader.defaults.text(e, "main", flag) != Some("false");
-    Ok(is_limited.then_some([middle - half, middle + half]))
+    Ok([middle - half, middle + half])
 }
 
 /// End of a range, infinite where MuJoCo's largest number stands for none.
-pub(super) fn without_limit(x: f64) -> f64 {
+fn without_limit(x: f64) -> f64 {
     if x.abs() >= UNLIMITED { x * f64::INFINITY } else { x }
 }

@@ -14,7 +14,8 @@ mod height_field;
 mod include;
 mod law;
 mod orientation;
-mod parameters;
+mod record;
+mod reflected;
 mod state;
 mod tendon;
 
@@ -26,6 +27,7 @@ use crate::source::Element;
 use defaults::Defaults;
 pub(crate) use include::load;
 use orientation::Angles;
+use reflected::Reflected;
 
 /// Reason why an element or attribute is not read.
 pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
@@ -122,7 +124,7 @@ pub(crate) fn read<'d>(
     let all = |name: &str| -> Vec<Element<'d>> { top.iter().filter(|e| e.name() == name).copied().collect() };
     let (settings, angles) = settings(&all("compiler"), findings);
     let mut reader = Reader {
-        defaults: Defaults::new(&files, &all("default")),
+        defaults: Defaults::new(&files, &all("default"), findings),
         files,
         folder: root.file().folder(),
         angles,
@@ -144,6 +146,7 @@ pub(crate) fn read<'d>(
         tuned: Vec::new(),
         order: Vec::new(),
     };
+    roots.iter().for_each(|(_, root)| reader.defaults.check_classes(*root, findings));
     for option in all("option") {
         options(option, &mut robot, findings);
     }
@@ -171,11 +174,18 @@ pub(crate) fn read<'d>(
         scale_mass(&mut robot, reader.settings.total_mass);
     }
     reader.held = all("equality").into_iter().flat_map(|equality| reader.held_names(equality)).collect();
-    // springs that are tuned, stops and damping ratios follow from masses with the armatures of tendons
+    // springs that are tuned, stops and damping ratios follow from masses with the armatures of tendons and actuators
+    let tendons: Vec<_> = all("tendon").into_iter().flat_map(|e| reader.files.elements(e)).collect();
     for tendon in all("tendon") {
         reader.joint_properties(tendon, &mut robot, findings);
     }
+    for actuators in all("actuator") {
+        reader.reflect(Reflected::Armature, actuators, &tendons, &mut robot, findings);
+    }
     reader.tune(&mut robot);
+    for actuators in all("actuator") {
+        reader.reflect(Reflected::Damping, actuators, &tendons, &mut robot, findings);
+    }
     for tendon in all("tendon") {
         tendon.keep();
         reader.tendons(tendon, &mut robot, findings);

@@ -1,17 +1,36 @@
-//! Actuator parameters: gain, bias and activation, which elements of the format set one after the other.
+//! Actuator records: everything that the elements of actuators set, in a class of defaults or on an actuator.
 //!
-//! Source: key `mjcf`, actuators. All kinds of actuators set the parameters of a `general`; the defaults of a class are
-//! those, too: a `position` in a class gives a `general` of it gain and bias, and the `kp` of one is the gain that a
-//! `general` gave. Of another kind than `general` only the same kind takes what it has set.
+//! Source: key `mjcf`, actuator shortcuts, as MuJoCo 4.0 reads them. A class has one record. It starts as that of its
+//! parent, each element of an actuator in the class changes it in the order of the file, and an actuator changes a copy
+//! of that of its class. Ranges, flags and gear are overwritten where they are given. The law is, too, by a `general`;
+//! a shortcut (`position`, `velocity` …) sets it anew: from its own numbers, from a record that it can inherit, the
+//! nearest one of its class and the classes around it, or from the format's own defaults. It can inherit a record of
+//! its own kind, and one of a `general` with its type of gain.
 
 use sincro_scene::diagnostic::Diagnostic;
 
-use super::Reader;
+use super::defaults::Defaults;
 use crate::source::Element;
 
-/// Parameters of a `general` actuator.
+/// Tags of actuators, which share their defaults.
+pub(super) const ACTUATORS: [&str; 12] = [
+    "general",
+    "motor",
+    "position",
+    "velocity",
+    "intvelocity",
+    "damper",
+    "cylinder",
+    "muscle",
+    "adhesion",
+    "pid",
+    "orientation",
+    "dcmotor",
+];
+
+/// Gain, bias and activation.
 #[derive(Clone, Copy)]
-pub(super) struct ActuatorParameters<'d> {
+pub(super) struct Law<'d> {
     pub gain: f64,
     pub gain_kind: &'d str,
     /// Constant, and coefficients of length and rate; a positive last one of a servo is a damping ratio.
@@ -20,8 +39,42 @@ pub(super) struct ActuatorParameters<'d> {
     pub dynamics: &'d str,
     /// Time constant of the activation `[s]`.
     pub time: f64,
+    /// Number of activations that a `general` asks for.
+    n_activations: Option<usize>,
+    pub acts_early: bool,
+    /// Control inputs, where an element names them.
+    inputs: Option<&'d str>,
+    /// Kind of the shortcut whose numbers are in the source in the place of these, and unknown here.
+    pub foreign: Option<&'d str>,
+    /// Numbers by which a `dcmotor` or `pid` has states.
+    states: [f64; 5],
+}
+
+/// Range of a quantity, with its flag.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Range {
+    pub ends: Option<[f64; 2]>,
+    /// True if it limits, false if it does not; none if that follows from the range.
+    pub limits: Option<bool>,
+}
+
+/// Actuator of a class, or one of the model.
+#[derive(Clone, Copy)]
+pub(super) struct ActuatorRecord<'d> {
+    /// Tag of the element that set it last.
+    kind: &'d str,
+    pub law: Law<'d>,
+    pub control: Range,
+    pub activation: Range,
+    pub force: Range,
+    pub gear: [f64; 6],
+    pub armature: f64,
+    /// Coefficients of the rate, and of its higher powers.
+    pub damping: [f64; 3],
     /// Ratio of the range of control or activation to that of what the actuator acts on; 0 for none that is inherited.
     inherit_range: f64,
+    /// True if the range of the force is in the source that of a `dcmotor`, and unknown here.
+    has_motor_force: bool,
 }
 
 /// Range that is inherited from what an actuator acts on.
@@ -38,16 +91,17 @@ pub(super) enum InheritedRange {
 const DCMOTOR_STATES: [(&str, usize); 5] =
     [("inductance", 0), ("thermal", 0), ("lugre", 0), ("controller", 1), ("controller", 3)];
 
-/// Parameters that elements set: without those of the last kind, and with them.
-struct ActuatorDefaults<'d> {
-    general: ActuatorParameters<'d>,
-    current: ActuatorParameters<'d>,
-    /// Last kind other than `general`, of which another kind takes nothing.
-    kind: &'d str,
-    /// True if there is a `ctrlrange`.
-    has_control_range: bool,
-    /// True if there is an `actrange`.
-    has_activation_range: bool,
+/// Those of a `pid`: integral of the error and slewed input.
+const PID_STATES: [(&str, usize); 2] = [("ki", 0), ("slewmax", 0)];
+
+/// Type of gain that a kind of actuator has.
+fn gain_kind(kind: &str) -> &str {
+    match kind {
+        "damper" => "affine",
+        "orientation" => "so3",
+        "muscle" | "pid" | "dcmotor" => kind,
+        _ => "fixed",
+    }
 }
 
 fn first(e: Element<'_>, key: &str) -> Result<Option<f64>, Diagnostic> {
@@ -62,7 +116,13 @@ fn first_not_negative(e: Element<'_>, key: &str) -> Result<Option<f64>, Diagnost
     }
 }
 
-impl<'d> ActuatorParameters<'d> {
+/// Overwrites the first numbers by those of an attribute.
+fn overwrite(own: &mut [f64], e: Element<'_>, key: &str) -> Result<(), Diagnostic> {
+    own.iter_mut().zip(e.numbers(key)?.unwrap_or_default()).for_each(|(own, given)| *own = given);
+    Ok(())
+}
+
+impl<'d> Law<'d> {
     const START: Self = Self {
         gain: 1.0,
         gain_kind: "fixed",
@@ -70,27 +130,55 @@ impl<'d> ActuatorParameters<'d> {
         bias_kind: "none",
         dynamics: "none",
         time: 1.0,
-        inherit_range: 0.0,
+        n_activations: None,
+        acts_early: false,
+        inputs: None,
+        foreign: None,
+        states: [0.0; 5],
     };
 
-    /// Range that the actuator inherits: as MuJoCo by what it is, whichever element said so.
-    pub fn inherited_range(&self, e: Element<'d>) -> Result<Option<InheritedRange>, Diagnostic> {
-        let is_servo = self.bias_kind == "affine" && self.bias[1] == -self.gain;
-        if self.inherit_range <= 0.0 || !is_servo {
-            return Ok(None);
+    /// Takes the numbers that a `general` gives.
+    fn set_general(&mut self, e: Element<'d>) -> Result<(), Diagnostic> {
+        self.gain_kind = e.attribute("gaintype").unwrap_or(self.gain_kind);
+        self.bias_kind = e.attribute("biastype").unwrap_or(self.bias_kind);
+        self.dynamics = e.attribute("dyntype").unwrap_or(self.dynamics);
+        self.inputs = e.attribute("input").or(self.inputs);
+        self.acts_early = e.attribute("actearly").map_or(self.acts_early, |text| text == "true");
+        self.gain = first(e, "gainprm")?.unwrap_or(self.gain);
+        self.time = first(e, "dynprm")?.unwrap_or(self.time);
+        if let Some(n) = first(e, "actdim")? {
+            self.n_activations = (n >= 0.0).then_some(n as usize);
         }
-        match self.dynamics {
-            "none" | "filterexact" => Ok(Some(InheritedRange::Control(self.inherit_range))),
-            "integrator" => Ok(Some(InheritedRange::Activation(self.inherit_range))),
-            other => Err(e
-                .error(format!("its class gives it `inheritrange`, which its activation `{other}` does not have"))
-                .with_help("only a `position` and an `intvelocity` inherit ranges")),
+        overwrite(&mut self.bias, e, "biasprm")
+    }
+
+    /// The law of a shortcut, from one that it inherits.
+    fn of_shortcut(e: Element<'d>, inherited: &Self) -> Result<Self, Diagnostic> {
+        let start = Self { gain_kind: gain_kind(e.name()), foreign: inherited.foreign, ..Self::START };
+        match e.name() {
+            "motor" => Ok(Self::START),
+            "position" | "intvelocity" => start.servo(e, inherited),
+            "velocity" => {
+                let gain = first(e, "kv")?.unwrap_or(inherited.gain);
+                Ok(Self { gain, bias: [0.0, 0.0, -gain], bias_kind: "affine", ..start })
+            }
+            "damper" => {
+                first_not_negative(e, "kv")?;
+                Ok(Self { gain: 0.0, ..start })
+            }
+            "cylinder" => start.cylinder(e, inherited),
+            "adhesion" => Ok(Self { gain: first_not_negative(e, "gain")?.unwrap_or(inherited.gain), ..start }),
+            kind => {
+                let mut own = Self { bias_kind: gain_kind(kind), foreign: Some(kind), ..start };
+                own.set_foreign(e, inherited)?;
+                Ok(own)
+            }
         }
     }
 
-    /// Gain, bias and activation of a `position` or `intvelocity`.
-    fn set_servo(&mut self, e: Element<'d>) -> Result<(), Diagnostic> {
-        let gain = first(e, "kp")?.unwrap_or(self.gain);
+    /// Law of a `position` or `intvelocity`.
+    fn servo(self, e: Element<'d>, inherited: &Self) -> Result<Self, Diagnostic> {
+        let gain = first(e, "kp")?.unwrap_or(inherited.gain);
         let rate = match (first_not_negative(e, "kv")?, first_not_negative(e, "dampratio")?) {
             (Some(_), Some(_)) => {
                 return Err(e
@@ -98,157 +186,221 @@ impl<'d> ActuatorParameters<'d> {
                     .with_help("remove one of them"));
             }
             (Some(damping), None) => -damping,
-            (None, ratio) => ratio.unwrap_or(self.bias[2]),
+            (None, ratio) => ratio.unwrap_or(inherited.bias[2]),
         };
-        (self.gain, self.bias) = (gain, [0.0, -gain, rate]);
-        (self.gain_kind, self.bias_kind) = ("fixed", "affine");
+        let servo = Self { gain, bias: [0.0, -gain, rate], bias_kind: "affine", ..self };
         if e.name() == "intvelocity" {
-            self.dynamics = "integrator";
-        } else if let Some(time) = first_not_negative(e, "timeconst")? {
-            (self.time, self.dynamics) = (time, if time > 0.0 { "filterexact" } else { "none" });
+            return Ok(Self { dynamics: "integrator", ..servo });
         }
-        Ok(())
+        let filter = Some(inherited.time).filter(|_| inherited.dynamics == "filterexact");
+        Ok(match first_not_negative(e, "timeconst")?.or(filter) {
+            Some(time) => Self { time, dynamics: if time > 0.0 { "filterexact" } else { "none" }, ..servo },
+            None => servo,
+        })
     }
 
-    fn set_velocity(&mut self, e: Element<'d>) -> Result<(), Diagnostic> {
-        let gain = first(e, "kv")?.unwrap_or(self.gain);
-        (self.gain, self.bias) = (gain, [0.0, 0.0, -gain]);
-        (self.gain_kind, self.bias_kind) = ("fixed", "affine");
-        Ok(())
+    fn cylinder(self, e: Element<'d>, inherited: &Self) -> Result<Self, Diagnostic> {
+        let area = first(e, "area")?.unwrap_or(inherited.gain);
+        let of_diameter = first(e, "diameter")?.filter(|d| *d >= 0.0).map(|d| core::f64::consts::FRAC_PI_4 * d * d);
+        let mut bias = inherited.bias;
+        overwrite(&mut bias, e, "bias")?;
+        let time = first(e, "timeconst")?.unwrap_or(inherited.time);
+        Ok(Self { gain: of_diameter.unwrap_or(area), bias, bias_kind: "affine", dynamics: "filter", time, ..self })
     }
 
-    fn set_cylinder(&mut self, e: Element<'d>) -> Result<(), Diagnostic> {
-        self.time = first(e, "timeconst")?.unwrap_or(self.time);
-        self.set_bias(e, "bias")?;
-        self.gain = first(e, "area")?.unwrap_or(self.gain);
-        if let Some(diameter) = first(e, "diameter")?.filter(|diameter| *diameter >= 0.0) {
-            self.gain = core::f64::consts::FRAC_PI_4 * diameter * diameter;
+    /// States and inputs of a kind without counterpart.
+    fn set_foreign(&mut self, e: Element<'d>, inherited: &Self) -> Result<(), Diagnostic> {
+        self.inputs = e.attribute("input").or(inherited.inputs);
+        self.states = inherited.states;
+        let keys: &[_] = match e.name() {
+            "dcmotor" => &DCMOTOR_STATES,
+            "pid" => &PID_STATES,
+            _ => &[],
+        };
+        for ((key, k), own) in keys.iter().zip(&mut self.states) {
+            *own = e.numbers(key)?.and_then(|numbers| numbers.get(*k).copied()).unwrap_or(*own);
         }
-        (self.gain_kind, self.bias_kind, self.dynamics) = ("fixed", "affine", "filter");
+        self.dynamics = match e.name() {
+            "orientation" => "none",
+            "pid" if self.states == [0.0; 5] => "none",
+            kind => kind,
+        };
         Ok(())
     }
 
-    fn set_general(&mut self, e: Element<'d>) -> Result<(), Diagnostic> {
-        self.gain_kind = e.attribute("gaintype").unwrap_or(self.gain_kind);
-        self.bias_kind = e.attribute("biastype").unwrap_or(self.bias_kind);
-        self.dynamics = e.attribute("dyntype").unwrap_or(self.dynamics);
-        self.gain = first(e, "gainprm")?.unwrap_or(self.gain);
-        self.time = first(e, "dynprm")?.unwrap_or(self.time);
-        self.set_bias(e, "biasprm")
-    }
-
-    fn set_bias(&mut self, e: Element<'d>, key: &str) -> Result<(), Diagnostic> {
-        for (own, given) in self.bias.iter_mut().zip(e.numbers(key)?.unwrap_or_default()) {
-            *own = given;
+    /// Number of activations in the source.
+    pub fn n_activations(&self) -> usize {
+        match (self.dynamics, self.gain_kind) {
+            ("none", _) => 0,
+            ("dcmotor" | "pid", _) => self.states.iter().filter(|x| **x != 0.0).count(),
+            (_, "so3") => 3,
+            _ => self.n_activations.unwrap_or(1).max(1),
         }
-        Ok(())
+    }
+
+    /// Number of controls in the source.
+    pub fn n_controls(&self) -> usize {
+        match (self.gain_kind, self.inputs) {
+            ("so3", Some("quat")) => 4,
+            ("so3", _) => 3,
+            ("pid", None) => 2,
+            ("dcmotor", Some("none")) => 0,
+            ("pid" | "dcmotor", Some(inputs)) => inputs.split_whitespace().count(),
+            _ => 1,
+        }
     }
 }
 
-impl<'d> ActuatorDefaults<'d> {
-    fn new() -> Self {
-        let start = ActuatorParameters::START;
-        Self { general: start, current: start, kind: "general", has_control_range: false, has_activation_range: false }
+impl Range {
+    /// That of an element which is no actuator, with its defaults.
+    pub fn of<'d>(
+        defaults: &Defaults<'d>,
+        e: Element<'d>,
+        class: &str,
+        [range, flag]: [&str; 2],
+    ) -> Result<Self, Diagnostic> {
+        let mut own = Self::default();
+        if let Some(holder) = defaults.holder(e, class, range) {
+            own.ends = Self::ends(holder, range)?;
+        }
+        own.limits = defaults.holder(e, class, flag).and_then(|holder| Self::flag(holder, flag));
+        Ok(own)
     }
 
-    /// Takes what an element sets; the reason if it has no counterpart.
-    fn set(&mut self, e: Element<'d>) -> Result<Result<(), String>, Diagnostic> {
+    fn set(&mut self, e: Element<'_>, range: &str, flag: &str) -> Result<(), Diagnostic> {
+        self.ends = Self::ends(e, range)?.or(self.ends);
+        if e.peek(flag).is_some() {
+            self.limits = Self::flag(e, flag);
+        }
+        Ok(())
+    }
+
+    fn ends(e: Element<'_>, key: &str) -> Result<Option<[f64; 2]>, Diagnostic> {
+        match e.numbers(key)?.as_deref() {
+            Some(&[low, high]) => Ok(Some([low, high])),
+            Some(_) => Err(e.error(format!("`{key}` has two numbers"))),
+            None => Ok(None),
+        }
+    }
+
+    fn flag(e: Element<'_>, key: &str) -> Option<bool> {
+        match e.attribute(key) {
+            Some("true") => Some(true),
+            Some("false") => Some(false),
+            _ => None,
+        }
+    }
+
+    /// True if an element gave one; zeros are none.
+    fn is_given(&self) -> bool {
+        self.ends.is_some_and(|ends| ends != [0.0; 2])
+    }
+}
+
+impl<'d> ActuatorRecord<'d> {
+    pub const START: Self = Self {
+        kind: "general",
+        law: Law::START,
+        control: Range { ends: None, limits: None },
+        activation: Range { ends: None, limits: None },
+        force: Range { ends: None, limits: None },
+        gear: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        armature: 0.0,
+        damping: [0.0; 3],
+        inherit_range: 0.0,
+        has_motor_force: false,
+    };
+
+    /// Changes the record by an element. `around` are the records of the classes around it, the innermost one first.
+    ///
+    /// # Errors
+    ///
+    /// The element contradicts itself or what it inherits.
+    pub fn set(&mut self, e: Element<'d>, around: &[Self]) -> Result<(), Diagnostic> {
+        self.control.set(e, "ctrlrange", "ctrllimited")?;
+        self.control.set(e, "posrange", "ctrllimited")?;
+        self.activation.set(e, "actrange", "actlimited")?;
+        self.force.set(e, "forcerange", "forcelimited")?;
+        self.has_motor_force &= e.peek("forcerange").is_none();
+        overwrite(&mut self.gear, e, "gear")?;
+        self.armature = first(e, "armature")?.unwrap_or(self.armature);
+        overwrite(&mut self.damping, e, "damping")?;
+        if e.name() == "general" {
+            self.law.set_general(e)?;
+            self.inherit_range = first(e, "inheritrange")?.unwrap_or(self.inherit_range);
+        } else {
+            self.set_shortcut(e, around)?;
+        }
+        self.kind = e.name();
+        Ok(())
+    }
+
+    fn set_shortcut(&mut self, e: Element<'d>, around: &[Self]) -> Result<(), Diagnostic> {
         let kind = e.name();
-        if kind != "general" && kind != self.kind {
-            (self.current, self.kind) = (self.general, kind);
-            self.current.dynamics = "none";
-        }
-        if e.peek("inheritrange").is_some() && !matches!(kind, "general" | "position" | "intvelocity") {
-            return Err(e.error(format!("a `{kind}` has no `inheritrange`")).with_help("only servos inherit ranges"));
-        }
-        self.set_ranges(e)?;
+        let own = *self;
+        let source = std::iter::once(&own).chain(around).find(|record| record.gives(kind)).unwrap_or(&Self::START);
+        self.law = Law::of_shortcut(e, &source.law)?;
+        self.activation.limits = e.peek("actlimited").and(self.activation.limits);
         match kind {
-            "motor" => self.current = ActuatorParameters::START,
-            "position" | "intvelocity" => {
-                self.current.set_servo(e)?;
-                self.set_inherited(e)?;
+            "position" | "intvelocity" | "pid" => {
+                let (key, range) = match kind {
+                    "intvelocity" => ("actrange", &mut self.activation),
+                    _ => ("ctrlrange", &mut self.control),
+                };
+                let (own, is_given) = (first(e, "inheritrange")?, e.peek(key).is_some());
+                self.inherit_range = own.unwrap_or(if is_given { 0.0 } else { source.inherit_range });
+                // the one that is given here takes the place of an inherited one
+                if own.is_some_and(|own| own > 0.0) && !is_given {
+                    range.ends = None;
+                }
+                if self.inherit_range > 0.0 && range.is_given() {
+                    return Err(e
+                        .error(format!("`{key}` and `inheritrange` are both given, and each is the range"))
+                        .with_help("remove one of them"));
+                }
             }
-            "velocity" => self.current.set_velocity(e)?,
-            "cylinder" => self.current.set_cylinder(e)?,
-            "general" => {
-                self.current.set_general(e)?;
-                (self.general, self.kind) = (self.current, "general");
+            _ if e.peek("inheritrange").is_some() => {
+                let message = format!("a `{kind}` has no `inheritrange`");
+                return Err(e.error(message).with_help("only servos inherit ranges"));
             }
-            _ => {
-                let own = &mut self.current;
-                (own.gain_kind, own.bias_kind, own.dynamics) = (kind, kind, kind);
-                return Ok(Err(format!("a `{kind}` has no counterpart")));
+            "damper" | "adhesion" => {
+                self.control.limits = Some(true);
+                if self.control.ends.is_some_and(|ends| ends.iter().any(|x| *x < 0.0)) {
+                    return Err(e.error(format!("the range of the control of a `{kind}` is negative")));
+                }
             }
-        }
-        Ok(Ok(()))
-    }
-
-    /// Notes which ranges there are; zeros are none.
-    fn set_ranges(&mut self, e: Element<'d>) -> Result<(), Diagnostic> {
-        for (key, has) in [("ctrlrange", &mut self.has_control_range), ("actrange", &mut self.has_activation_range)] {
-            if let Some(ends) = e.numbers(key)? {
-                *has = ends.iter().any(|x| *x != 0.0);
+            "dcmotor" => {
+                let sets_force = ["saturation", "nominal"].iter().any(|key| e.peek(key).is_some());
+                self.has_motor_force |= sets_force && e.peek("forcerange").is_none();
             }
-        }
-        Ok(())
-    }
-
-    /// Takes the later one of the range that a servo inherits and the one that an element gives.
-    fn set_inherited(&mut self, e: Element<'d>) -> Result<(), Diagnostic> {
-        let (key, has_range) = match e.name() {
-            "intvelocity" => ("actrange", &mut self.has_activation_range),
-            _ => ("ctrlrange", &mut self.has_control_range),
-        };
-        let inherit_range = &mut self.current.inherit_range;
-        match (first(e, "inheritrange")?, e.peek(key)) {
-            (None, None) => {}
-            (None, Some(_)) => *inherit_range = 0.0,
-            (Some(own), given) => {
-                *inherit_range = own;
-                *has_range = *has_range && (given.is_some() || own <= 0.0);
-            }
-        }
-        if *inherit_range > 0.0 && *has_range {
-            return Err(e
-                .error(format!("`{key}` and `inheritrange` are both given, and each is the range"))
-                .with_help("remove one of them"));
+            _ => {}
         }
         Ok(())
     }
-}
 
-impl<'d> Reader<'d> {
-    /// Parameters of an actuator after its defaults; the reason if its kind has no counterpart.
-    pub(super) fn parameters(&self, e: Element<'d>) -> Result<Result<ActuatorParameters<'d>, String>, Diagnostic> {
-        let mut defaults = ActuatorDefaults::new();
-        for element in self.defaults.actuators(e) {
-            let set = defaults.set(element)?;
-            // a kind of a class that the element is not counts no more
-            if let (Err(why), true) = (set, element.id() == e.id()) {
-                return Ok(Err(why));
-            }
-        }
-        Ok(Ok(defaults.current))
+    /// True if a shortcut inherits the numbers of this record.
+    fn gives(&self, kind: &str) -> bool {
+        self.kind == kind || (self.kind == "general" && self.law.gain_kind == gain_kind(kind))
     }
 
-    /// Number of activations that MuJoCo has of an actuator.
-    pub(super) fn n_activations(&self, e: Element<'d>) -> usize {
-        let mut defaults = ActuatorDefaults::new();
-        for element in self.defaults.actuators(e) {
-            // an error is one of `parameters`
-            let _ = defaults.set(element);
+    /// Reason why the record has no counterpart, if numbers of other kinds are in it.
+    pub fn foreign(&self) -> Option<&'d str> {
+        self.law.foreign.or(self.has_motor_force.then_some("dcmotor"))
+    }
+
+    /// Range that the actuator inherits: as MuJoCo by what it is, whichever element said so.
+    pub fn inherited_range(&self, e: Element<'d>) -> Result<Option<InheritedRange>, Diagnostic> {
+        let own = &self.law;
+        let is_servo = own.gain_kind == "fixed" && own.bias_kind == "affine" && own.bias[1] == -own.gain;
+        if self.inherit_range <= 0.0 || !is_servo {
+            return Ok(None);
         }
-        let number = |key: &str, k: usize| {
-            let numbers = self.defaults.numbers(e, "main", key).ok().flatten().unwrap_or_default();
-            numbers.get(k).copied().unwrap_or(0.0)
-        };
-        match defaults.current.dynamics {
-            "none" | "damper" | "adhesion" => 0,
-            "dcmotor" => DCMOTOR_STATES.iter().filter(|(key, k)| number(key, *k) != 0.0).count(),
-            _ => match number("actdim", 0) {
-                given if given >= 1.0 => given as usize,
-                _ => 1,
-            },
+        match own.dynamics {
+            "none" | "filterexact" => Ok(Some(InheritedRange::Control(self.inherit_range))),
+            "integrator" => Ok(Some(InheritedRange::Activation(self.inherit_range))),
+            other => Err(e
+                .error(format!("its class gives it `inheritrange`, which its activation `{other}` does not have"))
+                .with_help("only a `position` and an `intvelocity` inherit ranges")),
         }
     }
 }

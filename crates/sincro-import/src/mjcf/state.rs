@@ -87,22 +87,27 @@ impl<'d> Reader<'d> {
 
     /// Actuators with the commands of controls.
     fn commands_of(&self, key: Element<'d>, controls: &[f64]) -> Vec<(Actuator, f64)> {
-        if controls.len() != self.actuators.len() {
-            key.change(&format!("`ctrl` has {} numbers, not {}: it is left out", controls.len(), self.actuators.len()));
+        let n: usize = self.actuators.iter().map(|known| known.n_controls).sum();
+        if controls.len() != n {
+            key.change(&format!("`ctrl` has {} numbers, not {n}: it is left out", controls.len()));
             return Vec::new();
         }
-        let mut commands = Vec::new();
-        for (known, control) in self.actuators.iter().zip(controls) {
-            match known.made {
-                Some((actuator, unit)) => {
+        let (mut rest, mut commands) = (controls, Vec::new());
+        for known in &self.actuators {
+            let (values, others) = rest.split_at(known.n_controls);
+            rest = others;
+            match (known.made, values) {
+                (Some((actuator, unit)), [control]) => {
                     let acts = unit.clamped(*control);
                     if acts != *control && unit.scale != 0.0 {
                         key.change(&format!("a control of {control} is beyond its `ctrlrange`: it is {acts}"));
                     }
                     commands.push((actuator, unit.command(*control)));
                 }
-                None if *control != 0.0 => key.change("`ctrl` of an actuator that is no motor here is left out"),
-                None => {}
+                _ if values.iter().any(|x| *x != 0.0) => {
+                    key.change("`ctrl` of an actuator that is no motor here is left out");
+                }
+                _ => {}
             }
         }
         commands

@@ -9,6 +9,7 @@
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
+use super::record::Range;
 use crate::export::UNLIMITED;
 use crate::findings::Findings;
 use crate::path_mass::tendon_mass;
@@ -114,7 +115,9 @@ impl<'d> Reader<'d> {
                     command: 0.0,
                     activation: None,
                 };
-                if let Some(lengths) = self.defaults.numbers(e, "main", "springlength")?
+                // one number is both ends, whatever the defaults give
+                let holder = self.defaults.holder(e, "main", "springlength");
+                if let Some(lengths) = holder.map(|e| e.numbers("springlength")).transpose()?.flatten()
                     && lengths.first().is_some_and(|x| *x >= 0.0)
                 {
                     let [low, high] = [lengths[0], *lengths.last().unwrap_or(&lengths[0])];
@@ -157,7 +160,8 @@ impl<'d> Reader<'d> {
     /// Range of lengths, if it is one that limits.
     fn tendon_range(&self, e: Element<'d>) -> Result<Option<[f64; 2]>, Diagnostic> {
         // a length has two ends
-        let range = self.limiting_range(e, "range", "limited")?;
+        let range = Range::of(&self.defaults, e, "main", ["range", "limited"])?;
+        let range = self.limiting_range(e, range, "range", "limited")?;
         Ok(range.map(|ends| ends.map(|x| x.clamp(-UNLIMITED, UNLIMITED))))
     }
 
@@ -171,7 +175,7 @@ impl<'d> Reader<'d> {
     }
 
     /// Path of a tendon, and its lengths.
-    fn known_tendon(&self, e: Element<'d>, robot: &Robot) -> Result<KnownTendon, Diagnostic> {
+    pub(super) fn known_tendon(&self, e: Element<'d>, robot: &Robot) -> Result<KnownTendon, Diagnostic> {
         let parts = self.files.elements(e);
         parts.iter().for_each(|part| part.keep());
         let range = match self.defaults.numbers(e, "main", "range")?.as_deref() {

@@ -2,6 +2,7 @@
 
 mod actuation;
 mod bad_input;
+mod classes;
 mod defaults;
 mod export;
 mod folder;

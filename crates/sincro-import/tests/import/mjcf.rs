@@ -408,9 +408,9 @@ pub fn actuated(actuators: &str) -> String {
 fn activations_are_those_of_motors_and_tendons_in_units_of_their_commands() {
     let folder = Folder::new();
     let text = actuated(
-        r#"<general name="a" joint="j0" gear="3" gainprm="-2" dyntype="filter" dynprm="0.07" ctrlrange="-1 0.8" actrange="-0.5 0.7"/>
+        r#"<general name="a" joint="j0" gear="3" gainprm="-2" dyntype="filter" dynprm="0.07" ctrlrange="-1 0.8" actrange="-0.5 0.7" actearly="true"/>
 <intvelocity name="b" joint="j1" gear="2" kp="15" kv="1" inheritrange="0.5"/>
-<cylinder name="c" tendon="t" timeconst="0.3" area="4" actearly="true"/>
+<cylinder name="c" tendon="t" timeconst="0.3" area="4"/>
 <position name="d" joint="j2" kp="5" kv="1" timeconst="0.1"/>"#,
     );
     let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
@@ -428,7 +428,7 @@ fn activations_are_those_of_motors_and_tendons_in_units_of_their_commands() {
     assert_eq!(of(2), (2, Some(0.1), all, all, 0.0));
     assert_eq!(of(3), (3, Some(0.3), all, all, 0.0));
     assert_eq!((model.motors()[1].stiffness, model.motors()[1].damping), (60.0, 4.0));
-    assert!(entry(&imported, "cylinder[c]").words.contains("`actearly`"), "{}", entry(&imported, "cylinder[c]").words);
+    assert!(entry(&imported, "general[a]").words.contains("`actearly`"), "{}", entry(&imported, "general[a]").words);
     assert!(model.spring_dampers()[0].actuator.is_some());
 }
 
@@ -439,7 +439,7 @@ fn activations_without_counterpart_are_refused_by_name() {
         (r#"<muscle name="m" joint="j0"/>"#, "a `muscle` has no counterpart"),
         (r#"<general name="m" joint="j0" dyntype="muscle"/>"#, "its activation is of type `muscle`"),
         (r#"<general name="m" joint="j0" dyntype="user"/>"#, "its activation is of type `user`"),
-        (r#"<damper name="m" joint="j0" kv="2"/>"#, "a `damper` has no counterpart"),
+        (r#"<damper name="m" joint="j0" kv="2" ctrlrange="0 1"/>"#, "a `damper` has no counterpart"),
         (
             r#"<general name="m" joint="j0" dyntype="filter" biastype="affine" biasprm="0 0 1"/>"#,
             "is no spring and damper",

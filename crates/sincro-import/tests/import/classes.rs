@@ -1,0 +1,189 @@
+//! Classes of MJCF defaults: actuators of several kinds in one class and in nested ones, their order, and errors.
+//! Figures are those of MuJoCo 4.0.0.
+
+use crate::folder::{Folder, entry};
+
+/// A hinge with an actuator.
+fn with_actuator(defaults: &str, actuator: &str) -> String {
+    format!(
+        r#"<mujoco><compiler angle="radian"/>{defaults}<worldbody>
+<body name="b"><joint name="j" axis="0 0 1" range="-2 1"/><geom size="0.1" mass="2" pos="0.3 0 0"/><site name="s"/>
+</body></worldbody><actuator>
+{actuator}
+</actuator></mujoco>"#
+    )
+}
+
+const GENERAL: &str = r#"<general gainprm="5" biastype="affine" biasprm="1 -2 -3" dyntype="filter" dynprm="0.3"/>"#;
+const POSITION: &str = r#"<position kp="3" kv="2" timeconst="0.4"/>"#;
+
+/// A shortcut takes the numbers of its own kind or of a `general`, from the nearest class.
+#[test]
+fn a_shortcut_inherits_the_nearest_class_that_has_its_numbers() {
+    let class = |inner: &str| format!(r#"<default class="q">{inner}</default>"#);
+    // −bias of length and rate; time constant of the activation, zero for an integrator
+    for (outer, inner, actuator, law, lag) in [
+        (format!("{GENERAL}<position kp=\"7\"/>"), "", "velocity", [0.0, 1.0], None),
+        (r#"<general gainprm="5"/><velocity kv="7"/>"#.into(), "", "intvelocity", [1.0, 0.0], Some(0.0)),
+        (GENERAL.into(), "<velocity/>", "position", [5.0, 3.0], None),
+        (GENERAL.into(), "<velocity/>", "cylinder", [2.0, 3.0], Some(0.3)),
+        (GENERAL.into(), "<velocity/>", "general", [0.0, 5.0], None),
+        (POSITION.into(), r#"<general gainprm="5"/>"#, "cylinder", [3.0, 2.0], Some(0.4)),
+        (POSITION.into(), r#"<velocity kv="9"/>"#, "position", [3.0, 2.0], Some(0.4)),
+        (POSITION.into(), r#"<velocity kv="9"/><intvelocity kp="8"/>"#, "position", [3.0, 2.0], Some(0.4)),
+        (POSITION.into(), r#"<general gaintype="affine" gainprm="6"/>"#, "position", [3.0, 2.0], Some(0.4)),
+        (POSITION.into(), "<motor/>", "general", [0.0, 0.0], None),
+        (r#"<velocity kv="4"/>"#.into(), r#"<general gainprm="5"/>"#, "position", [5.0, 4.0], None),
+        (r#"<velocity kv="4"/>"#.into(), "<general/>", "position", [4.0, 4.0], None),
+        (
+            r#"<general dyntype="filterexact" dynprm="0.2" biasprm="0 0 -3" gainprm="5" actdim="1"/>"#.into(),
+            "",
+            "position",
+            [5.0, 3.0],
+            Some(0.2),
+        ),
+    ] {
+        let defaults = format!("<default>{outer}{}</default>", class(inner));
+        let folder = Folder::new();
+        let text = with_actuator(&defaults, &format!(r#"<{actuator} joint="j" class="q"/>"#));
+        let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        let model = folder.open(&imported).scene.model;
+        let motor = model.motors().first().map(|motor| [motor.stiffness, motor.damping]);
+        let found = motor.unwrap_or_else(|| {
+            let law = &model.spring_dampers()[0].law;
+            [law.stiffness, law.damping]
+        });
+        let time = model.activations().first().map(|own| own.time_constant().unwrap_or(0.0));
+        assert_eq!((found, time), (law, lag), "{actuator} after {defaults}");
+    }
+}
+
+/// A class is a copy of the one around it, as that is where the class stands.
+#[test]
+fn later_defaults_do_not_change_classes_that_are_there() {
+    let folder = Folder::new();
+    let defaults =
+        r#"<default><default class="q"/></default><default><position kp="3"/><joint damping="2"/></default>"#;
+    let text =
+        with_actuator(defaults, r#"<position joint="j" class="q"/>"#).replace(r#"name="j""#, r#"name="j" class="q""#);
+    let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    let model = folder.open(&imported).scene.model;
+    assert_eq!((model.motors()[0].stiffness, model.dofs()[0].damping), (1.0, 0.0));
+}
+
+/// Each of them is refused by MuJoCo, too, except for the numbers of a muscle.
+#[test]
+fn contradicting_classes_are_refused_by_line() {
+    let motor = r#"<motor joint="j"/>"#;
+    for (defaults, actuator, line, words) in [
+        (r#"<default class="x"/>"#, motor, 1, "the outermost class of defaults is `main`"),
+        ("<default><default/></default>", motor, 1, "a class of defaults has no name"),
+        (r#"<default><default class="q"/><default class="q"/></default>"#, motor, 1, "two classes of defaults"),
+        ("", r#"<motor joint="j" class="z"/>"#, 4, "there is no class of defaults `z`"),
+        // of a class that nothing uses, too
+        (
+            r#"<default><general ctrlrange="-1 1" inheritrange="1"/><default class="q"><position/></default></default>"#,
+            motor,
+            1,
+            "`ctrlrange` and `inheritrange` are both given",
+        ),
+        (r#"<default><damper kv="-1"/></default>"#, motor, 1, "`kv` is negative"),
+        (r#"<default><damper kv="1"/></default>"#, motor, 4, "`ctrllimited` says that it limits"),
+        (
+            "<default><muscle/></default>",
+            r#"<general joint="j" gaintype="fixed" biastype="none" dyntype="none"/>"#,
+            4,
+            "its class gives it numbers of a `muscle`",
+        ),
+        (
+            r#"<default><dcmotor motorconst="0.3" resistance="2" saturation="3"/></default>"#,
+            motor,
+            4,
+            "its class gives it numbers of a `dcmotor`",
+        ),
+        (
+            r#"<default><joint damping="1 2"/></default>"#,
+            r#"<motor joint="j"/><!-- the second number counts -->"#,
+            2,
+            "`damping` of joint `j` depends on the rate",
+        ),
+    ] {
+        let text = with_actuator(defaults, actuator).replace(r#"name="j""#, r#"name="j" damping="3""#);
+        let why = Folder::new().import("m.xml", &text).map(|_| ()).unwrap_err().to_string();
+        assert!(why.contains(words) && why.contains(&format!("m.xml:{line}:")), "{defaults}: {why}");
+    }
+}
+
+#[test]
+fn flags_of_a_range_follow_the_last_element_that_sets_them() {
+    let folder = Folder::new();
+    let defaults =
+        r#"<default><general dyntype="filter" actlimited="false" actrange="-0.1 0.1" biasprm="0 -1"/></default>"#;
+    let imported = folder.import("m.xml", &with_actuator(defaults, r#"<cylinder joint="j"/>"#));
+    let model = folder.open(&imported.unwrap_or_else(|found| panic!("{found}"))).scene.model;
+    // a shortcut says no more that it does not limit
+    assert_eq!(model.activations()[0].range, [-0.1, 0.1]);
+    let text = with_actuator("", motor_with_range());
+    let text = text.replace("<compiler ", r#"<compiler autolimits="false" "#).replace(r#" range="-2 1""#, "");
+    let why = Folder::new().import("m.xml", &text).map(|_| ()).unwrap_err().to_string();
+    assert!(why.contains("neither `ctrllimited` nor `autolimits`"), "{why}");
+}
+
+fn motor_with_range() -> &'static str {
+    r#"<motor joint="j" ctrlrange="-1 1"/>"#
+}
+
+/// Sizes, gears and coefficients that an element leaves out are those of its class.
+#[test]
+fn an_element_overwrites_the_first_numbers_of_its_class() {
+    let folder = Folder::new();
+    let defaults = r#"<default><motor gear="1 0 0 0 0 6"/><geom type="capsule" size="0.2 0.5"/></default>"#;
+    let imported = folder.import("m.xml", &with_actuator(defaults, r#"<motor name="m" site="s" gear="7"/>"#));
+    let imported = imported.unwrap_or_else(|found| panic!("{found}"));
+    let words = &entry(&imported, "motor[m]").words;
+    assert!(words.contains("force [7.0, 0.0, 0.0] N, torque [0.0, 0.0, 6.0] N·m"), "{words}");
+    // a half of 0.5 from the class
+    let scene = imported.scene();
+    assert!(scene.contains("radius = 0.1") && scene.contains("length = 1"), "{scene}");
+}
+
+/// M and passive force of MuJoCo: 0.188 kg·m² and the armature, by the square of the gear and of the tendon.
+#[test]
+fn armature_and_damping_of_actuators_are_those_of_the_joint() {
+    let tendon = r#"<tendon><fixed name="t"><joint joint="j" coef="-3"/></fixed></tendon></mujoco>"#;
+    for (actuator, armature, damping) in [
+        (r#"<motor joint="j" armature="2" damping="3" gear="2"/>"#, 8.0, 12.0),
+        (r#"<motor tendon="t" armature="2" damping="3" gear="2"/>"#, 72.0, 108.0),
+        (r#"<motor joint="j" armature="2" damping="3" gear="0"/>"#, 0.0, 0.0),
+    ] {
+        let folder = Folder::new();
+        let text = with_actuator("", actuator).replace("</mujoco>", tendon);
+        let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        let model = folder.open(&imported).scene.model;
+        assert_eq!((model.dofs()[0].armature, model.dofs()[0].damping), (armature, damping), "{actuator}");
+    }
+    // the damping of a ratio is 2·1·√(3·8.188/4), MuJoCo's −4.95620823
+    let folder = Folder::new();
+    let text = with_actuator("", r#"<position joint="j" armature="2" gear="2" kp="3" dampratio="1"/>"#);
+    let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    let damping = folder.open(&imported).scene.model.motors()[0].damping / 4.0;
+    assert!((damping - 4.956_208_23).abs() < 1e-8, "{damping}");
+    for (actuator, words) in [
+        (r#"<motor joint="j" damping="3 1"/>"#, "`damping` of an actuator is a polynomial"),
+        (r#"<motor joint="j" armature="-1"/>"#, "`armature` of an actuator is negative"),
+        (r#"<motor site="s" armature="1"/>"#, "acts on what is not one joint"),
+    ] {
+        let why = Folder::new().import("m.xml", &with_actuator("", actuator)).map(|_| ()).unwrap_err().to_string();
+        assert!(why.contains(words) && why.contains("m.xml:4:"), "{why}");
+    }
+}
+
+/// A `pid` has two controls, and as many activations as it has states.
+#[test]
+fn keyframes_count_the_controls_of_each_kind() {
+    let folder = Folder::new();
+    let text = with_actuator("", r#"<pid joint="j" ki="2"/><motor name="m" joint="j"/>"#)
+        .replace("</mujoco>", r#"<keyframe><key name="k" ctrl="0 0 0.5" act="0"/></keyframe></mujoco>"#);
+    let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    assert!(!entry(&imported, "key[k]").words.contains("left out"), "{}", entry(&imported, "key[k]").words);
+}
