@@ -64,6 +64,16 @@ impl<'d> Reader<'d> {
                 .error("`actrange` is given, and it has no activation")
                 .with_help("remove it, or give a `dyntype`"));
         }
+        match (own.dynamics, own.n_wanted) {
+            (_, None) | ("user" | "dcmotor" | "pid", _) => {}
+            ("none", Some(0)) => {}
+            (kind, Some(1)) if kind != "none" => {}
+            (kind, Some(n)) => {
+                return Err(e
+                    .error(format!("`actdim` is {n}, and an actuator with `dyntype` `{kind}` has another number"))
+                    .with_help("remove `actdim`"));
+            }
+        }
         if own.gain_kind != "fixed" {
             return Ok(Err(match e.name() {
                 "general" => format!("its gain is of type `{}`", own.gain_kind),

@@ -40,7 +40,7 @@ pub(super) struct Law<'d> {
     /// Time constant of the activation `[s]`.
     pub time: f64,
     /// Number of activations that a `general` asks for.
-    n_activations: Option<usize>,
+    pub n_wanted: Option<usize>,
     pub acts_early: bool,
     /// Control inputs, where an element names them.
     inputs: Option<&'d str>,
@@ -130,7 +130,7 @@ impl<'d> Law<'d> {
         bias_kind: "none",
         dynamics: "none",
         time: 1.0,
-        n_activations: None,
+        n_wanted: None,
         acts_early: false,
         inputs: None,
         foreign: None,
@@ -147,7 +147,7 @@ impl<'d> Law<'d> {
         self.gain = first(e, "gainprm")?.unwrap_or(self.gain);
         self.time = first(e, "dynprm")?.unwrap_or(self.time);
         if let Some(n) = first(e, "actdim")? {
-            self.n_activations = (n >= 0.0).then_some(n as usize);
+            self.n_wanted = (n >= 0.0).then_some(n as usize);
         }
         overwrite(&mut self.bias, e, "biasprm")
     }
@@ -167,7 +167,10 @@ impl<'d> Law<'d> {
                 Ok(Self { gain: 0.0, ..start })
             }
             "cylinder" => start.cylinder(e, inherited),
-            "adhesion" => Ok(Self { gain: first_not_negative(e, "gain")?.unwrap_or(inherited.gain), ..start }),
+            "adhesion" => match first(e, "gain")?.unwrap_or(inherited.gain) {
+                gain if gain < 0.0 => Err(e.error("`gain` is negative")),
+                gain => Ok(Self { gain, ..start }),
+            },
             kind => {
                 let mut own = Self { bias_kind: gain_kind(kind), foreign: Some(kind), ..start };
                 own.set_foreign(e, inherited)?;
@@ -234,7 +237,7 @@ impl<'d> Law<'d> {
             ("none", _) => 0,
             ("dcmotor" | "pid", _) => self.states.iter().filter(|x| **x != 0.0).count(),
             (_, "so3") => 3,
-            _ => self.n_activations.unwrap_or(1).max(1),
+            _ => self.n_wanted.unwrap_or(1).max(1),
         }
     }
 
@@ -340,7 +343,7 @@ impl<'d> ActuatorRecord<'d> {
         let own = *self;
         let source = std::iter::once(&own).chain(around).find(|record| record.gives(kind)).unwrap_or(&Self::START);
         self.law = Law::of_shortcut(e, &source.law)?;
-        self.activation.limits = e.peek("actlimited").and(self.activation.limits);
+        self.activation.limits = None;
         match kind {
             "position" | "intvelocity" | "pid" => {
                 let (key, range) = match kind {

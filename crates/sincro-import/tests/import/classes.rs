@@ -88,6 +88,8 @@ fn contradicting_classes_are_refused_by_line() {
             "`ctrlrange` and `inheritrange` are both given",
         ),
         (r#"<default><damper kv="-1"/></default>"#, motor, 1, "`kv` is negative"),
+        (r#"<default><general gainprm="-1"/><adhesion/></default>"#, motor, 1, "`gain` is negative"),
+        ("", r#"<general joint="j" actdim="1"/>"#, 4, "`actdim` is 1"),
         (r#"<default><damper kv="1"/></default>"#, motor, 4, "`ctrllimited` says that it limits"),
         (
             "<default><muscle/></default>",
@@ -123,6 +125,9 @@ fn flags_of_a_range_follow_the_last_element_that_sets_them() {
     let model = folder.open(&imported.unwrap_or_else(|found| panic!("{found}"))).scene.model;
     // a shortcut says no more that it does not limit
     assert_eq!(model.activations()[0].range, [-0.1, 0.1]);
+    let text = with_actuator("", r#"<intvelocity joint="j" actrange="-0.1 0.1" actlimited="false"/>"#);
+    let imported = folder.import("n.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+    assert_eq!(folder.open(&imported).scene.model.activations()[0].range, [-0.1, 0.1]);
     let text = with_actuator("", motor_with_range());
     let text = text.replace("<compiler ", r#"<compiler autolimits="false" "#).replace(r#" range="-2 1""#, "");
     let why = Folder::new().import("m.xml", &text).map(|_| ()).unwrap_err().to_string();
