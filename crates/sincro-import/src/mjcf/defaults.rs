@@ -119,6 +119,15 @@ impl<'d> Defaults<'d> {
         self.holders(element, tag, inherited, attribute).pop()
     }
 
+    /// The nearest element that gives one of several attributes of `element`, which is no equality.
+    pub fn nearest(&self, element: Element<'d>, inherited: &str, attributes: &[&str]) -> Option<Element<'d>> {
+        let gives = |e: &&Element<'d>| attributes.iter().any(|name| e.peek(name).is_some());
+        let class = self.classes.get(element.attribute("class").unwrap_or(inherited));
+        let tag = default_tag(element.name());
+        let defaults = class.into_iter().flat_map(|class| &class.elements).filter(|e| e.name() == tag);
+        defaults.chain([&element]).filter(gives).copied().last()
+    }
+
     /// All elements that give an attribute of `element`, the one that counts last.
     fn holders(&self, element: Element<'d>, tag: &str, inherited: &str, attribute: &str) -> Vec<Element<'d>> {
         let class = self.classes.get(element.attribute("class").unwrap_or(inherited));

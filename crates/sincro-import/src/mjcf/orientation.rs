@@ -74,6 +74,9 @@ pub(super) fn rotation_of(matrix: &Mat3<f64>) -> Rotation {
     Placement::of_pose(&sincro_dynamics::spatial::Pose { rot: *matrix, pos: Vec3::zero() }).rotation
 }
 
+/// Attributes that give an orientation.
+const KINDS: [&str; 5] = ["quat", "euler", "axisangle", "xyaxes", "zaxis"];
+
 /// Orientation of an element; the identity if it gives none.
 pub(super) fn rotation<'d>(
     element: Element<'d>,
@@ -81,7 +84,12 @@ pub(super) fn rotation<'d>(
     defaults: &Defaults<'d>,
     angles: &Angles,
 ) -> Result<Rotation, Diagnostic> {
-    let numbers = |name: &str| defaults.numbers(element, class, name);
+    // the nearest one counts, of whichever kind
+    let Some(nearest) = defaults.nearest(element, class, &KINDS) else { return Ok(Rotation::RollPitchYaw([0.0; 3])) };
+    if KINDS.iter().filter(|name| nearest.peek(name).is_some()).count() > 1 {
+        return Err(nearest.error("it has more than one orientation").with_help("remove all but one of them"));
+    }
+    let numbers = |name: &str| nearest.numbers(name);
     let refuse = |name: &str| element.error(format!("`{name}` is no orientation"));
     if let Some(q) = numbers("quat")? {
         let q: [f64; 4] = q.try_into().map_err(|_| refuse("quat"))?;

@@ -183,6 +183,28 @@ fn armature_and_damping_of_actuators_are_those_of_the_joint() {
     }
 }
 
+/// The nearest orientation counts, whichever attribute gives it; two on one element are refused.
+#[test]
+fn an_orientation_takes_the_place_of_another_one_of_the_class() {
+    let of = |class: &str, own: &str| {
+        let text = with_actuator(&format!("<default><geom {class}/></default>"), r#"<motor joint="j"/>"#);
+        let text = text.replace(r#"<geom size="0.1""#, &format!(r#"<geom type="capsule" size="0.1 0.2" {own}"#));
+        Folder::new().import("m.xml", &text).map(|imported| imported.scene().to_owned())
+    };
+    let kinds = [
+        r#"quat="0.5 0.5 -0.5 0.5""#,
+        r#"euler="0.3 0.2 0.1""#,
+        r#"axisangle="1 0 1 0.7""#,
+        r#"xyaxes="1 0.2 0 0 1 0.3""#,
+        r#"zaxis="0.3 0.4 0.5""#,
+    ];
+    for (class, own) in kinds.iter().flat_map(|class| kinds.iter().map(move |own| (class, own))) {
+        assert_eq!(of(class, own).unwrap(), of("", own).unwrap(), "{own} after {class}");
+    }
+    let why = of("", &format!("{} {}", kinds[0], kinds[1])).unwrap_err().to_string();
+    assert!(why.contains("more than one orientation"), "{why}");
+}
+
 /// A `pid` has two controls, and as many activations as it has states.
 #[test]
 fn keyframes_count_the_controls_of_each_kind() {
