@@ -201,6 +201,7 @@ impl<'d> Reader<'d> {
                 ..Joint::new(&format!("{name}-fixed"), id, JointKind::Fixed, Some(carrier), index)
             });
             self.references.push(0.0);
+            self.rests.push(0.0);
             return index;
         }
         if made.len() > 1 {
@@ -209,7 +210,7 @@ impl<'d> Reader<'d> {
         let (mut carrier, n) = (carrier, made.len());
         let mut before = [0.0; 3];
         for (k, (made, wanted)) in made.into_iter().enumerate() {
-            let JointRead { mut joint, position, reference, range, tuned } = made;
+            let JointRead { mut joint, position, reference, rest, range, tuned } = made;
             let last = k + 1 == n;
             let step: [f64; 3] = std::array::from_fn(|c| position[c] - before[c]);
             joint.pose =
@@ -236,6 +237,7 @@ impl<'d> Reader<'d> {
             }
             self.order.push(robot.joints.len());
             self.references.push(reference);
+            self.rests.push(rest);
             self.ranges.extend(range.map(|range| (robot.joints.len(), range)));
             self.tuned.extend(tuned.map(|tuned| (robot.joints.len(), tuned)));
             robot.joints.push(joint);
@@ -271,7 +273,7 @@ impl<'d> Reader<'d> {
         }
         joint.axis = axis;
         if free {
-            return Ok(JointRead { joint, position, reference: 0.0, range: None, tuned: None });
+            return Ok(JointRead { joint, position, reference: 0.0, rest: 0.0, range: None, tuned: None });
         }
         let angle = |x: f64| if kind == JointKind::Revolute { self.angles.radians(x) } else { x };
         let reference = angle(d.number(e, class, "ref")?.unwrap_or(0.0));
@@ -301,7 +303,7 @@ impl<'d> Reader<'d> {
             _ => None,
         };
         let range = self.limits(e, class, &mut joint, reference, &angle)?;
-        Ok(JointRead { joint, position, reference, range, tuned })
+        Ok(JointRead { joint, position, reference, rest, range, tuned })
     }
 
     /// Gives joints with `springdamper` the stiffness and damping of their inertia at the reference.
@@ -388,6 +390,7 @@ impl<'d> Reader<'d> {
                 ..Joint::new(&format!("{name}-site"), site.id(), JointKind::Fixed, Some(link), child)
             });
             self.references.push(0.0);
+            self.rests.push(0.0);
             self.sites.insert(name.to_owned(), child);
         }
     }
@@ -456,6 +459,8 @@ struct JointRead<'d> {
     joint: Joint,
     position: [f64; 3],
     reference: f64,
+    /// Coordinate of its springs, zero at the reference.
+    rest: f64,
     /// Range in the source's coordinates.
     range: Option<[f64; 2]>,
     tuned: Option<Tuned<'d>>,

@@ -90,6 +90,8 @@ struct Reader<'d> {
     actuators: Vec<actuator::KnownActuator>,
     /// Reference coordinate of each joint of the robot.
     references: Vec<f64>,
+    /// Coordinate of springs of each joint of the robot, zero at the reference.
+    rests: Vec<f64>,
     /// Ranges of joints of the robot in the source's coordinates, whether they limit or not.
     ranges: BTreeMap<usize, [f64; 2]>,
     /// Joints of the robot whose springs follow from their inertia.
@@ -142,6 +144,7 @@ pub(crate) fn read<'d>(
         held: BTreeSet::new(),
         actuators: Vec::new(),
         references: Vec::new(),
+        rests: Vec::new(),
         ranges: BTreeMap::new(),
         tuned: Vec::new(),
         order: Vec::new(),

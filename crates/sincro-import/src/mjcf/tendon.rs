@@ -27,6 +27,8 @@ pub(super) struct KnownTendon {
     pub offset: f64,
     /// Length at the reference of the source `[m]`.
     pub reference: f64,
+    /// Length of the path here at the coordinates of springs, at which a spring without length of its own rests `[m]`.
+    pub rest: f64,
     /// Range of lengths in the source, whether it limits or not `[m]`.
     pub range: Option<[f64; 2]>,
 }
@@ -109,7 +111,7 @@ impl<'d> Reader<'d> {
                     stiffness: self.linear(e, "stiffness")?,
                     damping: self.linear(e, "damping")?,
                     preload: 0.0,
-                    free_length: [known.reference - known.offset; 2],
+                    free_length: [known.rest; 2],
                     limits: None,
                     actuator: None,
                     command: 0.0,
@@ -184,7 +186,8 @@ impl<'d> Reader<'d> {
         };
         if e.name() == "fixed" {
             let (shares, offset) = self.shares(e, &parts, robot)?;
-            return Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), offset, reference: offset, range });
+            let rest = shares.iter().map(|(joint, share)| share * self.rests[*joint]).sum();
+            return Ok(KnownTendon { path: Ok(TendonPath::Joints(shares)), offset, reference: offset, rest, range });
         }
         let mut through = Vec::new();
         let mut reason = None;
@@ -205,10 +208,13 @@ impl<'d> Reader<'d> {
         if through.len() < 2 && reason.is_none() {
             return Err(e.error("a spatial tendon runs through two sites or more"));
         }
-        let places: Vec<_> = through.iter().map(|site| robot.link_pose(Some(*site), &[]).pos).collect();
-        let reference = places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let length = |starts: &[f64]| {
+            let places: Vec<_> = through.iter().map(|site| robot.link_pose(Some(*site), starts).pos).collect();
+            places.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+        };
+        let (reference, rest) = (length(&[]), length(&self.rests));
         let path = reason.map_or_else(|| Ok(TendonPath::Through(through)), Err);
-        Ok(KnownTendon { path, offset: 0.0, reference, range })
+        Ok(KnownTendon { path, offset: 0.0, reference, rest, range })
     }
 
     /// Joints of a fixed tendon with their coefficients, and its length at their references.

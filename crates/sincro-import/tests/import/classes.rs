@@ -183,6 +183,20 @@ fn armature_and_damping_of_actuators_are_those_of_the_joint() {
     }
 }
 
+/// MuJoCo's tendon_lengthspring is 2·springref; the reference is no matter.
+#[test]
+fn a_spring_of_a_tendon_rests_where_those_of_its_joints_do() {
+    let tendon = r#"<tendon><fixed name="t" stiffness="3"><joint joint="j" coef="2"/></fixed></tendon></mujoco>"#;
+    for (joint, rest) in [(r#"springref="0.5" ref="0.2""#, 0.6), (r#"ref="0.2""#, -0.4), ("", 0.0)] {
+        let folder = Folder::new();
+        let text = with_actuator("", "").replace("</mujoco>", tendon);
+        let text = text.replace(r#"name="j""#, &format!(r#"name="j" {joint}"#));
+        let imported = folder.import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        let found = folder.open(&imported).scene.model.spring_dampers()[0].free_length;
+        assert!((found - rest).abs() < 1e-15, "{joint}: {found}");
+    }
+}
+
 /// The nearest orientation counts, whichever attribute gives it; two on one element are refused.
 #[test]
 fn an_orientation_takes_the_place_of_another_one_of_the_class() {

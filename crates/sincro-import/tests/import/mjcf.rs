@@ -219,7 +219,8 @@ fn tendons_keep_their_forces() {
     close(mass, mass_along(model, &[(z.v_idx, 2.0), (knee.v_idx, -0.5)]));
     close(force(1.1, 3.0), -30.0 * 0.9 - 6.0 - mass / 4e-4 * 0.1 - 2.0 * mass / 0.01 * 3.0);
     assert_eq!(spatial.segments().len(), 2);
-    let length = f64::sqrt(0.1_f64.powi(2) + 0.1_f64.powi(2)) + f64::sqrt(0.05_f64.powi(2) + 0.5_f64.powi(2));
+    // MuJoCo's tendon_lengthspring, with the knee at its springref
+    let length = 0.6559315184738755;
     close(spatial.forces(length + 0.1, 0.0, &[0.0; 8]).total(), -4.0);
     // held: stiffness 1000 m, damping 20 m with the mass along the knee
     let mass = mass_along(model, &[(knee.v_idx, 3.0)]);
