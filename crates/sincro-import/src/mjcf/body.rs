@@ -4,6 +4,7 @@ use sincro_dynamics::spatial::Quat;
 use sincro_scene::diagnostic::Diagnostic;
 
 use super::Reader;
+use super::inertia::bounded;
 use super::orientation::{placement, rotation};
 use super::record::Range;
 use crate::findings::Findings;
@@ -136,9 +137,10 @@ impl<'d> Reader<'d> {
             link.inertial = Some(Inertial { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] });
         }
         if let Some(inertial) = &mut link.inertial {
-            inertial.mass = inertial.mass.max(self.settings.bound_mass);
-            for k in [0, 3, 5] {
-                inertial.inertia[k] = inertial.inertia[k].max(self.settings.bound_inertia);
+            let settings = &self.settings;
+            inertial.mass = inertial.mass.max(settings.bound_mass);
+            if settings.bound_inertia > 0.0 || settings.balances_inertia {
+                inertial.inertia = bounded(inertial.inertia, settings.bound_inertia, settings.balances_inertia);
             }
         }
         self.tidy(&mut link);

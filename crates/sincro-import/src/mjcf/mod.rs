@@ -12,6 +12,7 @@ mod frames;
 mod geom;
 mod height_field;
 mod include;
+mod inertia;
 mod law;
 mod orientation;
 mod record;
@@ -110,6 +111,7 @@ struct Settings {
     mesh_folder: String,
     bound_mass: f64,
     bound_inertia: f64,
+    balances_inertia: bool,
     total_mass: f64,
     strip_path: bool,
 }
@@ -224,6 +226,7 @@ fn settings(all: &[Element<'_>], findings: &mut Findings) -> (Settings, Angles) 
         mesh_folder: String::new(),
         bound_mass: 0.0,
         bound_inertia: 0.0,
+        balances_inertia: false,
         total_mass: -1.0,
         strip_path: false,
     };
@@ -247,6 +250,7 @@ fn settings(all: &[Element<'_>], findings: &mut Findings) -> (Settings, Angles) 
             );
         }
         s.autolimits = flag("autolimits", s.autolimits);
+        s.balances_inertia = flag("balanceinertia", s.balances_inertia);
         s.strip_path = flag("strippath", s.strip_path);
         match element.attribute("inertiafromgeom") {
             Some("true") => s.inertia_from_geoms = Some(true),
@@ -273,9 +277,6 @@ fn settings(all: &[Element<'_>], findings: &mut Findings) -> (Settings, Angles) 
             && let [a, b] = range[..]
         {
             s.inertia_groups = [a as i64, b as i64];
-        }
-        if element.attribute("balanceinertia") == Some("true") {
-            element.change("inertias are not balanced: they stay as the file gives them");
         }
     }
     (s, angles)

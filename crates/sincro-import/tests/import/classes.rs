@@ -197,6 +197,41 @@ fn a_spring_of_a_tendon_rests_where_those_of_its_joints_do() {
     }
 }
 
+/// MuJoCo's principal moments: 1.14051248, 1 and 0.4; 13/6 each.
+#[test]
+fn bounds_are_those_of_principal_moments() {
+    for (compiler, inertial, expected) in [
+        (
+            r#"boundinertia="0.4""#,
+            r#"fullinertia="1 1 0.5 0 0.3 0""#,
+            // 0.75 ± √(0.25² + 0.3²) in x and z, of which the lower one is 0.4
+            {
+                let (root, sum) = (f64::hypot(0.25, 0.3), 0.75);
+                let (high, low) = (sum + root, 0.4);
+                let (cc, ss) = (0.5 * (1.0 + 0.25 / root), 0.5 * (1.0 - 0.25 / root));
+                [high * cc + low * ss, 0.0, (high - low) * 0.5 * 0.3 / root, 1.0, 0.0, high * ss + low * cc]
+            },
+        ),
+        (r#"balanceinertia="true""#, r#"diaginertia="1 2 3.5""#, [13.0 / 6.0, 0.0, 0.0, 13.0 / 6.0, 0.0, 13.0 / 6.0]),
+        (r#"balanceinertia="true""#, r#"diaginertia="1 2 3""#, [1.0, 0.0, 0.0, 2.0, 0.0, 3.0]),
+    ] {
+        let text = format!(
+            r#"<mujoco><compiler {compiler}/><worldbody><body name="b"><joint name="j"/>
+<inertial pos="0 0 0" mass="1" {inertial}/></body></worldbody></mujoco>"#
+        );
+        let imported = Folder::new().import("m.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        let inertia = imported.scene().split("inertia = {").nth(1).unwrap().split('}').next().unwrap();
+        for (key, x) in ["xx", "xy", "xz", "yy", "yz", "zz"].iter().zip(expected) {
+            let given = inertia.split(',').filter_map(|part| part.split_once('='));
+            let found = given
+                .filter(|(name, _)| name.trim() == *key)
+                .map(|(_, x)| x.trim().parse::<f64>().unwrap())
+                .sum::<f64>();
+            assert!((found - x).abs() < 1e-12, "{compiler} {key}: {found}, not {x}");
+        }
+    }
+}
+
 /// The nearest orientation counts, whichever attribute gives it; two on one element are refused.
 #[test]
 fn an_orientation_takes_the_place_of_another_one_of_the_class() {
