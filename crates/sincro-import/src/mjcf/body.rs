@@ -134,7 +134,10 @@ impl<'d> Reader<'d> {
         };
         link.inertial = if from_geoms { super::geom::sum(&masses) } else { inertial };
         if link.inertial.is_none() && self.settings.bound_mass > 0.0 {
-            link.inertial = Some(Inertial { mass: 0.0, center_of_mass: [0.0; 3], inertia: [0.0; 6] });
+            // MuJoCo takes the numbers of its position for the centre of mass, too
+            link.inertial = Some(Inertial { mass: 0.0, center_of_mass: own.position, inertia: [0.0; 6] });
+            element
+                .change("a body without mass: its centre of mass is where its `pos` is in its own frame, as in MuJoCo");
         }
         if let Some(inertial) = &mut link.inertial {
             let settings = &self.settings;

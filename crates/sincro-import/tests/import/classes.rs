@@ -232,6 +232,16 @@ fn bounds_are_those_of_principal_moments() {
     }
 }
 
+/// MuJoCo's M of the hinge about z through (−0.101, 0): 0.023 + 0.589 (0.305² + 0.366²).
+#[test]
+fn a_body_that_has_only_a_bound_of_mass_has_it_where_mujoco_does() {
+    let text = r#"<mujoco><compiler inertiafromgeom="false" boundmass="0.589" boundinertia="0.023"/><worldbody>
+<body name="b" pos="0.204 -0.366 0.313"><joint name="j" pos="-0.101 0 0.2"/><geom size="0.1"/></body></worldbody></mujoco>"#;
+    let imported = Folder::new().import("m.xml", text).unwrap_or_else(|found| panic!("{found}"));
+    assert!(imported.scene().contains("center_of_mass = [0.204, -0.366, 0.313]"), "{}", imported.scene());
+    assert!(entry(&imported, "body[b]").words.contains("its centre of mass is where its `pos` is"));
+}
+
 /// The nearest orientation counts, whichever attribute gives it; two on one element are refused.
 #[test]
 fn an_orientation_takes_the_place_of_another_one_of_the_class() {
