@@ -57,7 +57,8 @@ impl<'d> Reader<'d> {
             None => {}
         }
         let control = self.limiting_range(e, control, "ctrlrange", "ctrllimited")?;
-        let force = self.limiting_range(e, record.force, "forcerange", "forcelimited")?;
+        let force = record.known_force();
+        let force = self.limiting_range(e, force, "forcerange", "forcelimited")?;
         let range = self.limiting_range(e, activation, "actrange", "actlimited")?;
         if own.dynamics == "none" && range.is_some() {
             return Err(e
@@ -98,8 +99,11 @@ impl<'d> Reader<'d> {
         let time_constant = match own.dynamics {
             "none" => None,
             "integrator" => Some(None),
-            // a time constant of zero has no lag
-            "filter" | "filterexact" => Some(own.time).filter(|time| *time > 0.0).map(Some),
+            "filter" | "filterexact" if own.time > 0.0 => Some(Some(own.time)),
+            "filter" | "filterexact" => {
+                e.change("a time constant of zero has no lag: there is no activation");
+                None
+            }
             other => return Ok(Err(format!("its activation is of type `{other}`"))),
         };
         let activation = time_constant.map(|time_constant| {

@@ -66,7 +66,7 @@ pub(super) struct ActuatorRecord<'d> {
     pub law: Law<'d>,
     pub control: Range,
     pub activation: Range,
-    pub force: Range,
+    force: Range,
     pub gear: [f64; 6],
     pub armature: f64,
     /// Coefficients of the rate, and of its higher powers.
@@ -372,9 +372,8 @@ impl<'d> ActuatorRecord<'d> {
                     return Err(e.error(format!("the range of the control of a `{kind}` is negative")));
                 }
             }
-            "dcmotor" => {
-                let sets_force = ["saturation", "nominal"].iter().any(|key| e.peek(key).is_some());
-                self.has_motor_force |= sets_force && e.peek("forcerange").is_none();
+            "dcmotor" if e.peek("saturation").is_some() => {
+                (self.force.limits, self.has_motor_force) = (Some(true), e.peek("forcerange").is_none());
             }
             _ => {}
         }
@@ -389,6 +388,11 @@ impl<'d> ActuatorRecord<'d> {
     /// Reason why the record has no counterpart, if numbers of other kinds are in it.
     pub fn foreign(&self) -> Option<&'d str> {
         self.law.foreign.or(self.has_motor_force.then_some("dcmotor"))
+    }
+
+    /// Range of the force, where it is known here.
+    pub fn known_force(&self) -> Range {
+        if self.has_motor_force { Range::default() } else { self.force }
     }
 
     /// Range that the actuator inherits: as MuJoCo by what it is, whichever element said so.

@@ -87,6 +87,12 @@ fn contradicting_classes_are_refused_by_line() {
             1,
             "`ctrlrange` and `inheritrange` are both given",
         ),
+        (
+            r#"<default><dcmotor motorconst="0.3" resistance="2" saturation="3"/><motor forcerange="0 0"/></default>"#,
+            r#"<intvelocity joint="j"/>"#,
+            4,
+            "`forcelimited` says that it limits",
+        ),
         (r#"<default><damper kv="-1"/></default>"#, motor, 1, "`kv` is negative"),
         (r#"<default><general gainprm="-1"/><adhesion/></default>"#, motor, 1, "`gain` is negative"),
         ("", r#"<general joint="j" actdim="1"/>"#, 4, "`actdim` is 1"),
