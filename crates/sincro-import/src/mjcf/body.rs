@@ -325,7 +325,14 @@ impl<'d> Reader<'d> {
             let stiffness = inertia / (time * time * ratio * ratio);
             robot.joints[*joint].spring = Some([stiffness, *rest]);
             robot.joints[*joint].damping = vec![2.0 * inertia / time];
-            element.change("`springdamper` as the stiffness and damping that it means with the inertia of this joint");
+            let inertia = match robot.joints[*joint] {
+                // where nothing turns, MuJoCo 4.0 takes the mass alone
+                Joint { kind: JointKind::Prismatic, ref armature, .. } if armature.iter().any(|x| *x > 0.0) => {
+                    "inertia of this joint and its armature, which MuJoCo leaves out for bodies of the world that only slide"
+                }
+                _ => "inertia of this joint",
+            };
+            element.change(&format!("`springdamper` as the stiffness and damping that it means with the {inertia}"));
         }
     }
 
