@@ -655,9 +655,10 @@ impl Island<'_> {
                 m if m < 1.0 => TOLERANCE,
                 _ => ROUGH_TOLERANCE,
             };
-            // what hardly gets better within the tolerance is left
+            // what hardly gets better is left, the sooner the smaller it is
             stalls += usize::from(best > 0.5 * last);
-            if best <= enough || (best <= TOLERANCE && stalls > 1) {
+            let has_stalled = (best <= TOLERANCE && stalls > 1) || (best <= ROUGH_TOLERANCE && stalls > 3);
+            if best <= enough || has_stalled {
                 break;
             }
         }

@@ -1,7 +1,8 @@
 //! Sleeping: islands of bodies that have come to rest are held, and left out of the steps until something changes.
 //!
-//! An island is *quiet* in a step if its residual is within the tolerance and all velocities of its trees are below
-//! [`QUIET`] at the start and at the end of the step; they are then set to zero. A body that does not move stays where
+//! An island is *quiet* in a step if its residual is within the tolerance and all velocities of its trees, in rad/s and
+//! m/s, are below the share [`QUIET`] of what gravity gives in the step, at its start and at its end; they are then set
+//! to zero. Without gravity nothing rests. A body that does not move stays where
 //! it is, so that the next step poses the same problem, and starts from the forces of this one: once these obey the
 //! laws without a sweep, the island *rests*. From then on nothing about it changes by itself, and it is left out of
 //! detection and solution. What is left out is exactly what would be found again:
@@ -24,9 +25,8 @@ use sincro_math::Real;
 use super::Sweeper;
 use super::islands::{Islands, NO_TREE};
 
-/// Velocity of a degree of freedom that counts as none [rad/s], [m/s]: in a step of 5 ms gravity gives five million
-/// times as much, and the tolerance of the forces leaves more.
-pub const QUIET: f64 = 1e-8;
+/// Share of the velocity that gravity gives in a step which counts as none: the tolerance of the forces leaves more.
+pub const QUIET: f64 = 2e-7;
 
 const NONE: u32 = u32::MAX;
 
@@ -54,6 +54,8 @@ pub struct Rest<R> {
     is_quiet: Vec<bool>,
     /// Coordinates for which contacts were last detected.
     detected: Vec<R>,
+    /// Velocity that counts as none [rad/s], [m/s].
+    quiet: f64,
     /// Coordinates, accelerations without contacts and length of the step for which islands were found at rest.
     q: Vec<R>,
     free: Vec<R>,
@@ -83,6 +85,7 @@ impl<R: Real> Rest<R> {
             is_left_out: vec![false; n],
             is_quiet: vec![false; n],
             detected: zeros(n_q),
+            quiet: 0.0,
             q: zeros(n_q),
             free: zeros(n_v),
             h: 0.0,
@@ -98,6 +101,12 @@ impl<R: Real> Rest<R> {
     pub fn forget(&mut self) {
         self.is_stale = true;
         self.island.fill(NONE);
+    }
+
+    /// Velocity that counts as none [rad/s], [m/s].
+    #[must_use]
+    pub fn quiet_speed(&self) -> f64 {
+        self.quiet
     }
 
     /// Returns true if anything is left out.
@@ -124,8 +133,10 @@ impl<R: Real> Rest<R> {
         }
     }
 
-    /// Begins the detection of contacts at the coordinates `q`, with nothing left out; what rests stays known.
-    pub fn begin(&mut self, q: &[R]) {
+    /// Begins the detection of contacts at the coordinates `q`, with nothing left out; what rests stays known. Gravity
+    /// gives bodies the velocity `fall` [m/s] in the step.
+    pub fn begin(&mut self, q: &[R], fall: f64) {
+        self.quiet = QUIET * fall;
         self.is_left_out.fill(false);
         self.has_woken = false;
         self.detected.copy_from_slice(q);
@@ -231,7 +242,8 @@ impl<R: Real> Rest<R> {
         self.is_awake.fill(false);
         let Self { trees: Trees { of_dof, .. }, is_awake, can_rest, is_left_out, is_quiet, island, .. } = self;
         let known = |tree: u32| islands.of_tree(tree).filter(|_| !is_left_out[tree as usize]);
-        let loud = |x: R| x.lane(0).abs() > QUIET || x.lane(0).is_nan();
+        let quiet = self.quiet;
+        let loud = |x: R| x.lane(0).abs() >= quiet || x.lane(0).is_nan();
         for (tree, (v, v_dot)) in of_dof.iter().zip(v.iter().zip(&*v_dot)) {
             if let Some(k) = known(*tree) {
                 is_awake[k] |= !can_rest[*tree as usize] || loud(*v) || loud(*v + R::splat(h) * *v_dot);

@@ -111,7 +111,8 @@ impl Mechanism<f64> {
             ActivationRule::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
             _ => Margin::of(1e-6),
         };
-        c.rest.begin(&self.base);
+        let fall = if let ActivationRule::Within(h) = closing { h * gravity } else { 0.0 };
+        c.rest.begin(&self.base, fall);
         if c.rest.is_stale() {
             let of_loops = set.loop_joints.iter().flat_map(|joint| [joint.a.link, joint.b.link]);
             let of_gears = set.gears.iter().flat_map(|gear| gear.dofs);

@@ -22,7 +22,6 @@
 mod tests;
 
 use sincro_complementarity::sweeps::islands::Islands;
-use sincro_complementarity::sweeps::rest::QUIET;
 use sincro_complementarity::sweeps::{Law, Sweeper};
 use sincro_complementarity::{ContactMode, UnilateralConstraint};
 use sincro_math::Real;
@@ -44,8 +43,9 @@ const DEAD_ZONE: f64 = 1e-6;
 /// Share of a penetration beyond the dead zone that a step removes.
 const CORRECTION: f64 = 0.2;
 
-/// Velocity of a correction that is not made [m/s]: at the arm of a meter it takes more than bodies at rest may have.
-const NO_CORRECTION: f64 = 10.0 * QUIET;
+/// Velocity of a correction that is not made, over that which counts as none: at the arm of a meter it takes more than
+/// bodies at rest may have.
+const NO_CORRECTION: f64 = 10.0;
 
 /// Share of the friction limit beyond which a group counts as one that slips.
 const AT_LIMIT: f64 = 1.0 - 1e-9;
@@ -60,10 +60,10 @@ struct UsableDistance {
 }
 
 impl UsableDistance {
-    /// For points at these distances, over a step of length `h` `[s]`.
-    fn of(distances: impl Iterator<Item = f64>, h: f64) -> Self {
+    /// For points at these distances; corrections below `least_correction` `[m]` are not made.
+    fn of(distances: impl Iterator<Item = f64>, least_correction: f64) -> Self {
         let (least, most) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
-        let (of_least, of_most) = (usable(least, h), usable(most, h));
+        let (of_least, of_most) = (usable(least, least_correction), usable(most, least_correction));
         let slope = if most > least { (of_most - of_least) / (most - least) } else { 0.0 };
         Self { least, of_least, slope }
     }
@@ -74,12 +74,12 @@ impl UsableDistance {
     }
 }
 
-/// Distance that a single point at `distance` may use up within a step of length `h` `[s]`, in metres; below zero it
-/// has to separate. One for which bodies would hardly have to move is zero: those at rest would not gain it.
-fn usable(distance: f64, h: f64) -> f64 {
+/// Distance that a single point at `distance` may use up within a step `[m]`; below zero it has to separate. One below
+/// `least_correction` is zero: bodies at rest would not move for it.
+fn usable(distance: f64, least_correction: f64) -> f64 {
     let beyond = distance - distance.clamp(-DEAD_ZONE, DEAD_ZONE);
     let usable = if beyond < 0.0 { CORRECTION * beyond } else { beyond };
-    if usable.abs() > NO_CORRECTION * h { usable } else { 0.0 }
+    if usable.abs() > least_correction { usable } else { 0.0 }
 }
 
 /// Working memory; grows to the largest problem it has seen.
@@ -182,7 +182,7 @@ impl<R: Real> Constraints<R> {
             k = manifold.end;
             let bounce = restitution(model, first.slot);
             let distances = self.blocks[manifold.clone()].iter().map(|block| self.residual[block.row].lane(0));
-            let usable = UsableDistance::of(distances, h);
+            let usable = UsableDistance::of(distances, NO_CORRECTION * h * self.rest.quiet_speed());
             for block in &self.blocks[manifold] {
                 let i = block.row;
                 let distance = self.residual[i].lane(0);

@@ -82,7 +82,7 @@ fn points_of_a_face_use_up_their_distances_as_a_rigid_body_can() {
         // four corners of a face, the last two of them on one diagonal
         let middle = 0.3 * least + 0.7 * most;
         let corners = [least, most, middle, least + most - middle];
-        let usable = UsableDistance::of(corners.iter().copied(), 1e-3);
+        let usable = UsableDistance::of(corners.iter().copied(), 1e-10);
         let of = corners.map(|distance| usable.at(distance));
         // heights over a plane add up alike along both diagonals
         assert!((of[0] + of[1] - of[2] - of[3]).abs() < 1e-15, "{corners:?}: {of:?}");
