@@ -67,8 +67,9 @@ impl Manifolds {
             && is_convex(a)
             && is_convex(b)
         {
-            // keeps its memory, forgets its points
+            // keeps its room, forgets its points and the normal that the search would begin with
             manifold.clear();
+            (manifold.local_n1, manifold.local_n2) = (Vector::ZERO, Vector::ZERO);
         } else {
             manifolds.clear();
         }
