@@ -159,13 +159,22 @@ fn moving(world: &World) -> usize {
 
 #[test]
 fn a_heap_asleep_is_the_heap_awake_bit_for_bit() {
-    for seed in [1, 2, 3] {
-        let (scene, _) = heap(10, seed);
+    for (seed, is_mixed) in [(1, false), (2, false), (3, false), (4, true), (5, true)] {
+        let mut scene = heap(10, seed).0;
+        if is_mixed {
+            // every other one a cylinder or a capsule that fits in
+            for (k, kind) in (0..5).zip(["cylinder", "capsule"].into_iter().cycle()) {
+                let of_body = scene.match_indices("cuboid = { size = ").nth(k + 1).map(|(at, _)| at).unwrap();
+                let end = of_body + scene[of_body..].find('}').unwrap() + 1;
+                let [radius, length] = if kind == "cylinder" { [0.05, 0.1] } else { [0.04, 0.05] };
+                scene.replace_range(of_body..end, &format!("{kind} = {{ radius = {radius}, length = {length} }}"));
+            }
+        }
         // one world leaves out what rests; the other is told in every step that something may have changed; a third
         // one is looked at
         let [mut asleep, mut awake, mut seen] = [world(&scene), world(&scene), world(&scene)];
         let mut slept = [0; 3];
-        for k in 0..3000 {
+        for k in 0..if is_mixed { 500 } else { 3000 } {
             let t = STEP * f64::from(k);
             for world in [&mut asleep, &mut awake, &mut seen] {
                 match k {
@@ -195,7 +204,10 @@ fn a_heap_asleep_is_the_heap_awake_bit_for_bit() {
                 *slept = if k + 1 == end { 10 - moving(&asleep) } else { *slept };
             }
         }
-        assert!(slept.into_iter().all(|slept| slept >= 5), "seed {seed}: {slept:?} of 10 boxes came to rest");
+        assert!(
+            is_mixed || slept.into_iter().all(|slept| slept >= 5),
+            "seed {seed}: {slept:?} of 10 boxes came to rest"
+        );
     }
 }
 

@@ -9,7 +9,7 @@
 //!
 //! | looked at in every step | to the last bit |
 //! |---|---|
-//! | coordinates of its trees, length of the step | those for which it was found at rest |
+//! | coordinates of its trees, length of the step, strongest gravity | those for which it was found at rest |
 //! | their velocities | zero |
 //! | their accelerations without contacts, all forces but those of contacts included | the same |
 //! | warm start of its contacts, part of the state | the same |
@@ -54,8 +54,9 @@ pub struct Rest<R> {
     is_quiet: Vec<bool>,
     /// Coordinates for which contacts were last detected.
     detected: Vec<R>,
-    /// Velocity that counts as none [rad/s], [m/s].
-    quiet: f64,
+    /// Velocity that gravity gives in the step [m/s], and that in which islands were found at rest.
+    fall: f64,
+    fall_at_rest: f64,
     /// Coordinates, accelerations without contacts and length of the step for which islands were found at rest.
     q: Vec<R>,
     free: Vec<R>,
@@ -85,7 +86,8 @@ impl<R: Real> Rest<R> {
             is_left_out: vec![false; n],
             is_quiet: vec![false; n],
             detected: zeros(n_q),
-            quiet: 0.0,
+            fall: 0.0,
+            fall_at_rest: 0.0,
             q: zeros(n_q),
             free: zeros(n_v),
             h: 0.0,
@@ -106,7 +108,7 @@ impl<R: Real> Rest<R> {
     /// Velocity that counts as none [rad/s], [m/s].
     #[must_use]
     pub fn quiet_speed(&self) -> f64 {
-        self.quiet
+        QUIET * self.fall
     }
 
     /// Returns true if anything is left out.
@@ -136,7 +138,7 @@ impl<R: Real> Rest<R> {
     /// Begins the detection of contacts at the coordinates `q`, with nothing left out; what rests stays known. Gravity
     /// gives bodies the velocity `fall` [m/s] in the step.
     pub fn begin(&mut self, q: &[R], fall: f64) {
-        self.quiet = QUIET * fall;
+        self.fall = fall;
         self.is_left_out.fill(false);
         self.has_woken = false;
         self.detected.copy_from_slice(q);
@@ -145,7 +147,7 @@ impl<R: Real> Rest<R> {
     /// Finds the islands to be left out of a step of length `h` `[s]` at the velocities `v`; their contacts have the
     /// warm start that they fell asleep with.
     pub fn leave_out(&mut self, v: &[R], h: f64) {
-        if h != self.h {
+        if h != self.h || self.fall.to_bits() != self.fall_at_rest.to_bits() {
             return;
         }
         self.is_awake.fill(false);
@@ -240,9 +242,9 @@ impl<R: Real> Rest<R> {
         }
         let n = islands.len();
         self.is_awake.fill(false);
+        let quiet = self.quiet_speed();
         let Self { trees: Trees { of_dof, .. }, is_awake, can_rest, is_left_out, is_quiet, island, .. } = self;
         let known = |tree: u32| islands.of_tree(tree).filter(|_| !is_left_out[tree as usize]);
-        let quiet = self.quiet;
         let loud = |x: R| x.lane(0).abs() >= quiet || x.lane(0).is_nan();
         for (tree, (v, v_dot)) in of_dof.iter().zip(v.iter().zip(&*v_dot)) {
             if let Some(k) = known(*tree) {
@@ -270,7 +272,7 @@ impl<R: Real> Rest<R> {
         }
         self.is_all_at_rest = (0..n).all(|k| !self.is_awake[k] && sweeper.was_at_rest(k));
         self.q.copy_from_slice(&self.detected);
-        self.h = h;
+        (self.h, self.fall_at_rest) = (h, self.fall);
     }
 
     /// Returns true if everything that these links move rests, and has not woken since; the world does.

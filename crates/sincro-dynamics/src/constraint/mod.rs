@@ -289,7 +289,7 @@ impl<R: Real> Constraints<R> {
         // at velocity level the poses and twists of the last contact detection stand
         self.assemble(model, q, v, scratch, level == Level::Acceleration);
         self.add_kinks();
-        let left_out = self.rest.hold(v_dot);
+        let left_out = if let Level::Velocity(_) = level { self.rest.hold(v_dot) } else { 0 };
         self.solver.report.islands += left_out;
         if self.rows.is_empty() {
             self.is_swept = false;

@@ -122,7 +122,7 @@ impl<R: Real> WarmStart<R> {
             taken: 0,
             of_features: Vec::new(),
             continued: Vec::new(),
-            resting: Vec::new(),
+            resting: Vec::with_capacity(usual),
             zeno_fallback: ZenoFallback::default(),
             has_slots: n_slots > 0,
         }

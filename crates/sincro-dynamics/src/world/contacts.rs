@@ -126,13 +126,15 @@ impl World {
         self.mechanism.allow_rest(is_semi_implicit);
         // forces that were looked at are found already, by a problem that leaves nothing out
         let is_new = !core::mem::take(&mut self.knows_step_forces) || self.mechanism.is_all_at_rest();
-        let is_large = self.detect_step_contacts(h, is_semi_implicit && is_new);
+        let mut is_large = self.detect_step_contacts(h, is_semi_implicit && is_new);
+        self.drives_before.clone_from(&self.mechanism.drives);
         self.try_step(t, h, is_large, system);
         if self.mechanism.has_woken() {
-            // a force on what rests has changed
+            // a force on what rests has changed: as if the step had not been tried
             self.restore();
+            self.mechanism.drives.copy_from_slice(&self.drives_before);
             self.mechanism.undo_classification();
-            let is_large = self.detect_step_contacts(h, false);
+            is_large = self.detect_step_contacts(h, false);
             self.try_step(t, h, is_large, system);
         }
         self.statistics.steps += 1;
@@ -142,10 +144,11 @@ impl World {
             return Err((t, Stop::Integration(Failure::NotFinite { t })));
         }
         let layout = self.layout();
+        self.project_penetrations(is_large && is_semi_implicit);
         if is_large {
+            // after the projection, which lays out the coordinates of all bodies anew
             self.mechanism.stop_quiet_motion(&self.base_before, &mut self.y[layout.velocities()]);
         }
-        self.project_penetrations(is_large && is_semi_implicit);
         for i in 0..self.target_velocities.len() {
             if self.mechanism.drives[i] == 0.0 {
                 self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities[i];

@@ -192,6 +192,8 @@ pub struct World {
     decided_slope: Vec<f64>,
     /// Velocities at the end of the next step, where its forces are found over the whole of it.
     step_end_velocities: Vec<f64>,
+    /// Modes of the drives before a step at velocity level is tried.
+    drives_before: Vec<f64>,
     /// True if the forces of the next step have been looked at.
     knows_step_forces: bool,
     negated_jacobian_diagonal: Vec<f64>,
@@ -280,6 +282,7 @@ impl World {
             slope: vec![0.0; dim],
             decided_slope: vec![0.0; dim],
             step_end_velocities: accelerations.clone(),
+            drives_before: Vec::new(),
             knows_step_forces: false,
             negated_jacobian_diagonal: vec![0.0; n_states],
             attached_before: vec![0.0; n_states],
@@ -439,7 +442,8 @@ impl World {
     }
 
     /// Records that state or model were changed from outside: drives and constraints are audited again
-    /// ([`Observation::law_residuals`]) only after the next tick.
+    /// ([`Observation::law_residuals`]) only after the next tick. Bodies that sleep wake; those whose state has
+    /// changed, or the forces on them, do so by themselves.
     pub fn mark_changed(&mut self) {
         self.settled_at = None;
         self.mechanism.wake();
