@@ -11,6 +11,9 @@ use sincro_coppelia::api::functions;
 use super::{ApiContext, planning, vision};
 use crate::{power, sandbox};
 
+/// Libraries of Lua, which are modules, too.
+const LIBRARIES: [&str; 9] = ["_G", "coroutine", "debug", "io", "math", "os", "string", "table", "utf8"];
+
 pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     let lua = context.lua;
     let modules = lua.create_table()?;
@@ -58,6 +61,9 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 && let Some(module) = modules.get::<Option<Table>>(plain)?
             {
                 return Ok(LuaValue::Table(module));
+            }
+            if LIBRARIES.contains(&&*name) {
+                return lua.globals().get(name);
             }
             return Err(Error::RuntimeError(format!(
                 "there is no module '{name}': scripts have `sim`, `simIK`, `simOMPL`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"

@@ -279,6 +279,19 @@ fn a_file_of_the_scene_goes_before_a_module_of_its_name() {
 }
 
 #[test]
+fn libraries_of_lua_are_modules() {
+    let said = with_files(
+        "local math, text = require('math'), require 'string'
+        function sysCall_init()
+            print(math.floor(2.5), text.upper('a'), require('table') == table, require('_G') == _G, require('math').of_scene)
+        end",
+        &[("table.lua", "return 'of the scene'")],
+    )
+    .unwrap();
+    assert_eq!(said, ["2\tA\tfalse\ttrue\tnil"]);
+}
+
+#[test]
 fn a_module_that_is_no_file_of_the_script_says_where_it_would_stand() {
     let code = "function sysCall_init() require 'missing' end";
     let why = with_files(code, &[("helper.lua", "return 1")]).unwrap_err();
