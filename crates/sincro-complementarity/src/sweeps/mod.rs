@@ -181,8 +181,18 @@ enum Local {
 struct IslandRange {
     blocks: (usize, usize),
     z: (usize, usize),
-    /// True if nothing in it moves.
-    is_still: bool,
+    stillness: Stillness,
+}
+
+/// Ability of an island to come to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stillness {
+    /// It has drives or other constraints, and never sleeps.
+    Awake,
+    /// It can come to rest.
+    CanRest,
+    /// Nothing in it moves.
+    Still,
 }
 
 /// Result of an island.
@@ -301,11 +311,11 @@ impl Sweeper {
         self.lambda.push(lambda);
     }
 
-    /// Ends an island; where nothing in it moves (`is_still`) and the forces to start from solve its problem within
+    /// Ends an island; where nothing in it moves and the forces to start from solve its problem within
     /// 1e-10, or within 1e-8 and hardly better ones are found, they stand as they are.
-    pub fn end_island(&mut self, is_still: bool) {
+    pub fn end_island(&mut self, stillness: Stillness) {
         let (blocks, z) = self.islands.last().map_or((0, 1), |island| (island.blocks.1, island.z.1));
-        self.islands.push(IslandRange { blocks: (blocks, self.blocks.len()), z: (z, self.z.len()), is_still });
+        self.islands.push(IslandRange { blocks: (blocks, self.blocks.len()), z: (z, self.z.len()), stillness });
     }
 
     /// Returns true if an island of the problem last solved has a residual within the tolerance.
@@ -366,9 +376,9 @@ impl Sweeper {
         self.resize_buffers();
         self.last.outcomes.clear();
         for k in 0..self.islands.len() {
-            let IslandRange { blocks, z, is_still } = self.islands[k];
+            let IslandRange { blocks, z, stillness } = self.islands[k];
             let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
-            let outcome = Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h }.solve(is_still);
+            let outcome = Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h, stillness }.solve();
             self.last.outcomes.push(outcome);
             let Outcome { residual, sweeps, .. } = outcome;
             report.islands += 1;
@@ -597,13 +607,13 @@ struct Island<'a> {
     z: core::ops::Range<usize>,
     /// Rate below which it hardly moves.
     rest_rate: f64,
+    stillness: Stillness,
 }
 
 impl Island<'_> {
-    /// Solves the island, in which nothing moves if it `is_still`.
-    fn solve(mut self, is_still: bool) -> Outcome {
+    fn solve(mut self) -> Outcome {
         self.find_velocities();
-        if !is_still {
+        if self.stillness != Stillness::Still {
             return self.improve();
         }
         let Sweeper { start, lambda, .. } = &mut *self.sweeper;
@@ -611,7 +621,7 @@ impl Island<'_> {
         let largest = forces.iter().map(|force| square(*force)).fold(0.0, f64::max).sqrt();
         start.clear();
         start.extend_from_slice(forces);
-        let (residual, _) = residual(self.sweeper, self.blocks.clone(), largest);
+        let (residual, _) = residual(self.sweeper, self.blocks.clone(), largest, true);
         if residual <= REST_TOLERANCE {
             return Outcome { residual, sweeps: 0, stands: true };
         }
@@ -627,7 +637,8 @@ impl Island<'_> {
     /// Makes sweeps and Newton steps from the present forces on.
     fn improve(&mut self) -> Outcome {
         let Swept { residual: mut best, mut sweeps, motion } = self.sweep(FIRST_SWEEPS + self.blocks.len() / 8);
-        if best <= if motion < STILL { STILL_TOLERANCE } else { TOLERANCE } {
+        let can_rest = self.stillness != Stillness::Awake;
+        if best <= if can_rest && motion < STILL { STILL_TOLERANCE } else { TOLERANCE } {
             return Outcome { residual: best, sweeps, stands: false };
         }
         let mut newton = core::mem::take(&mut self.sweeper.newton);
@@ -651,7 +662,7 @@ impl Island<'_> {
                 self.keep();
             }
             let enough = match swept.motion {
-                m if m < STILL && step < STILL_NEWTON_STEPS => STILL_TOLERANCE,
+                m if can_rest && m < STILL && step < STILL_NEWTON_STEPS => STILL_TOLERANCE,
                 m if m < 1.0 => TOLERANCE,
                 _ => ROUGH_TOLERANCE,
             };
@@ -721,7 +732,7 @@ impl Task for Sweeps<'_, '_> {
 
     #[inline(always)]
     fn run(self) -> Swept {
-        let (Island { sweeper, blocks, z, rest_rate }, most) = (self.island, self.most);
+        let (Island { sweeper, blocks, z, rest_rate, stillness }, most) = (self.island, self.most);
         let mut last_square = 0.0;
         for sweep in 1..=most {
             sweeper.z_before[z.clone()].copy_from_slice(&sweeper.z[z.clone()]);
@@ -734,7 +745,8 @@ impl Task for Sweeps<'_, '_> {
             }
             let is_last = sweep == most;
             if change <= TOLERANCE * TOLERANCE * largest || is_last || largest == 0.0 {
-                let (residual, fastest) = residual(sweeper, blocks.clone(), largest.sqrt());
+                let (residual, fastest) =
+                    residual(sweeper, blocks.clone(), largest.sqrt(), *stillness != Stillness::Awake);
                 let motion = fastest / *rest_rate;
                 let tolerance = if motion < 1.0 && sweep < REST_SWEEPS { REST_TOLERANCE } else { TOLERANCE };
                 if residual <= tolerance || is_last {
@@ -786,17 +798,17 @@ fn square_of_difference(x: &[f64], y: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// Residual of an island relative to its `largest` force, and the largest rate of what carries a force: surfaces that
-/// do not touch may have any.
+/// Residual of an island relative to its `largest` force, and the largest rate, of what carries a force if only what is
+/// `loaded` counts: surfaces that do not touch may have any.
 #[inline(always)]
-fn residual(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64) -> (f64, f64) {
+fn residual(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64, loaded: bool) -> (f64, f64) {
     let (mut worst, mut fastest) = (0.0_f64, 0.0_f64);
     for k in blocks {
         let u = sweeper.rates(k);
         let miss = sweeper.natural_map(k, u);
         // a maximum passes over what is not a number
         worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
-        if sweeper.lambda[k] != [0.0; 3] {
+        if !loaded || sweeper.lambda[k] != [0.0; 3] {
             fastest = u.iter().fold(fastest, |s, u| s.max(u.abs()));
         }
     }

@@ -247,7 +247,7 @@ fn long_dot(x: &[f64], y: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Island, Law, Sweeper, TOLERANCE};
+    use super::super::{Island, Law, Stillness, Sweeper, TOLERANCE};
     use super::NewtonStep;
     use crate::solver::SolverReport;
 
@@ -286,7 +286,7 @@ mod tests {
             b[0] -= if upper { 0.0 } else { 9.81 };
             sweeper.add(Law::Coulomb { friction: 0.5 }, 3 * k, 3, &dofs, &values, b, [0.0; 3]);
         }
-        sweeper.end_island(false);
+        sweeper.end_island(Stillness::CanRest);
         sweeper
     }
 
@@ -316,7 +316,9 @@ mod tests {
                 if with_step {
                     NewtonStep::default().make(&mut sweeper, blocks.clone(), z.clone());
                 }
-                Island { sweeper: &mut sweeper, blocks, z, rest_rate: 0.0 }.sweep(4).residual
+                Island { sweeper: &mut sweeper, blocks, z, rest_rate: 0.0, stillness: Stillness::Awake }
+                    .sweep(4)
+                    .residual
             };
             better += u32::from(residual(true) < 0.5 * residual(false));
         }

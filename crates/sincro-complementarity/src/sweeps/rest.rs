@@ -22,8 +22,8 @@
 
 use sincro_math::Real;
 
-use super::Sweeper;
 use super::islands::{Islands, NO_TREE};
+use super::{Stillness, Sweeper};
 
 /// Share of the velocity that gravity gives in a step which counts as none: the tolerance of the forces leaves more.
 pub const QUIET: f64 = 2e-7;
@@ -63,6 +63,8 @@ pub struct Rest<R> {
     h: f64,
     /// Islands that are awake, or that move, while they are looked at.
     is_awake: Vec<bool>,
+    /// Stillness of each island of the problem.
+    stillness: Vec<Stillness>,
     /// True if the model may have changed.
     is_stale: bool,
     /// True while velocities may be set to zero: steps of semi-implicit Euler.
@@ -92,6 +94,7 @@ impl<R: Real> Rest<R> {
             free: zeros(n_v),
             h: 0.0,
             is_awake: vec![false; n],
+            stillness: vec![Stillness::Awake; n],
             is_stale: true,
             is_allowed: false,
             is_all_at_rest: false,
@@ -219,19 +222,25 @@ impl<R: Real> Rest<R> {
                 *free = *v_dot;
             }
         }
+        let n = islands.len().max(self.island.len());
         self.is_awake.clear();
-        self.is_awake.resize(islands.len().max(self.island.len()), !self.is_allowed);
+        self.is_awake.resize(n, false);
+        self.stillness.clear();
+        self.stillness.resize(n, if self.is_allowed { Stillness::Still } else { Stillness::Awake });
         for (tree, v) in self.trees.of_dof.iter().zip(v) {
-            if let Some(k) = islands.of_tree(*tree) {
-                self.is_awake[k] |= v.lane(0) != 0.0 || !self.can_rest[*tree as usize];
+            let Some(k) = islands.of_tree(*tree) else { continue };
+            if !self.can_rest[*tree as usize] {
+                self.stillness[k] = Stillness::Awake;
+            } else if v.lane(0) != 0.0 && self.stillness[k] == Stillness::Still {
+                self.stillness[k] = Stillness::CanRest;
             }
         }
     }
 
-    /// Returns true if nothing of an island moves, as found by [`Rest::begin_solution`].
+    /// Stillness of an island, as found by [`Rest::begin_solution`].
     #[must_use]
-    pub fn is_still(&self, island: usize) -> bool {
-        !self.is_awake[island]
+    pub fn stillness(&self, island: usize) -> Stillness {
+        self.stillness[island]
     }
 
     /// Finds the quiet islands of a solution, whose accelerations `v_dot` then end their motion, and those at rest.

@@ -260,7 +260,7 @@ impl<R: Real> Constraints<R> {
                     add(sweeper, Law::Disc { coefficient: group.coefficient, normal }, group.row, group.dim);
                 }
             }
-            sweeper.end_island(self.rest.is_still(k));
+            sweeper.end_island(self.rest.stillness(k));
         }
     }
 
