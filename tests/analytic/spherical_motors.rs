@@ -53,6 +53,30 @@ fn velocity_motors_of_a_ball_joint_turn_it_about_a_fixed_axis() {
 }
 
 #[test]
+fn velocity_motors_of_a_free_joint_drive_it_along_a_screw() {
+    let (inertia, twist) = ([0.3, 0.5, 0.7], [0.6, -1.2, 0.8, 1.0, 0.4, -0.5]);
+    let end = |kind| {
+        let model = body(JointKind::Free, inertia, motors(MotorMode::Velocity, &[f64::INFINITY; 6]), Vec::new());
+        let mut x = State::new(&model);
+        x.commands.copy_from_slice(&twist);
+        let mut world = World::new(model, x, kind, 1e-10, 1e-3);
+        run(&mut world, 1e-3, 1000);
+        assert_eq!(world.state.v, twist, "{kind:?}");
+        world.state.q
+    };
+    let truth = end(MethodKind::DormandPrince);
+    for kind in ALL {
+        let bound = match kind {
+            MethodKind::SemiImplicitEuler => 1e-3,
+            MethodKind::Implicit => 1e-6,
+            _ => 1e-9,
+        };
+        let apart = end(kind).iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < bound, "{kind:?}: {apart:e}");
+    }
+}
+
+#[test]
 fn limited_motors_of_a_ball_joint_reach_their_velocities_one_after_the_other() {
     // the inertia of a sphere has no gyroscopic torque: each axis speeds up by itself
     let (inertia, limits, targets) = (0.4, [0.2, 0.5, 1.0], [0.3, -0.6, 0.9]);

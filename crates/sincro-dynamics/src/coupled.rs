@@ -292,6 +292,12 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
         self.mechanism.rechart(&mut y[..n]);
     }
 
+    #[inline(always)]
+    fn rechart_at_velocity_level(&mut self, y: &mut [R]) {
+        let n = self.mechanism.dim();
+        self.mechanism.rechart_at_velocity_level(&mut y[..n]);
+    }
+
     fn magnitude(&self, y: &[R], k: usize) -> f64 {
         let n = self.mechanism.dim();
         if k < n { self.mechanism.magnitude(&y[..n], k) } else { y[k].lane(0).abs() }

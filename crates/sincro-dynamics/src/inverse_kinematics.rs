@@ -5,14 +5,15 @@
 //! iterates it for poses of frames, with λ² falling with the square of the error: quadratic near the target, without
 //! jumps near singular positions.
 
+use sincro_math::least_squares::damped_step;
+
 use crate::initial::limit_violations;
 use crate::joint::JointKind;
 use crate::model::Model;
 use crate::recursions::kinematics::{Attached, frame_pose, jacobian, poses};
 use crate::scratch::Scratch;
-use crate::spatial::{Mat3, Quat, Vec3};
+use crate::spatial::{Mat3, Vec3, rotation_between};
 use crate::state::State;
-use sincro_math::elementary::atan2;
 
 /// Largest rotation of a joint in one iteration `[rad]`.
 pub const MAX_ROTATION_STEP: f64 = 0.2;
@@ -27,48 +28,6 @@ const DAMPING_SHARE: f64 = 1e-2;
 const MAX_ITERATIONS: usize = 500;
 /// Error at which it ends `[m]`, `[rad]`.
 const CONVERGED: f64 = 1e-13;
-
-/// Change of the joints Δq = Jᵀ (J Jᵀ + λ² 1)⁻¹ e for the `rows` of J (one entry a joint), the errors `e` and
-/// `damping` = λ²; `None` if the equations are not finite.
-#[must_use]
-pub fn damped_step(rows: &[Vec<f64>], e: &[f64], damping: f64) -> Option<Vec<f64>> {
-    let m = rows.len();
-    let l = cholesky(rows, damping);
-    let mut x = e.to_vec();
-    for i in 0..m {
-        x[i] = (0..i).fold(x[i], |sum, k| sum - l[i][k] * x[k]) / l[i][i];
-    }
-    for i in (0..m).rev() {
-        x[i] = (i + 1..m).fold(x[i], |sum, k| sum - l[k][i] * x[k]) / l[i][i];
-    }
-    let n = rows.first().map_or(0, Vec::len);
-    let change = |k: usize| rows.iter().zip(&x).map(|(row, x)| row[k] * x).sum();
-    x.iter().all(|x| x.is_finite()).then(|| (0..n).map(change).collect())
-}
-
-/// Lower Cholesky factor of J Jᵀ + λ² 1 for the `rows` of J and `damping` = λ²; no pivot falls below half of λ².
-#[must_use]
-pub fn cholesky(rows: &[Vec<f64>], damping: f64) -> Vec<Vec<f64>> {
-    let m = rows.len();
-    let mut l = vec![vec![0.0; m]; m];
-    for i in 0..m {
-        for j in 0..=i {
-            let product: f64 = rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
-            let sum = (0..j).fold(product + if i == j { damping } else { 0.0 }, |sum, k| sum - l[i][k] * l[j][k]);
-            l[i][j] = if i == j { sum.max(0.5 * damping).sqrt() } else { sum / l[j][j] };
-        }
-    }
-    l
-}
-
-/// Rotation vector `[rad]` that turns `from` into `to`, both rotations from one frame.
-#[must_use]
-pub fn rotation_between(from: &Mat3<f64>, to: &Mat3<f64>) -> Vec3<f64> {
-    let q = Quat::from_matrix(&to.mul(&from.transpose()));
-    let (norm, sign) = (q.xyz.norm(), if q.w < 0.0 { -1.0 } else { 1.0 });
-    let angle = sign * 2.0 * atan2(norm, q.w.abs()).0;
-    if norm == 0.0 { Vec3::zero() } else { q.xyz.scale(angle / norm) }
-}
 
 /// Target of a frame, for [`pose_coordinates`].
 #[derive(Clone, Copy, Debug)]

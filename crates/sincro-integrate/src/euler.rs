@@ -2,7 +2,8 @@
 //! act at the new velocity. Order 1. What most engines do: symplectic, so that an undamped swing keeps its amplitude,
 //! as long as h·ω < 2.
 //!
-//! v⁺ = v + h (M + h D)⁻¹ τ(q, v),  q⁺ = q ⊕ h v⁺, with D the joint dampers.
+//! v⁺ = v + h (M + h D)⁻¹ τ(q, v),  q⁺ = q ⊕ h v⁺, with D the joint dampers; v⁺ in the axes at the start of the step,
+//! from which [`System::rechart_at_velocity_level`] turns it into those at the end.
 
 use sincro_math::Real;
 
@@ -29,6 +30,6 @@ impl<R: Real> FixedStep<R> for SemiImplicitEuler<R> {
         for (y, k) in y.iter_mut().zip(&self.slope) {
             *y += R::splat(h) * *k;
         }
-        system.rechart(y);
+        system.rechart_at_velocity_level(y);
     }
 }

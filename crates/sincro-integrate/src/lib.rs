@@ -67,6 +67,13 @@ pub trait System<R: Real> {
     /// chart.
     fn rechart(&mut self, y: &mut [R]);
 
+    /// Centres the chart at `y` as [`System::rechart`], after one step with [`Implicit::Dampers`] from its centre. The
+    /// velocities have the axes at the start of the step, and are turned into those at its end; by default nothing is.
+    #[inline(always)]
+    fn rechart_at_velocity_level(&mut self, y: &mut [R]) {
+        self.rechart(y);
+    }
+
     /// Typical magnitude of controlled entry `k`, in its unit, for relative errors: that of the state that `y`
     /// describes.
     fn magnitude(&self, y: &[R], k: usize) -> f64;

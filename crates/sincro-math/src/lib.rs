@@ -8,6 +8,8 @@ pub mod error;
 pub mod expression;
 mod functions;
 pub mod lanes;
+pub mod least_squares;
+pub mod orthogonalization;
 pub mod random;
 mod real;
 pub mod record;

@@ -10,17 +10,10 @@ use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::run::LockStep;
 use sincro_sim::snapshot::Snapshot;
 use sincro_testing::SceneFolder;
+use sincro_testing::random::uniform;
 
 const G: f64 = 9.81;
 const STEP: f64 = 0.005;
-
-/// Uniform numbers in (0, 1).
-fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
-    move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 const FLOOR: &str = "[[body]]\nname = \"floor\"\nshape = [{ plane = {} }]\ncontact = { friction = 0.6 }\n";
 
@@ -38,7 +31,7 @@ fn a_box(text: &mut String, name: usize, position: [f64; 3], rotation: [f64; 4],
 
 /// `n` boxes of random sizes, turned at random, above each other and beside each other; and their mass `[kg]`.
 fn heap(n: usize, seed: u64) -> (String, f64) {
-    let (mut text, mut number, mut mass) = (FLOOR.to_owned(), numbers(seed), 0.0);
+    let (mut text, mut number, mut mass) = (FLOOR.to_owned(), uniform(seed), 0.0);
     for k in 0..n {
         let size: [f64; 3] = std::array::from_fn(|_| 0.08 + 0.08 * number());
         mass += 800.0 * size.iter().product::<f64>();
@@ -174,7 +167,7 @@ fn a_heap_asleep_is_the_heap_awake_bit_for_bit() {
         // one is looked at
         let [mut asleep, mut awake, mut seen] = [world(&scene), world(&scene), world(&scene)];
         let mut slept = [0; 3];
-        for k in 0..if is_mixed { 500 } else { 3000 } {
+        for k in 0..3000 {
             let t = STEP * f64::from(k);
             for world in [&mut asleep, &mut awake, &mut seen] {
                 match k {
@@ -205,7 +198,8 @@ fn a_heap_asleep_is_the_heap_awake_bit_for_bit() {
             }
         }
         assert!(
-            is_mixed || slept.into_iter().all(|slept| slept >= 5),
+            // round ones roll on
+            slept.into_iter().all(|slept| slept >= if is_mixed { 2 } else { 5 }),
             "seed {seed}: {slept:?} of 10 boxes came to rest"
         );
     }

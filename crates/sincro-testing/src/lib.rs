@@ -1,11 +1,12 @@
 //! Test support: temporary scene folders, the scenes that several crates test with, runs, served sessions, clients of
-//! every protocol, and the command line as a program.
+//! every protocol, random numbers, and the command line as a program.
 //!
 //! A dev-dependency of the other crates; no program contains it. Everything panics on failure, as tests do.
 
 pub mod clients;
 mod command_line;
 mod folder;
+pub mod random;
 mod run;
 pub mod scenes;
 mod serve;

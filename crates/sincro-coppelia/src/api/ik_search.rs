@@ -1,7 +1,7 @@
 //! Inverse kinematics without moving anything: Jacobian, manipulability, configurations that reach a target, and paths.
 
-use sincro_dynamics::inverse_kinematics::cholesky;
 use sincro_dynamics::spatial::{Pose, Quat};
+use sincro_math::least_squares::cholesky;
 use sincro_math::random::SplitMix64;
 
 use super::ik::{Group, IkJoint};

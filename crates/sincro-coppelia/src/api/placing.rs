@@ -5,10 +5,9 @@
 
 use std::f64::consts::TAU;
 
-use sincro_dynamics::inverse_kinematics::rotation_between;
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::JointInfo;
-use sincro_dynamics::spatial::{Pose, Vec3};
+use sincro_dynamics::spatial::{Pose, Vec3, rotation_between};
 use sincro_math::elementary::atan2;
 
 use super::registry::{Entry, Handle};

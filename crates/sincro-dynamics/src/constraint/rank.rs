@@ -10,6 +10,8 @@
 //!
 //! Source: key `golub2013`, section 5.4 (rank by pivoted orthogonalisation).
 
+use sincro_math::orthogonalization::{independent_rows, norm};
+
 use super::Constraints;
 use crate::model::Model;
 use crate::scratch::Scratch;
@@ -42,21 +44,7 @@ impl Constraints<f64> {
         }
         let squares: Vec<f64> = rows.iter().map(|row| norm(row) * norm(row)).collect();
         independent.clear();
-        for _ in 0..m.min(n) {
-            let share = |i: usize| norm(&rows[i]) / sizes[i];
-            let is_left = |i: &usize| !independent.contains(i) && sizes[*i] > 0.0;
-            let Some(best) = (0..m).filter(is_left).reduce(|a, b| if share(b) > share(a) { b } else { a }) else {
-                break;
-            };
-            if share(best) <= least {
-                break;
-            }
-            let size = norm(&rows[best]);
-            let unit: Vec<f64> = rows[best].iter().map(|x| x / size).collect();
-            rows.iter_mut().for_each(|row| remove(row, &unit));
-            independent.push(best);
-        }
-        independent.sort_unstable();
+        independent.extend(independent_rows(&mut rows, &sizes, least));
         self.row_sizes.clear();
         self.row_sizes.extend(independent.iter().map(|i| sizes[*i] * sizes[*i]));
         self.row_squares.clear();
@@ -109,18 +97,4 @@ impl Constraints<f64> {
         self.n_free = kept.len();
         self.keep_loop_joints();
     }
-}
-
-/// Removes from a vector its part along a unit vector. Twice is enough: the second pass removes the rounding of the
-/// first.
-pub(crate) fn remove(x: &mut [f64], unit: &[f64]) {
-    for _ in 0..2 {
-        let along: f64 = x.iter().zip(unit).map(|(x, u)| x * u).sum();
-        x.iter_mut().zip(unit).for_each(|(x, u)| *x -= along * u);
-    }
-}
-
-/// Euclidean norm.
-pub(crate) fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -1,9 +1,10 @@
 //! Consistency of initial velocities: rates at which they open loop joints and gears, and velocity motors without a
 //! torque limit whose targets contradict the loops.
 
+use sincro_math::orthogonalization::{norm, remove};
+
 use super::placed;
 use crate::actuation::DriveKind;
-use crate::constraint::rank::{norm, remove};
 use crate::ids::MotorId;
 use crate::mechanism::Mechanism;
 use crate::model::Model;

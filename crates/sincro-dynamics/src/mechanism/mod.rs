@@ -20,6 +20,7 @@ pub mod layout;
 mod lines;
 mod loop_rank;
 mod reaction;
+mod rotating_axes;
 mod singular;
 mod slopes;
 mod torques;
@@ -314,6 +315,15 @@ impl<R: Real> Mechanism<R> {
             has_special: self.has_special,
         };
         joint_torques(&self.model, &at, &mut self.torque, &mut self.diagonal);
+        // a step of semi-implicit Euler is one at velocity level, in the axes at its start
+        let velocity_level = match implicit {
+            Some((h, Implicit::Dampers)) => Some(h),
+            _ => None,
+        };
+        let in_fixed_axes = velocity_level.filter(|_| self.model.has_quaternions());
+        if let Some(h) = in_fixed_axes {
+            rotating_axes::add_gyroscopic_corrections(&self.model, h, v, &self.locked_mask, &mut self.torque);
+        }
         let external = if self.has_external() {
             self.external_wrenches(t, v, rotors, implicit);
             Some(&*self.external)
@@ -335,6 +345,9 @@ impl<R: Real> Mechanism<R> {
             gravity: true,
         };
         aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
+        if in_fixed_axes.is_some() {
+            rotating_axes::accelerations_in_fixed_axes(&self.model, v, &self.locked_mask, v_dot);
+        }
         let has_drives = !self.drives.is_empty();
         let implicit_forces = match implicit {
             Some(_) => self.lines.factor(&self.model, &self.scratch, v_dot),
@@ -343,11 +356,7 @@ impl<R: Real> Mechanism<R> {
         if R::IS_SCALAR
             && let Some(constraints) = &mut self.constraints
         {
-            // a step of semi-implicit Euler is a step at velocity level
-            let level = match implicit {
-                Some((h, Implicit::Dampers)) => Level::Velocity(h),
-                _ => Level::Acceleration,
-            };
+            let level = velocity_level.map_or(Level::Acceleration, Level::Velocity);
             let at = (&*self.q, v);
             constraints.apply(&self.model, at, level, &mut self.scratch, v_dot, has_drives, implicit_forces);
         } else if R::IS_SCALAR
@@ -748,6 +757,14 @@ impl<R: Real> System<R> for Mechanism<R> {
         y[displacement].fill(R::zero());
         if self.layout.has_element_states() {
             self.model.limit_activations(&mut y[self.layout.rotor_states()]);
+        }
+    }
+
+    #[inline(always)]
+    fn rechart_at_velocity_level(&mut self, y: &mut [R]) {
+        self.rechart(y);
+        if self.model.has_quaternions() {
+            self.turn_velocities(y);
         }
     }
 

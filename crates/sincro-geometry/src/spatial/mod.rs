@@ -15,6 +15,6 @@ pub use inertia::{ArticulatedInertia, RigidInertia};
 pub use mat3::Mat3;
 pub use motion::{Force, Motion};
 pub use pose::Pose;
-pub use quat::Quat;
+pub use quat::{Quat, rotation_between};
 pub use sym3::Sym3;
 pub use vec3::Vec3;

@@ -157,6 +157,15 @@ impl<R: Real> Quat<R> {
     }
 }
 
+/// Rotation vector `[rad]` that turns `from` into `to`, both rotations from one frame, of at most half a turn.
+#[must_use]
+pub fn rotation_between(from: &Mat3<f64>, to: &Mat3<f64>) -> Vec3<f64> {
+    let q = Quat::from_matrix(&to.mul(&from.transpose()));
+    let (norm, sign) = (q.xyz.norm(), if q.w < 0.0 { -1.0 } else { 1.0 });
+    let angle = sign * 2.0 * elementary::atan2(norm, q.w.abs()).0;
+    if norm == 0.0 { Vec3::zero() } else { q.xyz.scale(angle / norm) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

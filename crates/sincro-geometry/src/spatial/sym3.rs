@@ -64,6 +64,17 @@ impl<R: Real> Sym3<R> {
         Vec3([self.col(0).dot(v), self.col(1).dot(v), self.col(2).dot(v)])
     }
 
+    /// Vector x with `self·x = v`, by Cramer's rule, in the unit of `v` over that of the entries; zero for a singular
+    /// matrix.
+    #[inline(always)]
+    pub fn solve(&self, v: Vec3<R>) -> Vec3<R> {
+        let [a, b, c] = [self.col(0), self.col(1), self.col(2)];
+        let cofactors = [b.cross(c), c.cross(a), a.cross(b)];
+        let determinant = a.dot(cofactors[0]);
+        let share = R::zero().if_less(determinant.abs(), R::one() / determinant, R::zero());
+        Vec3(cofactors.map(|cofactor| cofactor.dot(v) * share))
+    }
+
     /// Same matrix with all nine entries, in their unit.
     #[inline(always)]
     pub fn full(&self) -> Mat3<R> {
