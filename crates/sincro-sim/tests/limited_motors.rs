@@ -436,6 +436,57 @@ fn arms_with_a_limited_motor_in_each_joint_keep_the_laws() {
     (0..draws()).for_each(|k| keeps_the_laws(k, &hanging_arm(&mut r), 0.5));
 }
 
+/// Two strong motors reach their speeds within the first step of a run, and events bound its steps: the work that they
+/// do meanwhile is integrated to no accuracy of the states.
+#[test]
+fn the_work_of_motors_between_events_is_within_its_error_bar() {
+    let scene = r#"
+        [[joint]]
+        name = "j0"
+        kind = "revolute"
+        axis = [0.0, 1.0, 0.0]
+        position = [0.0, 0.0, 0.0]
+        motor = { mode = "velocity", max_torque = 2.0108e-2, command = -1.2102e0 }
+        initial = { position = -1.4229e0 }
+        [[body]]
+        name = "b"
+        parent = "/j0"
+        mass = 6.5354e-1
+        center_of_mass = [0.0, 0.0, -0.2]
+        inertia = { xx = 1.3070e-2, yy = 1.3070e-2, zz = 2.6141e-3 }
+        [[joint]]
+        name = "j1"
+        kind = "revolute"
+        axis = [0.0, 1.0, 0.0]
+        position = [0.0, 0.0, -0.4]
+        parent = "/j0"
+        motor = { mode = "velocity", max_torque = 4.3508e2, command = -1.4454e0 }
+        initial = { position = -1.1063e0 }
+        [[body]]
+        name = "b"
+        parent = "/j0/j1"
+        mass = 4.9693e-1
+        center_of_mass = [0.0, 0.0, -0.2]
+        inertia = { xx = 9.9386e-3, yy = 9.9386e-3, zz = 1.9877e-3 }
+        [[joint]]
+        name = "j2"
+        kind = "revolute"
+        axis = [0.0, 1.0, 0.0]
+        position = [0.0, 0.0, -0.4]
+        parent = "/j0/j1"
+        motor = { mode = "velocity", max_torque = 9.8914e2, command = -1.7563e0 }
+        friction = 1.4038e-1
+        initial = { position = 6.5014e-1 }
+        [[body]]
+        name = "b"
+        parent = "/j0/j1/j2"
+        mass = 9.0190e-1
+        center_of_mass = [0.0, 0.0, -0.2]
+        inertia = { xx = 1.8038e-2, yy = 1.8038e-2, zz = 3.6076e-3 }
+    "#;
+    keeps_the_laws(0, scene, 0.5);
+}
+
 #[test]
 fn closed_loops_with_more_motors_than_they_have_freedoms_stay_closed() {
     let mut r = Draw(1);

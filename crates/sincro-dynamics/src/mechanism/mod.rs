@@ -102,6 +102,8 @@ pub struct Mechanism<R> {
     pub(crate) constraint_change: Vec<R>,
     /// Factor on the tolerance of projections: extent of a mechanism with loops that is smaller than 1 m, else 1.
     projection_scale: f64,
+    /// Number of totals that take part in error control: work and dissipation, or none.
+    n_controlled_totals: usize,
     /// Passage of a singular position of the loops.
     singular: SingularPassage<R>,
     /// Laws of limited drives at the stages of a step.
@@ -141,6 +143,7 @@ impl<R: Real> Mechanism<R> {
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
             projection_scale: 1.0,
+            n_controlled_totals: 0,
             singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
             // constraints branch, which lanes cannot
@@ -239,6 +242,11 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     pub(crate) fn set_coordinates(&mut self, y: &[R]) {
         displace(&self.model, &self.base, &y[self.layout.displacement()], &mut self.q);
+    }
+
+    /// Lets work and dissipation, if they are tracked, take part in error control.
+    pub(crate) fn control_energies(&mut self) {
+        self.n_controlled_totals = if self.layout.tracks_totals() { 2 } else { 0 };
     }
 
     pub(crate) fn take_motor_torque(&mut self) -> Vec<R> {
@@ -703,7 +711,7 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn is_controlled(&self, k: usize) -> bool {
-        !self.layout.totals().contains(&k)
+        k < self.layout.work() + self.n_controlled_totals || !self.layout.totals().contains(&k)
     }
 
     #[inline(always)]

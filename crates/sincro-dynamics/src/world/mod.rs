@@ -421,6 +421,13 @@ impl World {
         self.substeps = n.max(1);
     }
 
+    /// Lets work and dissipation, if they are tracked, take part in error control, relative to max(|energy|, 1 J).
+    /// Where an event bounds a step, no accuracy of states shortens it, and the energies of a finer run would be off as those
+    /// of the coarser one. For error estimates by refinement.
+    pub fn control_energies(&mut self) {
+        self.mechanism.control_energies();
+    }
+
     /// Resolves drives and contacts at the start of a run, at time `t` `[s]`; velocities stay (nothing jumps before the
     /// first command). To be called once after [`World::new`].
     pub fn initialize(&mut self, t: f64) {

@@ -390,7 +390,10 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
     let first_step = (experiment.step * 0.1).min(1e-3);
     let (model, control) = ((*scene.model).clone(), Control::new(accuracy, first_step));
     let mut world = World::with_coupled_states(model, scene.initial.clone(), kind, control, true, n_states);
-    world.set_substeps(if refined { 2 } else { 1 });
+    if refined {
+        world.set_substeps(2);
+        world.control_energies();
+    }
     world.announce_step(experiment.step);
     world
 }
