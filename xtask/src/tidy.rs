@@ -20,7 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-motion", &[]),
     ("sincro-vision", &["sincro-math"]),
     ("sincro-values", &[]),
-    ("sincro-planning", &["sincro-math", "sincro-values"]),
+    ("sincro-planning", &["sincro-math", "sincro-motion", "sincro-values"]),
     ("sincro-conventions", &["sincro-math", "sincro-geometry"]),
     (
         "sincro-dynamics",

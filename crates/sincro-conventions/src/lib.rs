@@ -10,6 +10,7 @@
 //! | `path_shapes.rs` | points of paths between control points |
 //! | `paths.rs` | paths of configurations |
 //! | `names.rs` | old names of functions |
+//! | `properties.rs` | properties that are functions under another name |
 //! | `absent.rs`, `absent.txt` | functions that are not offered, and why |
 //! | `object_paths.rs` | levels of the paths of objects |
 
@@ -22,4 +23,5 @@ pub mod object_paths;
 pub mod path_shapes;
 pub mod paths;
 pub mod poses;
+pub mod properties;
 pub mod simulator;

@@ -9,6 +9,7 @@
 //! | `call.rs` | [`call`]: the functions of `simOMPL` on a [`Scene`] |
 //! | `functions.rs` | [`for_functions`]: names and call tips of these functions |
 //! | `calculations.rs`, `calculate.rs` | collision and distance objects of V-REP 3, and [`calculate`]: their functions |
+//! | `motions.rs` | [`Motions`]: numbers on their way within limits of velocity, acceleration and jerk |
 //! | `names.rs` | numbers of algorithms and kinds of spaces |
 //!
 //! Source: key `kuffner2000` (two trees that grow towards each other). There is no clock: an effort, counted in checked
@@ -19,6 +20,7 @@ mod calculations;
 mod call;
 mod functions;
 mod goal;
+mod motions;
 pub mod names;
 mod planner;
 mod space;
@@ -28,6 +30,7 @@ pub use calculate::calculate;
 pub use calculations::Calculations;
 pub use call::{Scene, call, collision_pairs, ends};
 pub use goal::descend;
+pub use motions::{Motion, MotionStep, Motions};
 pub use planner::{MAX_POINTS, MAX_STATES, Planner};
 pub use space::{Kind, MAX_BOUND, MAX_WEIGHT, Part, Space};
 pub use task::{Component, Region, Task, Tasks, checks_in};

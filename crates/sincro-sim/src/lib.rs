@@ -58,6 +58,7 @@
 //! | modules | hold |
 //! |---|---|
 //! | [`load`](mod@load) | an opened folder with the parts of the program that it needs: language of scripts, linearisation |
+//! | [`notes`] | messages of controllers that are kept with a run, bounded |
 //! | [`controller`], [`diagram_controller`] | controllers in lock-step; block diagrams as one |
 //! | [`sensors`], [`proximity`] | sensors of a scene in a run |
 //! | [`run`] | the step, and a run from its start to its end |
@@ -78,6 +79,7 @@ mod error;
 pub mod file;
 pub mod formats;
 pub mod load;
+pub mod notes;
 mod number;
 pub mod prelude;
 pub mod proximity;

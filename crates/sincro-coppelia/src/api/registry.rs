@@ -21,8 +21,7 @@ use super::drawings::Drawings;
 use super::flags::Flags;
 use super::graphs::Graphs;
 use super::joint_modes::StaticMode;
-use super::motions::{JointMotion, Motions};
-use super::note::Notes;
+use super::motions::JointMotion;
 use super::pairs::{self, Pair};
 use super::scene_objects::handle_of_id;
 use super::senses::Senses;
@@ -34,6 +33,7 @@ use sincro_scene::scene::{Object, Scene};
 use sincro_scene::script::{Kind as ScriptKind, Script, ScriptParser};
 use sincro_sim::controller::{Change, Commands};
 use sincro_sim::load::Loaded;
+use sincro_sim::notes::Notes;
 use sincro_sim::restructure::Restructured;
 pub use sincro_values::Handle;
 use sincro_values::clouds::{Points, Voxels};
@@ -226,7 +226,7 @@ pub struct ObjectRegistry {
     /// Streams of graphs.
     pub(crate) graphs: Graphs,
     /// Motions of numbers.
-    pub(super) motions: Motions,
+    pub(super) motions: sincro_planning::Motions,
     /// Targets of motors that are on their way.
     pub(super) joint_motions: BTreeMap<Handle, JointMotion>,
     /// Visible pieces and the sensors that detect them.
@@ -309,6 +309,10 @@ pub struct ObjectRegistry {
     pub(super) dummy_links: BTreeMap<Handle, Link>,
     /// Static bodies that carry others along.
     pub(super) belts: BTreeMap<Handle, Belt>,
+    /// Bodies that a client or script has made static, whatever they hang on.
+    pub(super) statics: BTreeSet<Handle>,
+    /// Objects to be removed with the next change of the structure, each with true if all below it goes, too.
+    pub(super) doomed: Vec<(Handle, bool)>,
     /// Joints whose mode is not dynamic.
     pub(super) joint_modes: BTreeMap<Handle, StaticMode>,
     /// Parts of the step that are switched off, by the numbers of their truth values.
@@ -366,7 +370,7 @@ impl ObjectRegistry {
             passing: BTreeSet::new(),
             solids: BTreeMap::new(),
             graphs: Graphs::default(),
-            motions: Motions::default(),
+            motions: sincro_planning::Motions::default(),
             joint_motions: BTreeMap::new(),
             senses: Senses::new(scene),
             drawings: Drawings::default(),
@@ -409,6 +413,8 @@ impl ObjectRegistry {
             component_colors: BTreeMap::new(),
             dummy_links: BTreeMap::new(),
             belts: BTreeMap::new(),
+            statics: BTreeSet::new(),
+            doomed: Vec::new(),
             joint_modes: BTreeMap::new(),
             switched_off: BTreeSet::new(),
             broken: BTreeSet::new(),
@@ -864,6 +870,7 @@ impl ObjectRegistry {
     /// A run has ended: the commands of joints are as they were `before` it, the rest stays.
     pub(crate) fn end_run(&mut self, before: Self) {
         self.restructured = None;
+        self.doomed.clear();
         self.is_last_placement = false;
         (self.initial_velocities, self.resets) = (BTreeMap::new(), BTreeMap::new());
         (self.roles, self.masses, self.materials) = (Vec::new(), before.masses.clone(), before.materials.clone());
@@ -882,7 +889,7 @@ impl ObjectRegistry {
         (self.looks, self.component_colors) = (before.looks, before.component_colors);
         (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
-        self.broken = before.broken;
+        (self.broken, self.statics) = (before.broken, before.statics);
         (self.has_stepped, self.has_begun) = (false, false);
         (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
         self.windows = before.windows;

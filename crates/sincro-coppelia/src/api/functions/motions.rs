@@ -96,7 +96,7 @@ fn make(sim: &mut SimApi<'_>, a: Arguments<'_>, is_position: bool) -> Outcome {
             Axis { start: Point { p: state[k], v: state[n + k], a: state[2 * n + k] }, limits, goal }
         })
         .collect();
-    one(sim.add_motion(Motion::new(&axes, synchronization(flags))?)?)
+    one(sim.registry.motions.add(Motion::new(&axes, synchronization(flags))?)?)
 }
 
 /// Positions, then velocities, then accelerations.
@@ -106,11 +106,11 @@ fn flat(points: &[Point]) -> Value {
 }
 
 fn step(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let stepped = sim.step_motion(a.int(0)?, a.real(1)?)?;
+    let stepped = sim.registry.motions.step(a.int(0)?, a.real(1)?)?;
     Ok(vec![Value::Int(stepped.is_done.into()), flat(&stepped.points), Value::Real(stepped.left)])
 }
 
 fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    sim.remove_motion(a.int(0)?)?;
+    sim.registry.motions.remove(a.int(0)?)?;
     done()
 }

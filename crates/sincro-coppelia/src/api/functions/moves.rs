@@ -138,7 +138,7 @@ fn begin_config(sim: &mut SimApi<'_>, mut fields: Fields) -> Outcome {
     let motion = axes(&mut fields, &pos, &target)?;
     fields.set_list("pos", pos);
     fields.set_list("targetPos", target);
-    fields.set("ruckigObj", sim.add_motion(motion)?);
+    fields.set("ruckigObj", sim.registry.motions.add(motion)?);
     Ok(vec![fields.into_value()])
 }
 
@@ -156,7 +156,7 @@ fn nearest_turn(angle: f64, to: f64) -> f64 {
 fn go_on(sim: &mut SimApi<'_>, fields: &mut Fields) -> Result<(bool, Vec<Point>), ApiError> {
     let step = fields.real_or("timeStep", 0.0)?;
     let step = if step == 0.0 { sim.registry.sample_time() } else { step };
-    let stepped = sim.step_motion(fields.int("ruckigObj")?, step)?;
+    let stepped = sim.registry.motions.step(fields.int("ruckigObj")?, step)?;
     if !stepped.is_done {
         fields.set("timeLeft", step - stepped.left);
     }
@@ -236,10 +236,10 @@ fn begin_pose(sim: &mut SimApi<'_>, mut fields: Fields) -> Outcome {
         fields.set("dist", 1.0);
         Some(axes(&mut fields, &[0.0; 4], &[way[0], way[1], way[2], angle])?)
     };
-    let motion = motion.map(|motion| sim.add_motion(motion)).transpose()?;
+    let motion = motion.map(|motion| sim.registry.motions.add(motion)).transpose()?;
     if let Some(chain) = chain {
         let entered = chain.enter(sim).inspect_err(|_| {
-            let _ = motion.map(|motion| sim.remove_motion(motion));
+            let _ = motion.map(|motion| sim.registry.motions.remove(motion));
         });
         fields.set("ik", entered?);
         fields.set("object", chain.element.target);
@@ -368,7 +368,7 @@ fn end(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
         }
     }
     if fields.has("ruckigObj") {
-        sim.remove_motion(fields.int("ruckigObj")?)?;
+        sim.registry.motions.remove(fields.int("ruckigObj")?)?;
     }
     done()
 }

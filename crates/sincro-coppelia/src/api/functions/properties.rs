@@ -3,6 +3,8 @@
 //! A property of an object is one of the functions under another name ([`PROPERTIES`]). `customData.…`, of any object,
 //! the scene and the application, are data that clients and scripts store; `signal.…` are signals.
 
+use sincro_conventions::properties::{FLAGS, KEPT_FLAGS, OF_SCENE, PROPERTIES, Property, VISIBLE};
+
 use super::objects::owner;
 use super::{Function, Outcome, done, function, one};
 use crate::api::stored::{Stored, check_tag};
@@ -22,76 +24,6 @@ enum Type {
     /// Whole numbers.
     Ints,
 }
-
-/// Name; function that reads it with the arguments behind the handle; function that sets it, with the arguments before
-/// and behind the value.
-struct Property {
-    name: &'static str,
-    get: (&'static str, &'static [i64]),
-    set: Option<(&'static str, &'static [i64], &'static [i64])>,
-}
-
-const fn of(
-    name: &'static str,
-    get: (&'static str, &'static [i64]),
-    set: Option<(&'static str, &'static [i64], &'static [i64])>,
-) -> Property {
-    Property { name, get, set }
-}
-
-/// Properties of objects.
-const PROPERTIES: &[Property] = &[
-    of("alias", ("getObjectAlias", &[]), Some(("setObjectAlias", &[], &[]))),
-    of("absPosition", ("getObjectPosition", &[-1]), Some(("setObjectPosition", &[], &[-1]))),
-    of("absQuaternion", ("getObjectQuaternion", &[-1]), Some(("setObjectQuaternion", &[], &[-1]))),
-    of("absEulerAngles", ("getObjectOrientation", &[-1]), Some(("setObjectOrientation", &[], &[-1]))),
-    of("absPose", ("getObjectPose", &[-1]), Some(("setObjectPose", &[], &[-1]))),
-    of("position", ("getObjectPosition", &[-11]), Some(("setObjectPosition", &[], &[-11]))),
-    of("quaternion", ("getObjectQuaternion", &[-11]), Some(("setObjectQuaternion", &[], &[-11]))),
-    of("eulerAngles", ("getObjectOrientation", &[-11]), Some(("setObjectOrientation", &[], &[-11]))),
-    of("pose", ("getObjectPose", &[-11]), Some(("setObjectPose", &[], &[-11]))),
-    of("parentHandle", ("getObjectParent", &[]), Some(("setObjectParent", &[], &[]))),
-    of("objectUid", ("getObjectUid", &[]), None),
-    of("jointType", ("getJointType", &[]), None),
-    of("jointPosition", ("getJointPosition", &[]), Some(("setJointPosition", &[], &[]))),
-    of("calcVelocity", ("getJointVelocity", &[]), None),
-    of("jointForce", ("getJointForce", &[]), None),
-    of("targetPos", ("getJointTargetPosition", &[]), Some(("setJointTargetPosition", &[], &[]))),
-    of("targetVel", ("getJointTargetVelocity", &[]), Some(("setJointTargetVelocity", &[], &[]))),
-    of("targetForce", ("getJointTargetForce", &[]), Some(("setJointTargetForce", &[], &[]))),
-    of("jointMode", ("getJointMode", &[]), None),
-    of("dynCtrlMode", ("getObjectInt32Param", &[2039]), Some(("setObjectInt32Param", &[2039], &[]))),
-    of("cyclic", ("getJointInterval", &[]), None),
-    of("mass", ("getShapeMass", &[]), Some(("setShapeMass", &[], &[]))),
-    of("respondable", ("getObjectInt32Param", &[3004]), Some(("setObjectInt32Param", &[3004], &[]))),
-    of("dynLinearVelocity", ("getVelocity", &[]), None),
-    of("layer", ("getObjectInt32Param", &[10]), Some(("setObjectInt32Param", &[10], &[]))),
-];
-
-/// Flags of objects that are truth values, and their bits in `sim.objectspecialproperty_…`.
-const FLAGS: [(&str, i64); 4] = [("collidable", 1), ("measurable", 2), ("detectable", 0x1f0), ("renderable", 0x200)];
-
-/// Flags of objects in the windows of CoppeliaSim, and their bits in `sim.objectproperty_…`: kept, and of no effect.
-const KEPT_FLAGS: [(&str, i64); 7] = [
-    ("collapsed", 0x10),
-    ("selectable", 0x20),
-    ("selectModelBase", 0x40),
-    ("dontShowAsInsideModel", 0x80),
-    ("selectInvisible", 0x400),
-    ("depthInvisible", 0x800),
-    ("ignoreViewFitting", 0x4000),
-];
-/// Property of an object that vision sensors see it, by its layer.
-const VISIBLE: &str = "visible";
-
-/// Properties of the scene.
-const OF_SCENE: &[Property] = &[
-    of("gravity", ("getArrayParam", &[0]), Some(("setArrayParam", &[0], &[]))),
-    of("simulationTime", ("getSimulationTime", &[]), None),
-    of("simulationState", ("getSimulationState", &[]), None),
-    of("timeStep", ("getFloatParam", &[1]), Some(("setFloatParam", &[1], &[]))),
-    of("dynamicsStepSize", ("getFloatParam", &[5]), None),
-];
 
 /// Handles of the scene and the application.
 const SCENE: Handle = Handle(-12);
