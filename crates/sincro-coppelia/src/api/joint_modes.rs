@@ -6,8 +6,9 @@
 //! | kinematic (0), inverse kinematics (2), dependent (4) | where it is put, at once; the dynamics hold it there |
 //! | the same, hybrid | to where it would be put, by its motor in position control |
 //!
-//! A joint that is held is one with an ideal velocity motor at rest; its own motor is kept for the dynamic mode. What
-//! is asked and told of a motor (mode, gains, limits) is of the one that is kept.
+//! A joint that carries a static body is held in any mode. A joint that is held is one with an ideal velocity motor at
+//! rest; its own motor is kept for the dynamic mode. What is asked and told of a motor (mode, gains, limits) is of the
+//! one that is kept.
 
 use std::collections::BTreeMap;
 
@@ -59,7 +60,8 @@ impl SimApi<'_> {
             let mode = if number == DYNAMIC { MotorMode::Free } else { MotorMode::Velocity };
             return self.set_joint_mode(handle, mode);
         }
-        if number == DYNAMIC {
+        let is_dynamic = number == DYNAMIC && !self.carries_static(handle);
+        if is_dynamic {
             let Some(mode) = self.registry.joint_modes.remove(&handle) else {
                 return self.joint_mode(handle).map(|_| ());
             };
@@ -77,9 +79,11 @@ impl SimApi<'_> {
             Some(mode) => mode.motor,
             None => self.joint_motor(handle)?.unwrap_or(Motor::new(MotorMode::Free)),
         };
-        self.registry.joint_modes.insert(handle, StaticMode { number, is_hybrid, motor });
+        self.registry
+            .joint_modes
+            .insert(handle, StaticMode { number, is_hybrid: is_hybrid && number != DYNAMIC, motor });
         self.drive_by_mode(handle)?;
-        if is_hybrid {
+        if is_hybrid && number != DYNAMIC {
             let here = self.joint_position(handle)?;
             return self.set_target_position(handle, here);
         }

@@ -44,7 +44,7 @@ impl SimApi<'_> {
             (2039, Kind::Joint(_)) => control_number(mode(self)?),
             (3003, Kind::Shape) => 1,
             (3004, Kind::Shape) => 0,
-            (3003, Kind::Body(_)) => i64::from(self.is_fixed(handle)?),
+            (3003, Kind::Body(_)) => i64::from(self.is_static(handle)?),
             (3004, Kind::Body(_)) => i64::from(self.is_respondable(handle)?),
             (3019, Kind::Body(_) | Kind::Shape) => self.respondable_mask(handle),
             (LINK_TYPE, Kind::Dummy | Kind::Frame) => CLOSURE,

@@ -184,6 +184,7 @@ impl ObjectRegistry {
         self.passing.remove(&handle);
         self.respondable_masks.remove(&handle);
         self.joint_modes.remove(&handle);
+        self.statics.remove(&handle);
         self.belts.remove(&handle);
         self.forget_links(handle);
         self.looks.retain(|(owner, _), _| *owner != handle);

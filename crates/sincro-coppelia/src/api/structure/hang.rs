@@ -3,7 +3,7 @@
 use sincro_dynamics::spatial::Pose;
 
 use super::remove::idle_joints;
-use super::{Belt, Rebuild, free_joint, table};
+use super::{Rebuild, free_joint, table};
 use crate::api::registry::{Handle, Kind};
 use crate::api::tree::is_force_sensor;
 use crate::api::{ApiError, Reference, SimApi};
@@ -68,7 +68,7 @@ impl SimApi<'_> {
         self.rebuild(edit)?;
         // whoever hangs a body elsewhere takes it off the one that a link has joined it to
         self.registry.dummy_links.retain(|_, link| !link.has_joined(handle));
-        Ok(())
+        if self.registry.statics.contains(&handle) { self.hold_static(handle) } else { Ok(()) }
     }
 
     /// Place in the world of an object that is hung elsewhere.
@@ -88,7 +88,13 @@ impl SimApi<'_> {
     }
 
     /// The free joint of a body is on the world, the body at a place in the world.
-    fn free(&mut self, joint: Handle, body: Handle, place: &Pose<f64>, edit: &mut Rebuild) -> Result<(), ApiError> {
+    pub(super) fn free(
+        &mut self,
+        joint: Handle,
+        body: Handle,
+        place: &Pose<f64>,
+        edit: &mut Rebuild,
+    ) -> Result<(), ApiError> {
         let path = self.model_path(joint)?;
         let name = self.registry.entry(joint)?.name.clone();
         if self.is_free_joint(joint) {
@@ -106,7 +112,7 @@ impl SimApi<'_> {
     }
 
     /// The free joint of a body becomes a frame on what the body is joined to.
-    fn park(
+    pub(super) fn park(
         &mut self,
         joint: Handle,
         body: Handle,
@@ -193,47 +199,6 @@ impl SimApi<'_> {
         let is_broken =
             self.registry.broken.contains(&sensor) && !self.registry.visible_children(Some(sensor)).any(is_body);
         1 + 2 * i64::from(is_broken)
-    }
-
-    /// Makes a body fixed in the world where it is, or free.
-    ///
-    /// # Errors
-    ///
-    /// The body is carried by other joints than a free one of its own, or has no mass.
-    pub(crate) fn set_static(&mut self, handle: Handle, is_static: bool) -> Result<(), ApiError> {
-        let entry = self.registry.entry(handle)?.clone();
-        let Kind::Body(mass) = entry.kind else {
-            return Err(ApiError(format!("`{}` is no body", entry.path)));
-        };
-        if self.is_fixed(handle)? == is_static {
-            return Ok(());
-        }
-        let was_massless = self.registry.belts.get(&handle).is_some_and(Belt::was_massless);
-        if !is_static && (mass.mass <= 0.0 || was_massless) {
-            return Err(ApiError(format!("`{}` has no mass: give it one in the scene", entry.path)));
-        }
-        self.take_off_belt(handle)?;
-        let place = self.pose(handle, Reference::World)?;
-        let mut edit = self.draft()?;
-        let carrier = self.free_carrier(handle);
-        let belongs = || {
-            let help = "whether a body moves belongs to the scene: hang it on the world first";
-            ApiError(format!("`{}`: {help}", entry.path))
-        };
-        if is_static {
-            let joint = carrier.filter(|joint| self.is_free_joint(*joint)).ok_or_else(belongs)?;
-            self.park(joint, handle, (None, &place), &mut edit)?;
-            return self.rebuild(edit);
-        }
-        if let Some(joint) = carrier.filter(|joint| self.was_joint(*joint)) {
-            self.free(joint, handle, &place, &mut edit)?;
-            return self.rebuild(edit);
-        }
-        let name = self.fresh_name(&format!("{}_free", entry.name));
-        let joint = edit.draft.add("joint", free_joint(&name, "/", &place));
-        let path = self.model_path(handle)?;
-        edit.draft.hang(&path, &joint, &Pose::identity());
-        self.rebuild(edit)
     }
 
     /// Returns true if a body of the model is joined to another one, or to a force sensor, without a joint that moves

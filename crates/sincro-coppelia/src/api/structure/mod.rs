@@ -17,6 +17,7 @@ mod model;
 mod motors;
 mod needed;
 mod remove;
+mod statics;
 mod stops;
 
 pub(super) use belt::Belt;
