@@ -73,6 +73,24 @@ fn a_script_and_a_client_that_change_the_structure_give_the_same_trace() {
 }
 
 #[test]
+fn what_a_script_removes_as_it_ends_leaves_a_report() {
+    // the worst penetration is that of a pair which the last model lacks
+    let code = "function sysCall_init()
+            for k = 1, 3 do
+                own = sim.createPureShape(0, 8, { 0.1, 0.1, 0.1 }, 1, nil)
+                sim.setObjectPosition(own, -1, { k, 1, 0.05 })
+            end
+        end
+        function sysCall_cleanup() for k = 0, 2 do sim.removeObject(own - k) end end";
+    let scene = format!("{}\n[[script]]\nobject = \"/floor\"\nfile = \"a.lua\"\n", box_above_floor(0.1));
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT), ("a.lua", code)]).unwrap();
+    let done = run(&loaded);
+    assert_eq!(done.status, Status::Completed);
+    let touching = done.laws.iter().find(|law| law.law == "penetration").unwrap();
+    assert!(touching.element.contains(" on "), "{}", touching.element);
+}
+
+#[test]
 fn a_run_with_scripts_goes_on_from_a_snapshot_after_a_change() {
     let loaded = scripted();
     let lockstep = || {

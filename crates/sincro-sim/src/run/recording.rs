@@ -200,12 +200,14 @@ impl Recording {
     ///
     /// [`FileError`]: the CSV file cannot be written.
     pub fn finish(
-        self,
+        mut self,
         lockstep: &mut LockStep,
         status: Status,
         method: MethodKind,
         mut warnings: Vec<String>,
     ) -> Result<Simulated, FileError> {
+        // what scripts have changed as they ended
+        self.follow(lockstep);
         let Self { mut table, csv, streams, trajectory, validity, ledger, audit, experiment, trace, clock, .. } = self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let n_streams = streams.finish(lockstep.controllers_mut(), &mut table)?;
