@@ -9,10 +9,11 @@ pub struct Element {
     pub among: Option<usize>,
 }
 
-/// `ball` of `ball12`: the name that copies of the scene language are numbered after.
+/// `ball` of `ball12` and of `ball#12`: the name that copies of the scene language and of V-REP are numbered after.
 #[must_use]
 pub fn copied(name: &str) -> Option<&str> {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let stem = stem.strip_suffix('#').unwrap_or(stem);
     (!stem.is_empty() && stem.len() < name.len()).then_some(stem)
 }
 
@@ -71,5 +72,6 @@ mod tests {
         let level = element("link[12]").unwrap();
         assert_eq!((level.pattern, level.among), ("link".chars().collect(), Some(12)));
         assert_eq!((element("[1]"), copied("ball12"), copied("12")), (None, Some("ball"), None));
+        assert_eq!((copied("ball#0"), copied("#0")), (Some("ball"), None));
     }
 }

@@ -45,7 +45,7 @@ parent = "/shoulder""#,
         r#"name = "shoulder""#,
         r#"name = "left shoulder""#,
         r#"scene.toml:4:8: error: `left shoulder` is not a name
-  help: names have letters a–z and A–Z, digits, `_` and `-`
+  help: names have letters a–z and A–Z, digits, `_` and `-`; `#` and a number may end them, as of copies of V-REP 3
 scene.toml:13:10: error: there is no object `/shoulder` to hang `rod` on
   help: did you mean `/shoulder/rod/tip`? objects: `/left shoulder`, `/shoulder/rod/tip/wrist`, `/shoulder/rod/tip/wrist/hand`, `/shoulder/rod/tip`"#,
     ),

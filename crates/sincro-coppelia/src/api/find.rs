@@ -3,10 +3,10 @@
 //! With a leading `/`, `.` or `:` it is a path in aliases (CoppeliaSim 4.3 and later): levels may be skipped, `[i]`
 //! takes the i-th match among the objects of its level, `{i}` the i-th match of the whole search, `*` and `?` stand for
 //! any run and any character; `/arm/Script` is the object of the script on `/arm`, which functions that take scripts
-//! take too. Free joints may be left out ([`super::tree`]). Copies that the scene language has numbered (`ball1`,
-//! `ball2`) are `ball[0]`, `ball[1]`, or `ball{0}`, `ball{1}`, where no object of the level is called `ball`. Without a
-//! leading sign it is a name of V-REP: `joint`, `joint#` for the first of that name, `joint#0`, `joint#1` for the
-//! second and third.
+//! take too. Free joints may be left out ([`super::tree`]). Copies that the scene language or V-REP has numbered
+//! (`ball1`, `ball#0`) are counted after those called `ball`: `ball[0]`, `ball[1]`; as `ball{0}`, `ball{1}` where no
+//! object of the level is called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for the first
+//! of that name; `joint#0` for the object of that very name, or the second of those called `joint`.
 
 use super::ApiError;
 use super::registry::{Entry, Handle, ObjectRegistry};
@@ -85,6 +85,10 @@ impl ObjectRegistry {
     /// A name of V-REP, see the head of this file.
     fn find_name(&self, text: &str) -> Option<Handle> {
         let text = text.strip_suffix('#').unwrap_or(text);
+        // scenes of V-REP 3 have the numbers of copies in the names
+        if let Some(entry) = self.entries().find(|e| text.contains('#') && e.name == text) {
+            return Some(entry.handle);
+        }
         let (name, nth) = match text.rsplit_once('#') {
             Some((name, digits)) => (name, digits.parse::<usize>().ok()?.checked_add(1)?),
             None => (text, 0),
@@ -144,12 +148,12 @@ impl ObjectRegistry {
         let objects: Vec<&Entry> = self.level(level);
         let (first, more) = path.split_first()?;
         let (mut n_matches, mut taken) = (0, Vec::new());
-        let is_counted = (first.among.is_some() || counts) && !objects.iter().any(|o| fits(&first.pattern, &o.name));
-        for object in &objects {
-            let is_copy = || is_counted && copied(&object.name).is_some_and(|name| fits(&first.pattern, name));
-            if !fits(&first.pattern, &object.name) && !is_copy() {
-                continue;
-            }
+        let (named, others): (Vec<&Entry>, Vec<&Entry>) =
+            objects.iter().copied().partition(|o| fits(&first.pattern, &o.name));
+        // numbered copies come after what has the very name
+        let is_counted = first.among.is_some() || counts && named.is_empty();
+        let is_copy = |o: &&Entry| is_counted && copied(&o.name).is_some_and(|name| fits(&first.pattern, name));
+        for object in named.into_iter().chain(others.into_iter().filter(is_copy)) {
             let is_wanted = first.among.is_none_or(|k| k == n_matches);
             n_matches += 1;
             if first.among.is_some() {

@@ -179,12 +179,16 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
         let trace: mlua::Function = lua.globals().get::<mlua::Table>("debug")?.get("traceback")?;
         trace.call::<LuaValue>(())
     })?;
-    context.add("getNameSuffix", |_, name: Option<String>| {
-        let Some(name) = name else { return Ok((-1, None)) };
+    let shared = context.shared.clone();
+    context.add("getNameSuffix", move |_, name: Option<String>| {
+        let is_own = name.is_none();
+        let object = shared.object(index);
+        let own = || shared.with_sim(object, |sim| Ok(sim.registry.entry(object)?.name.clone()));
+        let name = name.map_or_else(own, Ok).map_err(|error| super::refused("getNameSuffix", &error))?;
         let parts = name.rsplit_once('#').and_then(|(stem, digits)| Some((stem, digits.parse::<i64>().ok()?)));
         Ok(match parts {
-            Some((stem, suffix)) => (suffix, Some(stem.to_owned())),
-            None => (-1, Some(name)),
+            Some((stem, suffix)) => (suffix, (!is_own).then(|| stem.to_owned())),
+            None => (-1, (!is_own).then_some(name)),
         })
     })
 }

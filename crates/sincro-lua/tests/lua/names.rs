@@ -1,6 +1,6 @@
 //! Every function of V-REP's script API that scripts use is there, or says why it is not.
 
-use super::world::said;
+use super::world::{EXPERIMENT, PENDULUM, open, run, said};
 
 /// Names, without lines of comment.
 fn names() -> Vec<String> {
@@ -24,6 +24,32 @@ fn every_function_of_the_api_is_offered_or_refused_with_a_reason() {
         end"
     );
     assert_eq!(said(&code), Vec::<String>::new());
+}
+
+#[test]
+fn names_of_copies_of_v_rep_3_are_found_as_there() {
+    let scene = |object: &str, code: &str| {
+        let frames = ["robot", "robot#0", "motor", "motor#0", "only#0"];
+        let frames: String = frames.iter().map(|name| format!("[[frame]]\nname = \"{name}\"\n\n")).collect();
+        let script = format!("[[script]]\nobject = \"/{object}\"\ncode = \"\"\"\n{code}\n\"\"\"\n");
+        let files = format!("{frames}{PENDULUM}\n{script}");
+        let loaded = open(&[("scene.toml", &files), ("experiment.toml", EXPERIMENT)]).unwrap();
+        run(&loaded).messages.into_iter().map(|message| message.text).collect::<Vec<_>>()
+    };
+    let code = "function sysCall_init()
+        for _, name in ipairs({ 'motor', 'motor#', 'motor#0', 'only', 'only#0' }) do
+            local ok, own = pcall(sim.getObjectHandle, name)
+            print(name, ok and sim.getObjectName(own))
+        end
+        print(sim.getNameSuffix(nil), sim.getObjectName(sim.getObject('/motor[1]')))
+    end";
+    // a name without `#` is the one with the suffix of the script's object
+    let of_copy = ["motor\tmotor#0", "motor#\tmotor", "motor#0\tmotor#0", "only\tonly#0", "only#0\tonly#0"];
+    assert_eq!(scene("robot#0", code)[..5], of_copy);
+    let of_first = ["motor\tmotor", "motor#\tmotor", "motor#0\tmotor#0", "only\tfalse", "only#0\tonly#0"];
+    assert_eq!(scene("robot", code)[..5], of_first);
+    assert_eq!(scene("robot#0", code)[5], "0\tmotor#0");
+    assert_eq!(scene("robot", code)[5], "-1\tmotor#0");
 }
 
 #[test]

@@ -168,10 +168,14 @@ fn parent_of(entry: &Entry<'_>, entries: &[Entry<'_>], by_path: &BTreeMap<&str, 
 fn check_names(entries: &[Entry<'_>], document: &Document, diagnostics: &mut Diagnostics) {
     for entry in entries {
         let good = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if entry.name.is_empty() || !entry.name.chars().all(good) {
+        // copies of V-REP 3
+        let number = |digits: &str| !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
+        let name =
+            entry.name.rsplit_once('#').filter(|(_, digits)| number(digits)).map_or(entry.name, |(name, _)| name);
+        if name.is_empty() || !name.chars().all(good) {
             let at = document.at(&format!("{}/name", entry.pointer));
             let diagnostic = Diagnostic::error(&at, format!("`{}` is not a name", entry.name));
-            diagnostics.push(diagnostic.with_help("names have letters a–z and A–Z, digits, `_` and `-`"));
+            diagnostics.push(diagnostic.with_help("names have letters a–z and A–Z, digits, `_` and `-`; `#` and a number may end them, as of copies of V-REP 3"));
         }
     }
 }

@@ -170,7 +170,9 @@ impl SimApi<'_> {
     fn model_name(&mut self, handle: Handle) -> Result<String, ApiError> {
         let name = self.registry.entry(handle)?.name.clone();
         let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if name.chars().all(is_plain) {
+        let is_number = |digits: &str| !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
+        let stem = name.rsplit_once('#').filter(|(_, digits)| is_number(digits)).map_or(&*name, |(stem, _)| stem);
+        if !stem.is_empty() && stem.chars().all(is_plain) {
             return Ok(name);
         }
         Ok(self.fresh_name(&name))
@@ -244,13 +246,14 @@ impl SimApi<'_> {
         Ok(sum)
     }
 
-    /// Makes bodies of the model of all shapes that wait for it: one compilation. Shapes that a scene cannot have do
-    /// not keep the others from it.
+    /// Removes what waits for it, and makes bodies of the model of all shapes that wait for it: one compilation. Shapes
+    /// that a scene cannot have do not keep the others from it.
     ///
     /// # Errors
     ///
     /// The model cannot be so, for the first of them.
     pub(crate) fn make_bodies(&mut self) -> Result<(), ApiError> {
+        self.remove_doomed()?;
         let roles = std::mem::take(&mut self.registry.roles);
         self.make_bodies_in_halves(&roles)
     }
