@@ -78,6 +78,49 @@ fn shapes_made_between_two_steps_are_one_change_of_the_scene() {
 }
 
 #[test]
+fn bodies_removed_one_after_the_other_are_one_change_of_the_scene() {
+    let mut session = open();
+    session.start().unwrap();
+    let cubes: Vec<Value> =
+        (0..60).map(|k| dynamic_cube(&mut session, [1.0 + f64::from(k % 20), 1.0 + f64::from(k / 20), 2.0])).collect();
+    session.step().unwrap();
+    let before = Arc::clone(session.registry().scene());
+    for (k, cube) in cubes.iter().enumerate().skip(10) {
+        let name = call(&mut session, "sim.getObjectName", std::slice::from_ref(cube)).remove(0);
+        let path = format!("/{}", name.as_text().unwrap());
+        assert_eq!(&call(&mut session, "sim.getObject", &[path.as_str().into()])[0], cube, "{k}");
+        call(&mut session, "sim.removeObject", std::slice::from_ref(cube));
+    }
+    assert!(Arc::ptr_eq(&before, session.registry().scene()), "the scene was compiled for each");
+    // whoever asks finds them gone
+    assert_eq!(call(&mut session, "sim.isHandle", std::slice::from_ref(&cubes[59])), [Value::Bool(false)]);
+    assert_eq!(session.registry().scene().objects.len(), before.objects.len() - 100);
+    let gone = session.call("sim.removeObject", std::slice::from_ref(&cubes[59]));
+    assert!(format!("{:?}", gone.unwrap_err()).contains("removeObject"));
+    call(&mut session, "sim.removeObject", std::slice::from_ref(&cubes[0]));
+    assert!(session.call("sim.removeObject", std::slice::from_ref(&cubes[0])).is_err(), "twice");
+    session.step().unwrap();
+    assert_eq!(session.registry().scene().objects.len(), before.objects.len() - 102);
+}
+
+#[test]
+fn shapes_wait_to_be_bodies_while_others_are_removed_and_numbers_are_computed() {
+    let mut session = open();
+    session.start().unwrap();
+    let before = Arc::clone(session.registry().scene());
+    let cubes: Vec<Value> = (0..40)
+        .map(|k| {
+            call(&mut session, "sim.boolOr32", &[1_i64.into(), 2_i64.into()]);
+            dynamic_cube(&mut session, [1.0 + f64::from(k), 1.0, 2.0])
+        })
+        .collect();
+    cubes[..10].iter().for_each(|cube| drop(call(&mut session, "sim.removeObject", std::slice::from_ref(cube))));
+    assert!(Arc::ptr_eq(&before, session.registry().scene()), "the scene was compiled before the step");
+    session.step().unwrap();
+    assert_eq!(session.registry().scene().objects.len(), before.objects.len() + 60);
+}
+
+#[test]
 fn a_function_that_needs_a_body_finds_one() {
     let mut session = open();
     session.start().unwrap();

@@ -224,7 +224,7 @@ fn models_are_removed_and_copied_with_all_that_clients_see_below_them() {
     assert!(left.iter().all(|path| !path.contains("car") && !path.contains("cube_free")), "{left:?}");
     call(&mut s, "sim.removeObject", &[copies[0].into()]);
     assert_eq!(
-        s.registry().entries().map(|entry| &*entry.path).collect::<Vec<_>>(),
+        s.sim().registry.entries().map(|entry| &*entry.path).collect::<Vec<_>>(),
         ["/other_free", "/other_free/cube", "/table", "/table/cup_free", "/table/cup_free/cup"]
     );
     assert!(s.registry().entry(Handle(cube as i32)).is_err());

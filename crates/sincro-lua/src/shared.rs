@@ -284,8 +284,20 @@ impl Shared {
         open(&self.stage)
     }
 
-    /// Lets somebody act on the world for the object `own`.
+    /// Lets somebody act on the world for the object `own`; what was removed has gone.
     pub fn with_sim<T>(
+        &self,
+        own: Handle,
+        act: impl FnOnce(&mut SimApi<'_>) -> Result<T, ApiError>,
+    ) -> Result<T, ApiError> {
+        self.with_sim_as_it_is(own, |sim| {
+            sim.remove_doomed()?;
+            act(sim)
+        })
+    }
+
+    /// As [`Shared::with_sim`], while objects wait to be removed.
+    pub fn with_sim_as_it_is<T>(
         &self,
         own: Handle,
         act: impl FnOnce(&mut SimApi<'_>) -> Result<T, ApiError>,

@@ -200,6 +200,8 @@ impl Session {
     }
 
     /// Objects of the scene and runtime objects, with all that clients and scripts store: handles, signals, setpoints.
+    /// Shapes that wait to become bodies, and bodies that wait to be removed, are as they were; [`Session::sim`] and
+    /// the next step make the change.
     pub fn registry(&mut self) -> &mut ObjectRegistry {
         self.sim_as_it_is().registry
     }

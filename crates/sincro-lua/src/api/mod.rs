@@ -116,7 +116,7 @@ impl ApiContext<'_> {
                 )));
             }
             let (mut has_restructured, mut work) = (false, 0);
-            let result = shared.with_sim(own, |sim| {
+            let result = shared.with_sim_as_it_is(own, |sim| {
                 let before = sim.registry.scene().clone();
                 let result = function.call(sim, Arguments(&given));
                 has_restructured = !Arc::ptr_eq(&before, sim.registry.scene());
@@ -149,7 +149,7 @@ impl ApiContext<'_> {
             if name == SELF {
                 return Ok(own.0);
             }
-            let found = shared.with_sim(own, |sim| object_of_name(sim, own, &name));
+            let found = shared.with_sim_as_it_is(own, |sim| sim.found_by(&name, |sim| object_of_name(sim, own, &name)));
             found.map(|handle| handle.0).map_err(|error| refused("getObjectHandle", &error))
         })?;
         let (shared, index) = (self.shared.clone(), self.index);
@@ -261,9 +261,10 @@ fn object_of_name(sim: &mut sincro_coppelia::api::SimApi<'_>, own: Handle, name:
     let is_plain = !name.contains('#') && !name.starts_with(['/', '.', ':']);
     let registry = &sim.registry;
     if is_plain && let Ok(entry) = registry.entry(own) {
-        let place = registry.entries().filter(|e| e.name == entry.name).position(|e| e.handle == own);
-        if let Some(k) = place.filter(|k| *k > 0)
-            && let Ok(found) = registry.find(&format!("{name}#{}", k - 1), search)
+        let place = || registry.entries().filter(|e| e.name == entry.name).position(|e| e.handle == own);
+        let number = entry.name.rsplit_once('#').and_then(|(_, digits)| digits.parse::<usize>().ok());
+        if let Some(k) = number.or_else(|| place()?.checked_sub(1))
+            && let Ok(found) = registry.find(&format!("{name}#{k}"), search)
         {
             return Ok(found);
         }

@@ -10,6 +10,7 @@ mod buffers;
 mod clouds;
 mod collections;
 mod control;
+mod deferred;
 mod distances;
 mod drawings;
 mod filters;
@@ -52,7 +53,6 @@ use super::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 pub(crate) use images::check_file_name;
 pub use partly::{missing_in_scripts, missing_part, partly_in_scripts};
 pub use sincro_conventions::absent::{absent, why_absent};
-use sincro_conventions::names::BEFORE_BODIES;
 pub use sincro_conventions::names::{old_names, present_name};
 use sincro_values::coercion::{coerced, parameters};
 pub use waiting::{MOVES, Move};
@@ -73,15 +73,18 @@ pub struct Function {
 }
 
 impl Function {
-    /// Calls the function. Shapes that a client or script has told to be bodies are made bodies of the model before, at
-    /// once, unless the function sees no difference. Numbers are taken as text where the call tip says text, and texts
-    /// that are numbers as numbers.
+    /// Calls the function. Before, shapes that a client or script has told to be bodies are made bodies of the model,
+    /// and objects that it has removed are removed, at once, unless the function sees no difference. Numbers are taken
+    /// as text where the call tip says text, and texts that are numbers as numbers.
     ///
     /// # Errors
     ///
     /// The function has refused its arguments, or the model cannot have the bodies.
     pub fn call(&self, sim: &mut SimApi<'_>, arguments: Arguments<'_>) -> Outcome {
-        if !sim.registry.roles.is_empty() && !BEFORE_BODIES.contains(&self.name) {
+        if !sim.registry.doomed.is_empty() && !deferred::removal_may_wait(sim, self, arguments) {
+            sim.remove_doomed()?;
+        }
+        if !sim.registry.roles.is_empty() && !deferred::bodies_may_wait(self) {
             sim.make_bodies()?;
         }
         match coerced(self.tip, arguments.0) {

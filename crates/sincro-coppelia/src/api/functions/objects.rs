@@ -384,7 +384,7 @@ fn create_dummy(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
-    sim.remove_objects(&[own], false)?;
+    sim.remove_later(&[own], false)?;
     one(1_i64)
 }
 
@@ -392,7 +392,7 @@ fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 fn remove_model(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = handle(sim, a, 0)?;
     let n = sim.registry.visible_tree(own).len();
-    sim.remove_objects(&[own], true)?;
+    sim.remove_later(&[own], true)?;
     one(n as i64)
 }
 
@@ -415,7 +415,7 @@ pub(super) fn handles(a: Arguments<'_>, k: usize) -> Result<Vec<Handle>, ApiErro
 fn remove_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let given = handles(a, 0)?;
     let known: Vec<Handle> = given.iter().copied().filter(|own| sim.registry.entry(*own).is_ok()).collect();
-    sim.remove_objects(if known.is_empty() { &given } else { &known }, false)?;
+    sim.remove_later(if known.is_empty() { &given } else { &known }, false)?;
     done()
 }
 

@@ -48,6 +48,54 @@ impl SimApi<'_> {
         runtime.into_iter().try_for_each(|handle| self.remove(handle))
     }
 
+    /// Removes objects with the next change of the structure, all at once, if clients and scripts have made them and
+    /// all below them, and there are no scripts on them; else now. Whoever asks about objects before then is to call
+    /// [`SimApi::remove_doomed`] first.
+    ///
+    /// # Errors
+    ///
+    /// As of [`SimApi::remove_objects`].
+    pub(crate) fn remove_later(&mut self, handles: &[Handle], whole: bool) -> Result<(), ApiError> {
+        let is_doomed = |sim: &Self, own: &Handle| sim.registry.doomed.iter().any(|(other, _)| other == own);
+        if handles.iter().any(|own| is_doomed(self, own)) || self.registry.doomed.iter().any(|(_, whole)| *whole) {
+            self.remove_doomed()?;
+        }
+        let is_made = |sim: &Self, own: &Handle| {
+            let has_script = sim.registry.scene().scripts.iter().any(|script| script.object as i32 + 1 == own.0);
+            sim.registry.added.contains(own) && !has_script
+        };
+        let all = self.with_trees(handles, true)?;
+        if self.registry.belts.is_empty() && all.iter().all(|own| is_made(self, own)) {
+            self.registry.doomed.extend(handles.iter().map(|own| (*own, whole)));
+            return Ok(());
+        }
+        if all.iter().any(|own| self.is_of_model(*own)) {
+            self.make_bodies()?;
+        }
+        self.remove_objects(handles, whole)
+    }
+
+    /// Removes what waits for it: one compilation. If the scene cannot be without all, each is removed that can be.
+    ///
+    /// # Errors
+    ///
+    /// The first that cannot be removed.
+    pub fn remove_doomed(&mut self) -> Result<(), ApiError> {
+        let doomed = std::mem::take(&mut self.registry.doomed);
+        let Some((_, whole)) = doomed.first().copied() else { return Ok(()) };
+        let handles: Vec<Handle> = doomed.iter().map(|(own, _)| *own).collect();
+        if doomed.iter().all(|(_, other)| *other == whole) && self.remove_objects(&handles, whole).is_ok() {
+            return Ok(());
+        }
+        let mut done = Ok(());
+        for (own, whole) in doomed {
+            if self.registry.entry(own).is_ok() {
+                done = done.and(self.remove_objects(&[own], whole));
+            }
+        }
+        done
+    }
+
     /// Objects, with `whole` each with all below it.
     fn with_trees(&self, handles: &[Handle], whole: bool) -> Result<BTreeSet<Handle>, ApiError> {
         let mut chosen = BTreeSet::new();
