@@ -4,7 +4,7 @@
 use sincro_dynamics::world::World;
 
 use crate::api::{self, ApiError, Handle, ObjectRegistry, Request, SimApi, Value};
-use crate::host::{Host, Phase, Scripts, Setting};
+use crate::host::{Call, Host, Phase, Scripts, Setting};
 use sincro_scene::scenery::Piece;
 use sincro_scene::script::{Kind, ScriptError};
 use sincro_sim::controller::{Change, Commands, Controller, Forked, Instant, Message, SavedImage, ScriptFailure};
@@ -127,6 +127,20 @@ impl ApiController {
         let now = (lockstep.tick(), lockstep.t());
         let (scripts, registry, world) = Self::parts(lockstep)?;
         scripts.call_function((object, kind), (function, arguments), world, registry, now)
+    }
+
+    /// Lets the script on a vision sensor filter its picture; returns true if there is one that does.
+    ///
+    /// # Errors
+    ///
+    /// It has failed.
+    pub(crate) fn filter_picture(lockstep: &mut LockStep, sensor: Handle) -> Result<bool, ApiError> {
+        let (tick, t) = (lockstep.tick(), lockstep.t());
+        let Ok((scripts, registry, world)) = Self::parts(lockstep) else { return Ok(false) };
+        if !scripts.is_started() {
+            return Ok(false);
+        }
+        scripts.host.filter_picture(Call { world, registry, tick, t }, sensor)
     }
 
     /// Runs a text of the script's language in the script on an object.

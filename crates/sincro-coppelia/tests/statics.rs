@@ -174,6 +174,19 @@ fn a_body_on_a_ball_joint_is_not_made_static_and_the_error_says_why() {
 }
 
 #[test]
+fn a_ball_joint_is_turned_to_a_rotation() {
+    let mut s = open();
+    let [socket, hinge] = ["/socket", "/hinge"].map(|path| object(&mut s, path));
+    // a quarter turn about x
+    let matrix = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0];
+    call(&mut s, "sim.setSphericalJointMatrix", &[socket.clone(), Value::reals(matrix)]);
+    let read = call(&mut s, "sim.getJointMatrix", &[socket])[0].as_reals().unwrap();
+    assert!(read.iter().zip(matrix).all(|(a, b)| (a - b).abs() < 1e-12), "{read:?}");
+    let refused = s.call("sim.setSphericalJointMatrix", &[hinge, Value::reals(matrix)]).unwrap_err();
+    assert!(refused.0.contains("is no spherical joint"), "{refused:?}");
+}
+
+#[test]
 fn the_end_of_a_run_takes_the_static_bodies_of_it_back() {
     let mut s = open();
     let arm = object(&mut s, "/arm");

@@ -101,6 +101,15 @@ impl Host for Scripts {
         done
     }
 
+    fn filter_picture(&mut self, mut call: Call<'_>, sensor: Handle) -> Result<bool, ApiError> {
+        let Ok(k) = self.machine_on(sensor, None) else { return Ok(false) };
+        self.lend(&mut call);
+        let done = self.machines[k].filter_picture();
+        self.machines.iter().for_each(Machine::resume_script);
+        self.lend(&mut call);
+        done
+    }
+
     fn evaluate(
         &mut self,
         mut call: Call<'_>,

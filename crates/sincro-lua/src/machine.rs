@@ -536,6 +536,14 @@ impl Machine {
         self.within(|m| vision::filter(&m.lua, &m.shared, sensor, &function))
     }
 
+    /// Calls `sysCall_vision` of a script on a vision sensor that a client has handled; returns true if there is one.
+    pub fn filter_picture(&mut self) -> Result<bool, ApiError> {
+        let Some(function) = self.entries.vision.clone() else { return Ok(false) };
+        let sensor = self.shared.object(self.index);
+        let done = self.within(|m| vision::filter(&m.lua, &m.shared, sensor, &function));
+        done.map(|()| true).map_err(|fault| ApiError(fault.to_string()))
+    }
+
     /// Calls `sysCall_joint` of a script on a joint with a motor, once a step, after actuation: what it returns is what
     /// the joint is commanded.
     pub fn call_joint(&mut self, step: f64) -> Result<(), ScriptError> {

@@ -45,6 +45,7 @@
 //! | [`scene`], [`record`], [`experiment`], [`diagram`] | the three files, and the catalogue of signals between them |
 //! | [`open`], [`numbers`] | a folder with all of them; every number in it that a setting reaches |
 //! | [`draft`] | a compiled scene that is edited object by object, and compiled again |
+//! | [`keys`] | keys that tables of a scene file have for shapes and masses |
 //! | [`parallel`] | independent work on several threads |
 
 pub mod apply_overrides;
@@ -57,6 +58,7 @@ pub mod experiment;
 pub mod fmu;
 pub mod folder;
 mod instance_settings;
+pub mod keys;
 mod names;
 pub mod normalize;
 pub mod numbers;

@@ -143,6 +143,23 @@ impl<'a> SimApi<'a> {
         Ok(x_wb.inverse().compose(&self.place(&moving)))
     }
 
+    /// Turns the moving frame of a ball joint in its fixed one; `pose` gives the rotation. In a run the change of the
+    /// energy counts as work.
+    ///
+    /// # Errors
+    ///
+    /// `handle` is no ball joint of the model.
+    pub fn turn_ball_joint(&mut self, handle: Handle, pose: &Pose<f64>) -> Result<(), ApiError> {
+        let path = &self.registry.entry(handle)?.path;
+        let joint = self.world.model().names().joint(path).filter(|joint| joint.kind == JointKind::Ball);
+        let help = "is no spherical joint that carries a body: sim.setJointPosition sets the others";
+        let q_idx = joint.map(|joint| joint.q_idx).ok_or_else(|| ApiError(format!("`{path}` {help}")))?;
+        self.count_as_work(|sim| {
+            Quat::from_matrix(&pose.rot).normalized().write(&mut sim.world.state.q[q_idx..q_idx + 4]);
+        });
+        Ok(())
+    }
+
     /// Moves an object to a pose in a reference frame, position in `[m]`: a runtime object, a vision sensor, a frame
     /// below which the model moves nothing, a body that is joined to another one, or a body on a free joint, whose
     /// joint is set and whose velocity coordinates stay. Runtime objects below move with it.

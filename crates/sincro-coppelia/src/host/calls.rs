@@ -17,7 +17,7 @@ const OF_SCRIPTS: i64 = 450;
 /// Scripts with what they have said.
 #[derive(Debug)]
 pub(crate) struct Scripts {
-    host: Box<dyn Host>,
+    pub(crate) host: Box<dyn Host>,
     messages: Vec<Message>,
     n_dropped: usize,
     is_started: bool,

@@ -83,6 +83,14 @@ pub trait Host: Send + fmt::Debug {
         arguments: &[Value],
     ) -> Result<Vec<Value>, ApiError>;
 
+    /// Lets the script on a vision sensor filter its picture (`sysCall_vision`), as in a step; returns true if there is
+    /// one that does.
+    ///
+    /// # Errors
+    ///
+    /// The script has failed.
+    fn filter_picture(&mut self, call: Call<'_>, sensor: Handle) -> Result<bool, ApiError>;
+
     /// Runs a text as a chunk of the script on an object, with what that script knows and within its limits; returns
     /// what the chunk returns.
     ///

@@ -254,7 +254,14 @@ impl Session {
     /// No function of that name is offered, it has refused its arguments, or what it requested failed; the message
     /// names the function.
     pub fn call(&mut self, name: &str, arguments: &[Value]) -> Result<Vec<Value>, ApiError> {
-        let result = functions::call(&mut self.sim_as_it_is(), name, arguments)?;
+        let mut result = functions::call(&mut self.sim_as_it_is(), name, arguments)?;
+        let handled = functions::function(name).is_some_and(|f| f.name == "handleVisionSensor");
+        let sensor = arguments.first().and_then(Value::as_int).filter(|own| handled && *own > 0);
+        if let Some(sensor) = sensor
+            && ApiController::filter_picture(&mut self.lockstep, Handle(sensor as i32))?
+        {
+            result = functions::call(&mut self.sim_as_it_is(), "readVisionSensor", arguments)?;
+        }
         self.follow_changes()?;
         self.do_requests()?;
         Ok(result)

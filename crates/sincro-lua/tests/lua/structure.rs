@@ -73,6 +73,21 @@ fn a_script_and_a_client_that_change_the_structure_give_the_same_trace() {
 }
 
 #[test]
+fn models_are_found_by_whole_paths_in_the_folder_of_the_scene() {
+    let code = "function sysCall_init()
+            local folder = sim.getStringParameter(sim.stringparam_scene_path)
+            local own = sim.loadModel(folder .. '/part.toml')
+            print(sim.getObjectName(own), pcall(sim.loadModel, folder .. 'x/none.toml'))
+        end";
+    let scene = format!("{}\n[[script]]\nobject = \"/floor\"\nfile = \"a.lua\"\n", box_above_floor(0.1));
+    let part = "[[body]]\nname = \"peg\"\ndensity = 500.0\nshape = [{ sphere = { radius = 0.1 } }]\n";
+    let folder = SceneFolder::of(&scene, EXPERIMENT).with("a.lua", code).with("part.toml", part);
+    let done = run(&load(&folder, &[], sincro_testing::with_scripts()).unwrap());
+    assert_eq!(done.status, Status::Completed, "{:?}", done.messages);
+    assert!(done.messages[0].text.starts_with("part\tfalse"), "{:?}", done.messages);
+}
+
+#[test]
 fn what_a_script_removes_as_it_ends_leaves_a_report() {
     // the worst penetration is that of a pair which the last model lacks
     let code = "function sysCall_init()

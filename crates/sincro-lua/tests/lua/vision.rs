@@ -1,9 +1,10 @@
 //! Scripts of vision sensors: filters on their pictures, packets of their readings.
 
+use sincro_coppelia::api::Search;
 use sincro_math::elementary::{atan, tan};
 use sincro_sim::load;
 use sincro_sim::results::Status;
-use sincro_testing::{SceneFolder, run, with_scripts};
+use sincro_testing::{OpenSession, SceneFolder, run, with_scripts};
 
 /// An eye that looks at a red and a green ball before a dark wall, and a body with another script.
 const SCENE: &str = r##"
@@ -156,6 +157,30 @@ fn a_sensor_that_is_handled_explicitly_filters_when_it_is_handled() {
         matches!(&status, Status::Stopped { reason, .. } if reason.contains("handled within each other")),
         "{status:?}"
     );
+}
+
+#[test]
+fn a_sensor_that_a_client_handles_is_filtered_by_its_script() {
+    let eye = "n = 0
+    function sysCall_vision(inData)
+        n = n + 1
+        return { packedPackets = { sim.packFloatTable({ n }) } }
+    end";
+    let scene = SCENE.replace("EXPLICIT", "explicit_handling = true");
+    let folder = SceneFolder::of(&scene, EXPERIMENT).with("eye.lua", eye).with("arm.lua", "");
+    let mut session = OpenSession::open(folder, &[], with_scripts(), None);
+    let eye = session.registry().find("/eye", Search::default()).unwrap();
+    let count = |session: &mut OpenSession, name: &str| {
+        let reading = session.call(name, &[i64::from(eye.0).into()]).unwrap();
+        reading.get(2).and_then(|packet| packet.as_reals()).map(|packet| packet[0])
+    };
+    // scripts of a run have not begun
+    assert_eq!(count(&mut session, "sim.handleVisionSensor"), None);
+    session.start().unwrap();
+    session.step().unwrap();
+    assert_eq!(count(&mut session, "sim.handleVisionSensor"), Some(1.0));
+    assert_eq!(count(&mut session, "sim.readVisionSensor"), Some(1.0));
+    assert_eq!(count(&mut session, "simHandleVisionSensor"), Some(2.0));
 }
 
 #[test]

@@ -32,7 +32,6 @@ pub(super) enum Function {
 
 use Function::{Client, Refused, Session, Sim};
 
-const BALL_JOINTS: &str = "a ball joint is moved by forces and by its initial state, not put somewhere";
 const DIALOGS: &str = "there is nobody to answer a dialog here";
 const INTERFACES: &str = "there are no user interfaces here";
 
@@ -75,7 +74,7 @@ pub(super) const COMMANDS: &[Row] = &[
     row(0x1008, "simxSetJointTargetVelocity", Sim(joints::set_target_velocity)),
     row(0x1009, "simxReadProximitySensor", Sim(sensing::proximity)),
     row(0x100a, "simxGetJointMatrix", Sim(joints::matrix)),
-    row(0x100b, "simxSetSphericalJointMatrix", Refused(BALL_JOINTS)),
+    row(0x100b, "simxSetSphericalJointMatrix", Sim(joints::set_matrix)),
     row(0x100c, "simxSetJointTargetPosition", Sim(joints::set_target_position)),
     row(0x100d, "simxGetJointForce", Sim(joints::force)),
     row(0x100e, "simxSetJointMaxForce", Sim(joints::set_target_force)),

@@ -1,7 +1,7 @@
 //! Commands of the legacy API: joints.
 
 use sincro_coppelia::api::SimApi;
-use sincro_coppelia::api::convention::matrix_of;
+use sincro_coppelia::api::convention::{matrix_of, pose_of_matrix};
 
 use super::functions::{Call, Reply, after, reals};
 
@@ -36,4 +36,12 @@ pub(super) fn set_target_force(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
 
 pub(super) fn matrix(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
     reals(matrix_of(&sim.joint_pose(call.handle()?)?))
+}
+
+pub(super) fn set_matrix(sim: &mut SimApi<'_>, call: &Call<'_>) -> Reply {
+    let mut matrix = [0.0; 12];
+    for (k, x) in matrix.iter_mut().enumerate() {
+        *x = call.float(k)?;
+    }
+    after(sim.turn_ball_joint(call.handle()?, &pose_of_matrix(&matrix)))
 }

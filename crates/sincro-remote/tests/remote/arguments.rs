@@ -19,7 +19,8 @@ pub const ELSEWHERE: [&str; 8] = [
 
 /// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops,
 /// couplings, groups, a motion, mesh files.
-pub const NEEDS_MORE: [&str; 34] = [
+pub const NEEDS_MORE: [&str; 35] = [
+    "setSphericalJointMatrix",
     "getEngineFloatParameter",
     "setEngineFloatParameter",
     "addScript",

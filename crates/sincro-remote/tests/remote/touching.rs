@@ -121,7 +121,7 @@ fn what_touches_is_told_to_legacy_clients() {
         (0x1005, "vision"),
         (0x1006, "vision"),
         (0x1009, "proximity"),
-        (0x100b, "ball joint"),
+        (0x100b, "is no spherical joint"),
         (0x1011, "vision"),
         (0x1017, "vision"),
         (0x101e, "vector parameter"),

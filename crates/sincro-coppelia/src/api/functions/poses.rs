@@ -62,6 +62,15 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: joint_matrix,
     },
     Function {
+        name: "setSphericalJointMatrix",
+        tip: "sim.setSphericalJointMatrix(int objectHandle,float[12] matrix)",
+        run: |sim, a| {
+            let own = handle(sim, a, 0)?;
+            sim.turn_ball_joint(own, &convention::pose_of_matrix(&a.reals(1)?))?;
+            done()
+        },
+    },
+    Function {
         name: "setObjectChildPose",
         tip: "sim.setObjectChildPose(int objectHandle,float[7] pose)",
         run: set_child_pose,

@@ -2,7 +2,7 @@
 //! consoles run here as they are.
 
 use super::{Function, Outcome, one};
-use crate::api::{Arguments, SimApi};
+use crate::api::{Arguments, SimApi, Value};
 
 /// Gives a handle of something that is not there, or says that it went well.
 fn taken(_: &mut SimApi<'_>, _: Arguments<'_>) -> Outcome {
@@ -40,6 +40,11 @@ pub(super) const FUNCTIONS: &[Function] = &[
     shown("setPage", "int result=sim.setPage(int pageIndex)"),
     shown("refreshDialogs", "int result=sim.refreshDialogs(int refreshDegree)"),
     shown("announceSceneContentChange", "int result=sim.announceSceneContentChange()"),
+    Function {
+        name: "fileDialog",
+        tip: "string pathAndName=sim.fileDialog(int mode,string title,string startPath,string initName,string extName,string ext)",
+        run: |_, _| one(Value::Nil),
+    },
     shown("endDialog", "int result=sim.endDialog(int dialogHandle)"),
     shown(
         "addBanner",

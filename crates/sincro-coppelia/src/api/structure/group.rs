@@ -4,13 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value};
 use sincro_dynamics::model::MassProperties;
-use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
+use sincro_dynamics::spatial::Pose;
 
+use super::Rebuild;
 use super::remove::idle_joints;
-use super::{Rebuild, table};
 use crate::api::registry::{Handle, Kind};
 use crate::api::{ApiError, Reference, SimApi};
 use sincro_scene::draft::pose_keys;
+use sincro_scene::keys::{mass_keys, pose_of};
 
 /// Difference of velocities that is put down to rounding, relative to `1 + |v|`.
 const SAME: f64 = 1e-9;
@@ -122,25 +123,4 @@ fn shapes_of(keys: &Map<String, Value>, path: &str, x_fo: &Pose<f64>) -> Result<
         Ok(Value::Object(shape))
     });
     placed.collect()
-}
-
-/// Pose that `position` and `quaternion_wxyz` of a table give.
-fn pose_of(keys: &Map<String, Value>) -> Pose<f64> {
-    let numbers = |key: &str| -> Option<Vec<f64>> { keys.get(key)?.as_array()?.iter().map(Value::as_f64).collect() };
-    let pos = numbers("position").and_then(|list| list.try_into().ok()).map_or(Vec3([0.0; 3]), Vec3);
-    let quaternion = numbers("quaternion_wxyz").and_then(|list| <[f64; 4]>::try_from(list).ok());
-    let rot = quaternion.map_or_else(Mat3::identity, |q| Quat::from_slice(&q).normalized().matrix());
-    Pose { rot, pos }
-}
-
-/// Keys of mass, centre of mass and inertia of a body.
-pub(super) fn mass_keys(mass: &MassProperties) -> Map<String, Value> {
-    let [xx, xy, xz, yy, yz, zz] = mass.inertia;
-    let inertia = [("xx", xx), ("xy", xy), ("xz", xz), ("yy", yy), ("yz", yz), ("zz", zz)];
-    let inertia = inertia.map(|(key, value)| (key, Value::from(value)));
-    table([
-        ("mass", mass.mass.into()),
-        ("center_of_mass", Value::from(mass.center_of_mass.to_vec())),
-        ("inertia", Value::Object(table(inertia))),
-    ])
 }

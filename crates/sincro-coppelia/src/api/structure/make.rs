@@ -1,18 +1,18 @@
 //! Joints and moving bodies that are made at run time.
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 use sincro_dynamics::contact::Surface;
 use sincro_dynamics::geometry::polyhedron::{convex_hull, mass_properties};
-use sincro_dynamics::model::{MassProperties, Shape};
+use sincro_dynamics::model::MassProperties;
 use sincro_dynamics::spatial::{Pose, Vec3};
 
-use super::group::mass_keys;
 use super::{Rebuild, free_joint, table};
 use crate::api::registry::{Handle, Kind, WORLD};
 use crate::api::runtime_objects::MAX_CREATED;
 use crate::api::tree::is_force_sensor;
 use crate::api::{ApiError, Reference, SimApi};
 use sincro_scene::draft::pose_keys;
+use sincro_scene::keys::{mass_keys, shape_keys};
 use sincro_scene::scenery::Piece;
 
 /// Density of what is made without a mass, as in V-REP [kg/m³].
@@ -332,8 +332,10 @@ impl SimApi<'_> {
     fn shapes_of_body(&mut self, shape: Handle) -> Result<Vec<Value>, ApiError> {
         let path = self.registry.entry(shape)?.path.clone();
         let parts = self.registry.senses.parts_of(shape);
+        let flat =
+            || ApiError(format!("`{path}` is flat: a body that moves or touches needs a volume, such as a cuboid"));
         let keys = parts.into_iter().map(|(piece, place)| {
-            let mut keys = shape_keys(piece.geometry.surface(), &path)?;
+            let mut keys = shape_keys(piece.geometry.surface()).ok_or_else(flat)?;
             keys.extend(pose_keys(&place));
             let [r, g, b] = piece.color;
             keys.insert("color".into(), format!("#{r:02x}{g:02x}{b:02x}").into());
@@ -386,29 +388,4 @@ fn hull_mass(parts: &[(Piece, Pose<f64>)], mass: Option<f64>) -> Option<MassProp
     let scale = mass.map_or(1.0, |mass| mass / of_water.mass);
     let inertia = of_water.inertia.map(|x| x * scale);
     Some(MassProperties { mass: of_water.mass * scale, inertia, ..of_water })
-}
-
-/// A surface as a shape of a scene file; meshes are their convex hulls.
-fn shape_keys(surface: &Surface, path: &str) -> Result<Map<String, Value>, ApiError> {
-    let round = |radius: f64, length: f64| Value::Object(table([("radius", radius.into()), ("length", length.into())]));
-    let flat = || ApiError(format!("`{path}` is flat: a body that moves or touches needs a volume, such as a cuboid"));
-    let points = |list: &[[f64; 3]]| {
-        let list: Vec<Value> = list.iter().map(|p| Value::from(p.to_vec())).collect();
-        table([("hull", Value::Object(table([("points", Value::Array(list))])))])
-    };
-    Ok(match surface {
-        Surface::Solid(Shape::Cuboid { size }) if size.iter().all(|x| *x > 0.0) => {
-            table([("cuboid", Value::Object(table([("size", Value::from(size.to_vec()))])))])
-        }
-        Surface::Solid(Shape::Sphere { radius }) => {
-            table([("sphere", Value::Object(table([("radius", (*radius).into())])))])
-        }
-        Surface::Solid(Shape::Cylinder { radius, length }) if *length > 0.0 => {
-            table([("cylinder", round(*radius, *length))])
-        }
-        Surface::Solid(Shape::Cone { radius, length }) => table([("cone", round(*radius, *length))]),
-        Surface::Solid(Shape::Capsule { radius, length }) => table([("capsule", round(*radius, *length))]),
-        Surface::Hull(list) | Surface::Mesh(list, _) => points(list),
-        _ => return Err(flat()),
-    })
 }

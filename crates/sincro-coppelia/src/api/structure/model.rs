@@ -94,7 +94,11 @@ impl SimApi<'_> {
             whole(&file).filter(|file| file.is_file() && file.starts_with(root))
         };
         for root in &roots {
-            let candidates = [&*text, plain, under_models, last, &spelled].into_iter().filter(|name| stays(name));
+            // whole paths, which scripts make of sim.stringparam_scene_path
+            let below = |text| Path::new(text).strip_prefix(root).or_else(|_| Path::new(text).strip_prefix(&scene));
+            let [whole, whole_plain] =
+                [&*text, plain].map(|text| below(text).ok().and_then(Path::to_str).unwrap_or(text));
+            let candidates = [whole, whole_plain, under_models, last, &spelled].into_iter().filter(|name| stays(name));
             if let Some(file) = candidates.filter_map(|name| within(root, name)).next() {
                 return Ok(file);
             }
