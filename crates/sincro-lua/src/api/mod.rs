@@ -16,6 +16,7 @@ mod threads;
 mod vision;
 
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub(crate) use callbacks::{find as function_of, hold_variables, set_held_variables};
@@ -141,16 +142,46 @@ impl ApiContext<'_> {
         })
     }
 
+    /// Mode of the errors of the script, parameter 0: a name that is not found is an error (1, as at the start), or −1
+    /// is the answer (0).
+    fn error_report_mode(&self) -> mlua::Result<Arc<AtomicI64>> {
+        let mode = Arc::new(AtomicI64::new(1));
+        let (kept, others) = (mode.clone(), self.sim.get::<Function>("setInt32Param")?);
+        let set = self.lua.create_function(move |_, arguments: MultiValue| {
+            match arguments.get(1).and_then(LuaValue::as_integer).filter(|_| names_errors(&arguments)) {
+                Some(value) => kept.store(value, Ordering::Relaxed),
+                None => return others.call::<MultiValue>(arguments),
+            }
+            Ok(MultiValue::from_iter([LuaValue::Integer(1)]))
+        })?;
+        let (kept, others) = (mode.clone(), self.sim.get::<Function>("getInt32Param")?);
+        let get = self.lua.create_function(move |_, arguments: MultiValue| match names_errors(&arguments) {
+            true => Ok(MultiValue::from_iter([LuaValue::Integer(kept.load(Ordering::Relaxed))])),
+            false => others.call(arguments),
+        })?;
+        for ending in ["Int32Param", "Int32Parameter", "IntegerParameter"] {
+            self.put(&format!("set{ending}"), set.clone())?;
+            self.put(&format!("get{ending}"), get.clone())?;
+        }
+        Ok(mode)
+    }
+
     /// Functions of the session that scripts have in another way.
     fn replace_some(&self) -> mlua::Result<()> {
-        let (shared, own) = (self.shared.clone(), self.own);
+        let (shared, own, mode) = (self.shared.clone(), self.own, self.error_report_mode()?);
         self.add("getObjectHandle", move |_, name: String| {
+            let silent = name.strip_suffix("@silentError").map(str::to_owned);
+            let is_silent = silent.is_some() || mode.load(Ordering::Relaxed) == 0;
+            let name = silent.unwrap_or(name);
             // a number that scripts of V-REP give in place of a name
             if name == SELF {
                 return Ok(own.0);
             }
             let found = shared.with_sim_as_it_is(own, |sim| sim.found_by(&name, |sim| object_of_name(sim, own, &name)));
-            found.map(|handle| handle.0).map_err(|error| refused("getObjectHandle", &error))
+            match found {
+                Err(_) if is_silent => Ok(-1),
+                found => found.map(|handle| handle.0).map_err(|error| refused("getObjectHandle", &error)),
+            }
         })?;
         let (shared, index) = (self.shared.clone(), self.index);
         self.add("addStatusbarMessage", move |_, text: Option<String>| {
@@ -242,6 +273,11 @@ impl ApiContext<'_> {
 fn is_of_no_parameter(error: &Error) -> bool {
     let message = crate::fault::words(error).0;
     message.contains(" object parameter ") || message.contains("` is no ")
+}
+
+/// Returns true if the first argument is the parameter of the mode of errors (`sim.intparam_error_report_mode`).
+fn names_errors(arguments: &MultiValue) -> bool {
+    arguments.front().and_then(LuaValue::as_integer) == Some(0)
 }
 
 /// Returns true if a value is a number that is not finite, or has one in it.

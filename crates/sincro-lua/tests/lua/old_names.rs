@@ -3,6 +3,19 @@
 use super::world::{EXPERIMENT, PENDULUM, open, run, said};
 
 #[test]
+fn names_that_are_not_there_are_errors_unless_a_script_says_otherwise() {
+    let code = "function sysCall_init()
+            local mode = sim.getInt32Parameter(sim.intparam_error_report_mode)
+            print(mode, pcall(sim.getObjectHandle, 'none') and 'found' or 'error')
+            sim.setInt32Parameter(sim.intparam_error_report_mode, 0)
+            print(simGetObjectHandle('none'), sim.getObjectHandle('arm') > 0, simGetIntegerParameter(0))
+            sim.setInt32Parameter(sim.intparam_error_report_mode, mode)
+            print(sim.getObjectHandle('none@silentError'), pcall(sim.getObjectHandle, 'none') and 'found' or 'error')
+        end";
+    assert_eq!(said(code), ["1\terror", "-1\ttrue\t0", "-1\terror"]);
+}
+
+#[test]
 fn joints_move_together_to_positions() {
     let code = "function sysCall_thread()
             local joint = sim.getObject('/hinge')
