@@ -174,6 +174,11 @@ impl Scripts {
             (0..n).try_for_each(|k| self.with_machine(k, |m| m.call_dynamics(step, true)))?;
             (0..n).try_for_each(|k| self.with_machine(k, Machine::call_vision))?;
         }
+        if phase == Phase::Initialization {
+            // those of customization scripts have begun before any of them is told of a run
+            let begin = |m: &mut Machine| if m.is_customization() { m.call(Phase::Open) } else { Ok(()) };
+            (0..n).try_for_each(|k| self.with_machine(k, begin))?;
+        }
         let is_in_step = matches!(phase, Phase::Actuation | Phase::Sensing);
         let called = (0..n).try_for_each(|k| {
             // others call those that V-REP's cascade leaves to the script above

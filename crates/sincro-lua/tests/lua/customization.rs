@@ -36,6 +36,21 @@ const TELLING: &str = "
     function ask(x) return x + n end";
 
 #[test]
+fn all_customization_scripts_begin_before_one_is_told_of_a_run() {
+    let script = |object: &str, name: &str| {
+        let code = format!(
+            "function sysCall_init() print('{name} begins') end function sysCall_beforeSimulation() print('{name} runs') end"
+        );
+        format!("[[script]]\nobject = \"{object}\"\nkind = \"customization\"\ncode = \"\"\"\n{code}\n\"\"\"\n")
+    };
+    let scene = format!("{PENDULUM}\n{}{}", script("/hinge/arm", "arm"), script("/hinge", "hinge"));
+    let loaded = open(&[("scene.toml", &scene), ("experiment.toml", EXPERIMENT)]).unwrap();
+    let said: Vec<String> = run(&loaded).messages.into_iter().map(|message| message.text).collect();
+    assert_eq!(said.len(), 4, "{said:?}");
+    assert!(said[..2].iter().all(|text| text.ends_with("begins")), "{said:?}");
+}
+
+#[test]
 fn a_customization_script_lives_while_stopped_and_through_runs() {
     let mut session = session(TELLING, "n = (n or 0) + 1 function sysCall_init() print('child', n) end");
     session.idle().unwrap();
