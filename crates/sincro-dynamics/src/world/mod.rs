@@ -421,8 +421,8 @@ impl World {
         self.substeps = n.max(1);
     }
 
-    /// Lets work and dissipation, if they are tracked, take part in error control, relative to max(|energy|, 1 J).
-    /// Where an event bounds a step, no accuracy of states shortens it, and the energies of a finer run would be off as those
+    /// Lets work and dissipation, if they are tracked, take part in error control, relative to max(|energy|, 1 J): no
+    /// accuracy of states shortens a step that an event bounds, and the energies of a finer run would be off as those
     /// of the coarser one. For error estimates by refinement.
     pub fn control_energies(&mut self) {
         self.mechanism.control_energies();
