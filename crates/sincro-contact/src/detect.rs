@@ -66,7 +66,8 @@ impl Detector {
             let reach = self.broad_phase.margin(pair, margin);
             self.slots.clear();
             self.slots.resize(pair.slots, None);
-            self.detect_pair((k, pair), colliders, poses, ContactKind::of(former(pair)), reach);
+            let is_step = margin.time > 0.0;
+            self.detect_pair((k, pair), colliders, poses, ContactKind::of(former(pair)), (reach, is_step));
             for (slot, candidate) in (pair.first..).zip(&self.slots) {
                 if let Some(candidate) = candidate {
                     found.push(SlotCandidate { slot: slot as u32, pair: k as u32, candidate: *candidate });
@@ -75,21 +76,21 @@ impl Detector {
         }
     }
 
-    /// Narrow phase of pair `k`: writes its candidates to `slots`.
+    /// Narrow phase of pair `k`: writes its candidates to `slots`; `is_step` for those of a whole step.
     fn detect_pair(
         &mut self,
         (k, pair): (usize, &Pair),
         colliders: &[Collider],
         poses: &[Pose<f64>],
         former: ContactKind,
-        margin: f64,
+        (margin, is_step): (f64, bool),
     ) {
         let slots = &mut self.slots[..];
         let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
         let at = |c: &Collider| if c.link == WORLD { c.pose } else { poses[c.link as usize].compose(&c.pose) };
         match pair.kind {
             PairKind::PointsOnPlane => points_on_plane(&self.points[pair.a], a, b, slots),
-            PairKind::DiscsOnPlane => discs_on_plane(a, b, (&at(a), &at(b)), slots),
+            PairKind::DiscsOnPlane => discs_on_plane(a, b, (&at(a), &at(b)), is_step, slots),
             PairKind::Balls => slots[0] = Some(balls(a, b)),
             PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
             PairKind::Polytopes => {
@@ -154,11 +155,13 @@ fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, s
     }
 }
 
-/// Both ends of a cylinder, or the circle of a torus, over a plane.
+/// Both ends of a cylinder, or the circle of a torus, over a plane: the lowest point of each rim, with the three points
+/// a quarter of a turn from it and opposite that the rim may come to rest on within a step (`is_step`).
 fn discs_on_plane(
     a: &Collider,
     b: &Collider,
     (at_a, at_b): (&Pose<f64>, &Pose<f64>),
+    is_step: bool,
     slots: &mut [Option<ContactCandidate>],
 ) {
     // of a torus the circle in the middle of its tube
@@ -170,16 +173,17 @@ fn discs_on_plane(
     let (n, axis) = (at_b.rot.col(2), at_a.rot.col(2));
     let across = n - axis.scale(n.dot(axis));
     let stands = across.norm() < STANDS;
+    let [x, y, _] = if stands { [1.0, 0.0, 0.0] } else { at_a.rot.tr_mul_vec(across.scale(-1.0 / across.norm())).0 };
+    let around = [[x, y], [-y, x], [-x, -y], [y, -x]];
     for (slots, z) in slots.chunks_mut(4).zip(heights) {
         let center = a.pose.point(Vec3([0.0, 0.0, z]));
+        for (slot, [x, y]) in slots.iter_mut().zip(around).filter(|_| stands || is_step) {
+            let point = Vec3([radius * x, radius * y, z]);
+            *slot = Some(candidate(a, b, a.pose.point(point), rounding, plane_of(b)));
+        }
         if !stands {
             let rim = Some(Rim { axis: a.pose.rot.col(2), radius });
             slots[0] = Some(ContactCandidate { rim, ..candidate(a, b, center, rounding, plane_of(b)) });
-            continue;
-        }
-        for (k, slot) in slots.iter_mut().enumerate() {
-            let e = [[radius, 0.0, z], [0.0, radius, z], [-radius, 0.0, z], [0.0, -radius, z]][k];
-            *slot = Some(candidate(a, b, a.pose.point(Vec3(e)), rounding, plane_of(b)));
         }
     }
 }

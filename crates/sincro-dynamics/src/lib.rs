@@ -37,7 +37,6 @@ pub mod coupled;
 pub mod energy;
 pub mod ids;
 pub mod initial;
-pub mod inverse_kinematics;
 pub mod joint;
 pub mod mechanism;
 pub mod model;

@@ -58,6 +58,7 @@ pub mod experiment;
 pub mod fmu;
 pub mod folder;
 mod instance_settings;
+pub mod inverse_kinematics;
 pub mod keys;
 mod names;
 pub mod normalize;

@@ -224,3 +224,90 @@ fn spinning_chains_converge_at_first_order() {
         assert!(coarse < 0.1 && (1.8..2.2).contains(&ratio), "draw {draw}: errors {coarse:e} and {fine:e}");
     }
 }
+
+/// Scene of a body on a free joint that a loop joint holds to the world at a point of it.
+fn held(body: &Body, kind: &str, point: [f64; 3]) -> String {
+    let scene = body.scene("free");
+    format!(
+        "{scene}[[frame]]\nname = \"anchor\"\nposition = {point:?}\n[[frame]]\nname = \"pin\"\n\
+         parent = \"/joint/body\"\nposition = {point:?}\n[[closure]]\nname = \"loop\"\nkind = \"{kind}\"\n\
+         between = [\"/anchor\", \"/joint/body/pin\"]\n"
+    )
+}
+
+#[test]
+fn bodies_that_loop_joints_hold_keep_their_energy() {
+    let mut number = uniform(14);
+    for draw in 0..10 {
+        let body = Body::random(&mut number);
+        let point = velocity(&mut number, 0.3);
+        let speed = 10.0 + 10.0 * number();
+        for kind in ["point", "hinge"] {
+            let omega = if kind == "point" { velocity(&mut number, speed) } else { [0.0, 0.0, speed] };
+            let linear = cross(point, omega);
+            let energy = |world: &mut World| world.energy().kinetic;
+            let v = [omega, linear].concat();
+            let mut world = world(&held(&body, kind, point), MethodKind::SemiImplicitEuler, 5e-3, &v);
+            let before = energy(&mut world);
+            advance(&mut world, 5e-3, 1000);
+            let change = energy(&mut world) / before - 1.0;
+            assert!(change.abs() < 0.02, "draw {draw}, {kind}: the energy changed by {change:e} of it");
+        }
+    }
+}
+
+#[test]
+fn an_armature_of_a_ball_joint_takes_part() {
+    // a point mass below: nothing turns it about the vertical
+    let scene = "[[joint]]\nname = \"joint\"\nkind = \"ball\"\narmature = [0.01, 0.01, 0.01]\n[[body]]\nname = \"body\"\n\
+                 parent = \"/joint\"\nmass = 1.0\ncenter_of_mass = [0.0, 0.0, -0.5]\n\
+                 inertia = { xx = 0.0, yy = 0.0, zz = 0.0 }\n";
+    let mut world = world(scene, MethodKind::SemiImplicitEuler, 5e-3, &[1.0, 2.0, 3.0]);
+    advance(&mut world, 5e-3, 200);
+    assert!((world.state.v[2] - 3.0).abs() < 1e-9, "{:?}", world.state.v);
+}
+
+/// Scene of a body that wobbles on its flat end over a floor, alone or beside boxes that make the problem a large one.
+fn wobbling(shape: &str, height: f64, restitution: f64, with_boxes: bool) -> String {
+    let contact = format!("contact = {{ friction = 0.3, restitution = {restitution:?} }}\n");
+    let mut text = format!(
+        "[[body]]\nname = \"floor\"\nshape = [{{ plane = {{}} }}]\n{contact}[[joint]]\nname = \"air\"\nkind = \"free\"\n\
+         initial = {{ position = [0.0, 0.0, {height:?}, 1.0, 0.0, 0.0, 0.0] }}\n[[body]]\nname = \"body\"\n\
+         parent = \"/air\"\ndensity = 800.0\nshape = [{{ {shape} }}]\n{contact}"
+    );
+    for k in 0..if with_boxes { 3 } else { 0 } {
+        let _ = write!(
+            text,
+            "[[joint]]\nname = \"k{k}\"\nkind = \"free\"\n\
+             initial = {{ position = [{:?}, 3.0, 0.05, 1.0, 0.0, 0.0, 0.0] }}\n[[body]]\nname = \"box\"\n\
+             parent = \"/k{k}\"\ndensity = 800.0\nshape = [{{ cuboid = {{ size = [0.1, 0.1, 0.1] }} }}]\n\
+             contact = {{ friction = 0.3 }}\n",
+            0.3 * f64::from(k)
+        );
+    }
+    text
+}
+
+#[test]
+fn discs_and_tori_that_wobble_gain_no_energy_and_sink_nowhere() {
+    let mut number = uniform(15);
+    for (shape, half) in [
+        ("cylinder = { radius = 0.3, length = 0.1 }", 0.05),
+        ("cylinder = { radius = 0.08, length = 0.06 }", 0.03),
+        ("torus = { major_radius = 0.06, tube_radius = 0.03 }", 0.03),
+    ] {
+        for (restitution, with_boxes) in [(0.0, false), (0.0, true), (0.3, false), (0.3, true), (0.05, true)] {
+            let [x, y] = [number(), number()].map(|x| 4.0 * (x - 0.5));
+            let scene = wobbling(shape, half + 2e-4, restitution, with_boxes);
+            let mut world = world(&scene, MethodKind::SemiImplicitEuler, 5e-3, &[x, y, 1.0]);
+            let (before, mut lowest) = (world.energy().total(), f64::INFINITY);
+            for _ in 0..20 {
+                advance(&mut world, 5e-3, 50);
+                lowest = lowest.min(world.state.q[2]);
+                let growth = world.energy().total() - before;
+                assert!(growth < 1e-9, "{shape}, {restitution}, {with_boxes}: the energy grew by {growth:e} J");
+            }
+            assert!(lowest > half - 2e-3, "{shape}, {restitution}, {with_boxes}: down to {lowest} m");
+        }
+    }
+}

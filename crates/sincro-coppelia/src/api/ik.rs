@@ -11,11 +11,11 @@
 //! own it has positions of joints, from a calculation or setting until the scene is taken over again. Searches, which
 //! move nothing, are in `ik_search.rs`.
 
-use sincro_dynamics::inverse_kinematics::{LEAST_DAMPING, MAX_ROTATION_STEP, MAX_TRANSLATION_STEP};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::spatial::{Pose, Vec3, rotation_between};
 use sincro_math::elementary::atan2;
 use sincro_math::least_squares::damped_step;
+use sincro_scene::inverse_kinematics::{LEAST_DAMPING, MAX_ROTATION_STEP, MAX_TRANSLATION_STEP};
 
 use std::collections::{BTreeMap, BTreeSet};
 

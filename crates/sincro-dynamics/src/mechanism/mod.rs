@@ -42,6 +42,7 @@ use crate::state::{State, displace};
 use bearing_load::Bearings;
 use drive_monitor::DriveMonitor;
 use layout::Layout;
+use rotating_axes::RotatingLinks;
 use singular::SingularPassage;
 use torques::{TorqueInput, joint_torques};
 
@@ -104,6 +105,7 @@ pub struct Mechanism<R> {
     projection_scale: f64,
     /// Number of totals that take part in error control: work and dissipation, or none.
     n_controlled_totals: usize,
+    rotating: RotatingLinks,
     /// Passage of a singular position of the loops.
     singular: SingularPassage<R>,
     /// Laws of limited drives at the stages of a step.
@@ -144,6 +146,7 @@ impl<R: Real> Mechanism<R> {
             constraint_change: zero.clone(),
             projection_scale: 1.0,
             n_controlled_totals: 0,
+            rotating: RotatingLinks::new(&model),
             singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
             // constraints branch, which lanes cannot
@@ -328,9 +331,9 @@ impl<R: Real> Mechanism<R> {
             Some((h, Implicit::Dampers)) => Some(h),
             _ => None,
         };
-        let in_fixed_axes = velocity_level.filter(|_| self.model.has_quaternions());
+        let in_fixed_axes = velocity_level.filter(|_| !self.rotating.is_empty());
         if let Some(h) = in_fixed_axes {
-            rotating_axes::add_gyroscopic_corrections(&self.model, h, v, &self.locked_mask, &mut self.torque);
+            self.rotating.correct_torques(&self.model, h, v, &self.locked_mask, &mut self.torque);
         }
         let external = if self.has_external() {
             self.external_wrenches(t, v, rotors, implicit);
@@ -354,7 +357,7 @@ impl<R: Real> Mechanism<R> {
         };
         aba::forward_dynamics(&self.model, &input, &mut self.scratch, v_dot);
         if in_fixed_axes.is_some() {
-            rotating_axes::accelerations_in_fixed_axes(&self.model, v, &self.locked_mask, v_dot);
+            self.rotating.fix_axes(&self.model, v, &self.locked_mask, v_dot);
         }
         let has_drives = !self.drives.is_empty();
         let implicit_forces = match implicit {
@@ -771,9 +774,8 @@ impl<R: Real> System<R> for Mechanism<R> {
     #[inline(always)]
     fn rechart_at_velocity_level(&mut self, y: &mut [R]) {
         self.rechart(y);
-        if self.model.has_quaternions() {
-            self.turn_velocities(y);
-        }
+        // the former centre of the chart is left in q
+        self.rotating.turn_velocities(&self.model, (&self.q, &self.base), &mut y[self.layout.velocities()]);
     }
 
     fn magnitude(&self, y: &[R], k: usize) -> f64 {

@@ -13,92 +13,129 @@
 
 use sincro_math::Real;
 
-use super::Mechanism;
 use crate::joint::{Link, StageKind, WORLD};
-use crate::model::Model;
+use crate::model::{LoopJointKind, Model};
 use crate::spatial::{Quat, RigidInertia, Sym3, Vec3};
 
-/// First degrees of freedom and inertias of the links that `holds` holds for.
-#[inline(always)]
-fn links<R: Real>(
-    model: &Model<R>,
-    holds: impl Fn(&Link<R>) -> bool,
-) -> impl Iterator<Item = (usize, &Link<R>, &RigidInertia<R>)> {
-    let all = model.links().iter().zip(&model.params.inertias);
-    all.filter(move |(link, _)| holds(link)).map(|(link, inertia)| (link.first_dof(), link, inertia))
+/// Link whose axes rotate with a free or ball joint on the world.
+#[derive(Clone, Copy, Debug)]
+struct RotatingLink {
+    link: usize,
+    /// Point of the link whose velocity keeps its direction over a step `[m]`, link axes: that of the loop joint that
+    /// ties its tree to the world or another tree, which else would be left; `None` for the centre of mass.
+    pivot: Option<Vec3<f64>>,
+    /// True if it turns about that point as a rigid body alone.
+    is_alone: bool,
 }
 
-/// Centre of mass of a link `[m]`, link axes; the origin of a link without mass.
-#[inline(always)]
-fn center_of_mass<R: Real>(inertia: &RigidInertia<R>) -> Vec3<R> {
-    inertia.moment.scale(R::zero().if_less(inertia.mass, R::one() / inertia.mass, R::zero()))
+impl RotatingLink {
+    /// Point whose velocity keeps its direction `[m]`, link axes.
+    #[inline(always)]
+    fn point<R: Real>(&self, inertia: &RigidInertia<R>) -> Vec3<R> {
+        self.pivot.map_or_else(|| inertia.center_of_mass(), |pivot| Vec3(pivot.0.map(R::splat)))
+    }
+
+    /// Rotational inertia about that point.
+    #[inline(always)]
+    fn inertia<R: Real>(&self, inertia: &RigidInertia<R>) -> Sym3<R> {
+        inertia.shifted(-self.point(inertia)).rotational
+    }
+}
+
+/// Links whose axes rotate with a free or ball joint on the world; not those that loop joints hold by other links of
+/// their tree: what has a velocity there turns with them.
+#[derive(Clone, Debug)]
+pub(super) struct RotatingLinks(Vec<RotatingLink>);
+
+impl RotatingLinks {
+    /// Finds those of a model.
+    pub fn new<R: Real>(model: &Model<R>) -> Self {
+        let trees = model.trees();
+        let tree = |link: u32| trees.get(link as usize).copied().unwrap_or(WORLD);
+        let joints = model.params.constraints.loop_joints.iter();
+        let ties: Vec<_> = joints.filter(|joint| tree(joint.a.link) != tree(joint.b.link)).collect();
+        let found = model.links().iter().enumerate().filter_map(|(k, link)| {
+            if link.parent != WORLD || !matches!(link.kind, StageKind::Free | StageKind::Ball) {
+                return None;
+            }
+            let ends = ties.iter().flat_map(|joint| [(&joint.a, joint.kind), (&joint.b, joint.kind)]);
+            let mut held = ends.filter(|(end, _)| tree(end.link) == k as u32);
+            let Some((end, kind)) = held.next() else {
+                return Some(RotatingLink { link: k, pivot: None, is_alone: !link.has_children });
+            };
+            let is_alone = !link.has_children
+                && matches!(kind, LoopJointKind::Point | LoopJointKind::Weld)
+                && held.next().is_none();
+            (end.link == k as u32).then_some(RotatingLink { link: k, pivot: Some(end.pose.pos), is_alone })
+        });
+        Self(found.collect())
+    }
+
+    /// Returns true if there are none.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// First degree of freedom, link, its inertia about the point that keeps the direction of its velocity, and that
+    /// point, of each.
+    #[inline(always)]
+    fn of<'a, R: Real>(
+        &'a self,
+        model: &'a Model<R>,
+    ) -> impl Iterator<Item = (usize, &'a Link<R>, &'a RigidInertia<R>, &'a RotatingLink)> {
+        let of = |r: &'a RotatingLink| {
+            let link = &model.links[r.link];
+            (link.first_dof(), link, &model.params.inertias[r.link], r)
+        };
+        self.0.iter().map(of)
+    }
+
+    /// Adds to the rates of free joints `v_dot`, in axes that rotate, what makes them rates in the axes at the start of
+    /// the step, of the point that the centre of mass then is at. Rates that a drive prescribes (1 in `locked`) stay.
+    #[inline(always)]
+    pub fn fix_axes<R: Real>(&self, model: &Model<R>, v: &[R], locked: &[R], v_dot: &mut [R]) {
+        for (k, _, inertia, rotating) in self.of(model).filter(|(_, link, ..)| link.is_free()) {
+            let (omega, linear) = (vector(v, k), vector(v, k + 3));
+            let turning = omega.cross(linear + omega.cross(rotating.point(inertia)));
+            for c in 0..3 {
+                v_dot[k + 3 + c] += (R::one() - locked[k + 3 + c]) * turning[c];
+            }
+        }
+    }
+
+    /// Adds to the joint torques of single bodies what makes their gyroscopic torque at the start of a step of length
+    /// `h` `[s]` that of a rotation of their angular momentum over the step. None where a drive prescribes a rate of
+    /// rotation (1 in `locked`), and where a joint has inertia of its own: it is not the body alone that turns.
+    #[inline(always)]
+    pub fn correct_torques<R: Real>(&self, model: &Model<R>, h: f64, v: &[R], locked: &[R], torque: &mut [R]) {
+        for (k, link, inertia, rotating) in self.of(model).filter(|(.., rotating)| rotating.is_alone) {
+            let omega = vector(v, k);
+            let inertia = if link.is_free() { rotating.inertia(inertia) } else { inertia.rotational };
+            let correction = omega.cross(inertia.mul_vec(omega)) - inertia.mean_gyroscopic_torque(omega, h);
+            let is_alone = |c: usize| R::zero().if_less(model.dofs[c].armature, R::zero(), R::one() - locked[c]);
+            let turns_freely = is_alone(k) * is_alone(k + 1) * is_alone(k + 2);
+            for c in 0..3 {
+                torque[k + c] += turns_freely * correction[c];
+            }
+        }
+    }
+
+    /// Turns the linear velocities of free joints `v`, of their centres of mass, from the axes at the start of a step,
+    /// at the coordinates `start`, into those at its end, at the coordinates `end`.
+    #[inline(always)]
+    pub fn turn_velocities<R: Real>(&self, model: &Model<R>, (start, end): (&[R], &[R]), v: &mut [R]) {
+        for (k, link, inertia, rotating) in self.of(model).filter(|(_, link, ..)| link.is_free()) {
+            let i = link.q_idx as usize + 3;
+            let turn = Quat::from_slice(&end[i..]).conjugate().mul(&Quat::from_slice(&start[i..])).matrix();
+            let of_rotation = vector(v, k).cross(rotating.point(inertia));
+            let turned = turn.mul_vec(vector(v, k + 3) + of_rotation) - of_rotation;
+            v[k + 3..k + 6].copy_from_slice(&turned.0);
+        }
+    }
 }
 
 #[inline(always)]
 fn vector<R: Real>(v: &[R], k: usize) -> Vec3<R> {
     Vec3([v[k], v[k + 1], v[k + 2]])
-}
-
-/// Adds to the rates of free joints `v_dot`, in axes that rotate, what makes them rates in the axes at the start of the
-/// step, of the point that the centre of mass then is at. Rates that a drive prescribes (1 in `locked`) stay.
-#[inline(always)]
-pub(super) fn accelerations_in_fixed_axes<R: Real>(model: &Model<R>, v: &[R], locked: &[R], v_dot: &mut [R]) {
-    for (k, _, inertia) in links(model, Link::is_free) {
-        let (omega, linear) = (vector(v, k), vector(v, k + 3));
-        let turning = omega.cross(linear + omega.cross(center_of_mass(inertia)));
-        for c in 0..3 {
-            v_dot[k + 3 + c] += (R::one() - locked[k + 3 + c]) * turning[c];
-        }
-    }
-}
-
-/// Adds to the joint torques of single bodies on the world, with free or ball joints, what makes their gyroscopic
-/// torque at the start of a step of length `h` `[s]` that of a rotation of their angular momentum over the step. Where
-/// a drive prescribes a rate of rotation (1 in `locked`), it is not the body that decides how it turns: no correction.
-#[inline(always)]
-pub(super) fn add_gyroscopic_corrections<R: Real>(model: &Model<R>, h: f64, v: &[R], locked: &[R], torque: &mut [R]) {
-    let turns = |link: &Link<R>| matches!(link.kind, StageKind::Free | StageKind::Ball);
-    for (k, link, inertia) in links(model, |link| turns(link) && link.parent == WORLD && !link.has_children) {
-        let correction = gyroscopic_correction(inertia, link.is_free(), R::splat(h), vector(v, k));
-        let turns_freely = (R::one() - locked[k]) * (R::one() - locked[k + 1]) * (R::one() - locked[k + 2]);
-        for c in 0..3 {
-            torque[k + c] += turns_freely * correction[c];
-        }
-    }
-}
-
-/// Torque ω×L + (cay(−h ω_m) L − L)/h: the difference between the gyroscopic torque of a step and that at its start.
-/// The angular momentum is about the centre of mass of bodies that are free (`is_free`), else about the origin.
-#[inline(always)]
-fn gyroscopic_correction<R: Real>(inertia: &RigidInertia<R>, is_free: bool, h: R, omega: Vec3<R>) -> Vec3<R> {
-    let mut about = inertia.rotational;
-    if is_free {
-        // I − m (c·c 1 − c cᵀ)
-        let to_center = center_of_mass(inertia);
-        let square = inertia.moment.dot(to_center);
-        about = about.plus(&Sym3::scalar(-square)).minus_outer(-inertia.moment, to_center);
-    }
-    let half = R::splat(0.5) * h;
-    let momentum = about.mul_vec(omega);
-    let torque = omega.cross(momentum);
-    let middle = omega - about.solve(torque).scale(half);
-    let turn = middle.scale(half);
-    let once = middle.cross(momentum);
-    torque - (once - turn.cross(once)).scale(R::one() / (R::one() + turn.dot(turn)))
-}
-
-impl<R: Real> Mechanism<R> {
-    /// Turns the velocities of the centres of mass on free joints in y from the axes at the start of the step, at the
-    /// coordinates `self.q`, into those at its end, the chart's origin.
-    #[inline(always)]
-    pub(super) fn turn_velocities(&self, y: &mut [R]) {
-        let v = &mut y[self.layout.velocities()];
-        for (k, link, inertia) in links(&self.model, Link::is_free) {
-            let i = link.q_idx as usize + 3;
-            let turn = Quat::from_slice(&self.base[i..]).conjugate().mul(&Quat::from_slice(&self.q[i..])).matrix();
-            let of_rotation = vector(v, k).cross(center_of_mass(inertia));
-            let turned = turn.mul_vec(vector(v, k + 3) + of_rotation) - of_rotation;
-            v[k + 3..k + 6].copy_from_slice(&turned.0);
-        }
-    }
 }

@@ -75,6 +75,19 @@ impl<R: Real> Sym3<R> {
         Vec3(cofactors.map(|cofactor| cofactor.dot(v) * share))
     }
 
+    /// Mean of the gyroscopic torque ω×L of this rotational inertia [kg·m²] over a step of length `h` `[s]` of free
+    /// rotation that begins at `omega` `[rad/s]`, in the axes of the body `[N·m]`: (L − cay(−h ω_m) L)/h with cay the
+    /// Cayley transform, a rotation, and ω_m the angular velocity in the middle of the step. So |L| does not change,
+    /// and the kinetic energy to third order.
+    #[inline(always)]
+    pub fn mean_gyroscopic_torque(&self, omega: Vec3<R>, h: f64) -> Vec3<R> {
+        let half = R::splat(0.5 * h);
+        let momentum = self.mul_vec(omega);
+        let middle = omega - self.solve(omega.cross(momentum)).scale(half);
+        let (turn, once) = (middle.scale(half), middle.cross(momentum));
+        (once - turn.cross(once)).scale(R::one() / (R::one() + turn.dot(turn)))
+    }
+
     /// Same matrix with all nine entries, in their unit.
     #[inline(always)]
     pub fn full(&self) -> Mat3<R> {

@@ -3,7 +3,6 @@
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
-use sincro_dynamics::inverse_kinematics::{PoseTarget, pose_coordinates};
 use sincro_dynamics::kinematics::Attached;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::spatial::Vec3;
@@ -12,6 +11,7 @@ use sincro_dynamics::state::State;
 use super::placement::{self, Placement};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::Document;
+use crate::inverse_kinematics::{PoseTarget, pose_coordinates};
 use crate::suggest;
 
 /// Error of a pose that is reached `[m]`, `[rad]`.

@@ -186,15 +186,17 @@ impl<R: Real> Constraints<R> {
             for block in &self.blocks[manifold] {
                 let i = block.row;
                 let distance = self.residual[i].lane(0);
+                let correction = usable.at(distance) * per_h * per_h;
                 if bounce > 0.0 && distance + h * h * self.b[i].lane(0) <= 0.0 {
                     let speed = self.motions.rate(&self.rows[i], v).lane(0);
                     if speed < -set.rest_speed {
-                        // from the present distance: to close it first would take the approach velocity away
-                        self.b[i] += R::splat(speed * per_h * bounce);
+                        // from the present distance: to close it first would take the approach velocity away; but out
+                        // of a penetration that bouncing does not remove
+                        self.b[i] += R::splat((speed * per_h * bounce).min(correction));
                         continue;
                     }
                 }
-                self.b[i] += R::splat(usable.at(distance) * per_h * per_h);
+                self.b[i] += R::splat(correction);
             }
         }
     }

@@ -5,15 +5,14 @@
 //! iterates it for poses of frames, with λ² falling with the square of the error: quadratic near the target, without
 //! jumps near singular positions.
 
+use sincro_dynamics::initial::limit_violations;
+use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::kinematics::{Attached, frame_pose, jacobian, poses};
+use sincro_dynamics::model::Model;
+use sincro_dynamics::scratch::Scratch;
+use sincro_dynamics::spatial::{Mat3, Vec3, rotation_between};
+use sincro_dynamics::state::State;
 use sincro_math::least_squares::damped_step;
-
-use crate::initial::limit_violations;
-use crate::joint::JointKind;
-use crate::model::Model;
-use crate::recursions::kinematics::{Attached, frame_pose, jacobian, poses};
-use crate::scratch::Scratch;
-use crate::spatial::{Mat3, Vec3, rotation_between};
-use crate::state::State;
 
 /// Largest rotation of a joint in one iteration `[rad]`.
 pub const MAX_ROTATION_STEP: f64 = 0.2;
@@ -75,7 +74,7 @@ pub fn pose_coordinates(model: &Model<f64>, x: &State<f64>, targets: &[PoseTarge
                 _ => false,
             };
             let most = if slides { MAX_TRANSLATION_STEP } else { MAX_ROTATION_STEP };
-            q[model.dofs[k].q_idx as usize] += change.clamp(-most, most);
+            q[joint.q_idx + k - joint.v_idx] += change.clamp(-most, most);
         }
     }
     let (_, q, errors) = best;
