@@ -103,8 +103,8 @@ pub struct Mechanism<R> {
     pub(crate) constraint_change: Vec<R>,
     /// Factor on the tolerance of projections: extent of a mechanism with loops that is smaller than 1 m, else 1.
     projection_scale: f64,
-    /// Number of totals that take part in error control: work and dissipation, or none.
-    n_controlled_totals: usize,
+    /// Energy to whose share work and dissipation take part in error control `[J]`; infinite if they do not.
+    energy_scale: f64,
     rotating: RotatingLinks,
     /// Passage of a singular position of the loops.
     singular: SingularPassage<R>,
@@ -145,7 +145,7 @@ impl<R: Real> Mechanism<R> {
             scratch: Scratch::new(&model),
             constraint_change: zero.clone(),
             projection_scale: 1.0,
-            n_controlled_totals: 0,
+            energy_scale: f64::INFINITY,
             rotating: RotatingLinks::new(&model),
             singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
@@ -247,9 +247,15 @@ impl<R: Real> Mechanism<R> {
         displace(&self.model, &self.base, &y[self.layout.displacement()], &mut self.q);
     }
 
-    /// Lets work and dissipation, if they are tracked, take part in error control.
-    pub(crate) fn control_energies(&mut self) {
-        self.n_controlled_totals = if self.layout.tracks_totals() { 2 } else { 0 };
+    /// Lets work and dissipation, if they are tracked, take part in error control, relative to `scale` `[J]`.
+    pub(crate) fn control_energies(&mut self, scale: f64) {
+        self.energy_scale = if self.layout.tracks_totals() { scale } else { f64::INFINITY };
+    }
+
+    /// Returns true if entry `k` of y is work or dissipation and takes part in error control.
+    fn is_controlled_energy(&self, k: usize) -> bool {
+        let work = self.layout.work();
+        self.energy_scale < f64::INFINITY && (work..work + 2).contains(&k)
     }
 
     pub(crate) fn take_motor_torque(&mut self) -> Vec<R> {
@@ -714,7 +720,7 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn is_controlled(&self, k: usize) -> bool {
-        k < self.layout.work() + self.n_controlled_totals || !self.layout.totals().contains(&k)
+        !self.layout.totals().contains(&k) || self.is_controlled_energy(k)
     }
 
     #[inline(always)]
@@ -780,6 +786,9 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     fn magnitude(&self, y: &[R], k: usize) -> f64 {
         let n = self.model.n_v();
+        if self.is_controlled_energy(k) {
+            return self.energy_scale;
+        }
         if k >= n {
             return y[k].lane(0).abs();
         }

@@ -421,11 +421,11 @@ impl World {
         self.substeps = n.max(1);
     }
 
-    /// Lets work and dissipation, if they are tracked, take part in error control, relative to max(|energy|, 1 J): no
-    /// accuracy of states shortens a step that an event bounds, and the energies of a finer run would be off as those
-    /// of the coarser one. For error estimates by refinement.
-    pub fn control_energies(&mut self) {
-        self.mechanism.control_energies();
+    /// Lets work and dissipation, if they are tracked, take part in error control, relative to max(`scale`, 1 J), with
+    /// `scale` the size of the energies `[J]`: no accuracy of states shortens a step that an event bounds, and the
+    /// energies of a finer run would be off as those of the coarser one. For error estimates by refinement.
+    pub fn control_energies(&mut self, scale: f64) {
+        self.mechanism.control_energies(scale);
     }
 
     /// Resolves drives and contacts at the start of a run, at time `t` `[s]`; velocities stay (nothing jumps before the

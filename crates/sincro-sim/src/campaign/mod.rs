@@ -192,7 +192,8 @@ fn one_run(
     let (interrupt, words, progress) = observer;
     let mut tell = |share: f64| progress(words, share);
     let mut monitor = RunMonitor { interrupt, progress: &mut tell };
-    let simulated = simulate(loaded, RunOptions { csv, variant, refined: false, keyframes: true }, &mut monitor)?;
+    let simulated =
+        simulate(loaded, RunOptions { csv, variant, keyframes: true, ..RunOptions::default() }, &mut monitor)?;
     let (columns, finer) = match simulated.status {
         Status::Completed => refine::columns(loaded, &simulated, &mut monitor)?,
         _ => (ColumnReport::of_table(&simulated.table), None),

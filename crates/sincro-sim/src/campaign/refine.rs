@@ -26,7 +26,7 @@ pub(super) fn columns(
         return Ok((columns, None));
     }
     columns[0].error_bar_method = "exact: tick times step".into();
-    let Some(finer) = finer_run(loaded, monitor)? else {
+    let Some(finer) = finer_run(loaded, run.energy_scale, monitor)? else {
         let reason = "not estimated: scripts act once a step, which a finer run cannot halve; with an even number of base \
                       steps as `simulation_step` it can";
         without_bars(&mut columns, reason);
@@ -67,8 +67,8 @@ fn least_bar(column: &ColumnReport, run: &Simulated, is_constrained: bool) -> (f
 }
 
 /// The finer run; none if it cannot halve the step of scripts.
-fn finer_run(loaded: &Loaded, monitor: &mut RunMonitor<'_>) -> Result<Option<Simulated>, RunError> {
-    let options = RunOptions { refined: true, ..RunOptions::default() };
+fn finer_run(loaded: &Loaded, energy_scale: f64, monitor: &mut RunMonitor<'_>) -> Result<Option<Simulated>, RunError> {
+    let options = RunOptions { refined: true, energy_scale: Some(energy_scale), ..RunOptions::default() };
     if loaded.scene.scripts.is_empty() {
         return simulate(loaded, options, monitor).map(Some);
     }

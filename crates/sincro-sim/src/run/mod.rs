@@ -151,6 +151,9 @@ pub struct RunOptions<'a> {
     pub csv: Option<&'a Path>,
     /// True for the finer run of an error estimate.
     pub refined: bool,
+    /// Size of the energies `[J]`, relative to which work and dissipation are kept to the accuracy; `None`: they take
+    /// no part in error control.
+    pub energy_scale: Option<f64>,
     /// True if frames for the replay are recorded.
     pub keyframes: bool,
     /// Name of the variant whose checks for divergence end the run; `None`: those of the main run.
@@ -390,10 +393,7 @@ fn world_with_room(scene: &Scene, experiment: &Experiment, kind: MethodKind, ref
     let first_step = (experiment.step * 0.1).min(1e-3);
     let (model, control) = ((*scene.model).clone(), Control::new(accuracy, first_step));
     let mut world = World::with_coupled_states(model, scene.initial.clone(), kind, control, true, n_states);
-    if refined {
-        world.set_substeps(2);
-        world.control_energies();
-    }
+    world.set_substeps(if refined { 2 } else { 1 });
     world.announce_step(experiment.step);
     world
 }
@@ -428,6 +428,7 @@ pub fn simulate(loaded: &Loaded, options: RunOptions<'_>, monitor: &mut RunMonit
     let experiment = &loaded.experiment;
     let (method, warnings) = method_for(loaded);
     let mut lockstep = LockStep::new(loaded, method, options.refined);
+    options.energy_scale.into_iter().for_each(|scale| lockstep.world().control_energies(scale));
     let mut recording = Recording::new(loaded, &mut lockstep, options)?;
     let mut status = Status::Completed;
     let first = lockstep.start();
