@@ -45,6 +45,7 @@
 //! | [`scene`], [`record`], [`experiment`], [`diagram`] | the three files, and the catalogue of signals between them |
 //! | [`open`], [`numbers`] | a folder with all of them; every number in it that a setting reaches |
 //! | [`draft`] | a compiled scene that is edited object by object, and compiled again |
+//! | [`inverse_kinematics`] | coordinates at which frames have given poses |
 //! | [`keys`] | keys that tables of a scene file have for shapes and masses |
 //! | [`parallel`] | independent work on several threads |
 

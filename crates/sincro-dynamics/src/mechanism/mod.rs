@@ -105,6 +105,7 @@ pub struct Mechanism<R> {
     projection_scale: f64,
     /// Energy to whose share work and dissipation take part in error control `[J]`; infinite if they do not.
     energy_scale: f64,
+    /// Links whose velocities have axes that rotate.
     rotating: RotatingLinks,
     /// Passage of a singular position of the loops.
     singular: SingularPassage<R>,

@@ -6,7 +6,8 @@
 //! its start, and what was found there is turned into those at its end, as far as the step turns the body.
 //!
 //! v_c⁺ = exp(−hω⁺)(v_c + h v̇ₛ) with v_c the velocity of the centre of mass and v̇ₛ = v̇_c + ω×v_c its acceleration in
-//! the axes at the start, so that a step does not depend on where the origin of a body is;
+//! the axes at the start, so that a step does not depend on where the origin of a body is; where a loop joint holds the
+//! body, v_c is the velocity of the joint's point instead, which else would leave it;
 //! L⁺ = cay(−h ω_m) L + h τ with cay the Cayley transform, a rotation, and ω_m the angular velocity in the middle of
 //! the step without forces: |L| stays to rounding, the kinetic energy to third order. Source: key `hairer2006`,
 //! section VII.5 (free rigid body).
@@ -77,8 +78,7 @@ impl RotatingLinks {
         self.0.is_empty()
     }
 
-    /// First degree of freedom, link, its inertia about the point that keeps the direction of its velocity, and that
-    /// point, of each.
+    /// First degree of freedom, link, inertia about its origin, and how it turns, of each.
     #[inline(always)]
     fn of<'a, R: Real>(
         &'a self,
@@ -92,7 +92,8 @@ impl RotatingLinks {
     }
 
     /// Adds to the rates of free joints `v_dot`, in axes that rotate, what makes them rates in the axes at the start of
-    /// the step, of the point that the centre of mass then is at. Rates that a drive prescribes (1 in `locked`) stay.
+    /// the step, of the point of the link whose velocity keeps its direction. Rates that a drive prescribes (1 in
+    /// `locked`) stay.
     #[inline(always)]
     pub fn fix_axes<R: Real>(&self, model: &Model<R>, v: &[R], locked: &[R], v_dot: &mut [R]) {
         for (k, _, inertia, rotating) in self.of(model).filter(|(_, link, ..)| link.is_free()) {
@@ -121,8 +122,8 @@ impl RotatingLinks {
         }
     }
 
-    /// Turns the linear velocities of free joints `v`, of their centres of mass, from the axes at the start of a step,
-    /// at the coordinates `start`, into those at its end, at the coordinates `end`.
+    /// Turns the velocities of those points on free joints in `v` from the axes at the start of a step, at the
+    /// coordinates `start`, into those at its end, at the coordinates `end`.
     #[inline(always)]
     pub fn turn_velocities<R: Real>(&self, model: &Model<R>, (start, end): (&[R], &[R]), v: &mut [R]) {
         for (k, link, inertia, rotating) in self.of(model).filter(|(_, link, ..)| link.is_free()) {

@@ -50,13 +50,6 @@ impl<R: Real> RigidInertia<R> {
         self.moment.scale(R::zero().if_less(self.mass, R::one() / self.mass, R::zero()))
     }
 
-    /// Rotational inertia about the centre of mass, I − m (c·c 1 − c cᵀ) [kg·m²], axes of the frame.
-    #[inline(always)]
-    pub fn about_center_of_mass(&self) -> Sym3<R> {
-        let center = self.center_of_mass();
-        self.rotational.plus(&Sym3::scalar(-self.moment.dot(center))).minus_outer(-self.moment, center)
-    }
-
     /// Spatial momentum `I·v` of the body moving with the twist `v` (`[rad/s]`, `[m/s]`): angular part about the origin
     /// `[kg·m²/s]`, linear part `[kg·m/s]`. With a spatial acceleration instead, the wrench `[N·m]`, `[N]`.
     #[inline(always)]
