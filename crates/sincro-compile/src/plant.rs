@@ -29,7 +29,7 @@ pub fn check(model: &Model<f64>, method: MethodKind) -> Result<(), Obstacle> {
     if !is_time_invariant(model) {
         return Err(Obstacle::new("a force or the wind depends on time"));
     }
-    if matches!(method, MethodKind::DormandPrince | MethodKind::Stiff) {
+    if method.controls_error() {
         return Err(Obstacle::new("the steps of a method with error control differ in length"));
     }
     unless(obstacle_to_lanes(model, method))

@@ -110,6 +110,12 @@ pub enum MethodKind {
 impl MethodKind {
     /// All methods.
     pub const ALL: [Self; 5] = [Self::SemiImplicitEuler, Self::Rk4, Self::Implicit, Self::DormandPrince, Self::Stiff];
+
+    /// Returns true if the method chooses its steps by an estimate of their error.
+    #[must_use]
+    pub fn controls_error(self) -> bool {
+        matches!(self, Self::DormandPrince | Self::Stiff)
+    }
 }
 
 /// Reason for which a world stopped; in a [`StepError`].
@@ -257,7 +263,7 @@ impl World {
         let n_drives = model.n_drives();
         let mut mechanism = Mechanism::new(model, tracks_totals);
         mechanism.select_loop_rows(&state.q);
-        if matches!(kind, MethodKind::DormandPrince | MethodKind::Stiff) {
+        if kind.controls_error() {
             mechanism.set_contact_accuracy(control.accuracy);
         }
         let dim = mechanism.dim() + n_states;
@@ -405,7 +411,7 @@ impl World {
             return;
         }
         let control = self.control().expect("a method with error control");
-        assert!(matches!(kind, MethodKind::DormandPrince | MethodKind::Stiff), "{kind:?} has a fixed step");
+        assert!(kind.controls_error(), "{kind:?} has a fixed step");
         let dim = self.y.len();
         let new = self.spare_method.take().unwrap_or_else(|| match kind {
             MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, STIFF_ROWS, control)),

@@ -66,7 +66,7 @@ pub(super) fn source(finding: &Finding, experiment: &Experiment) -> String {
 
 /// A finer integration than the present one.
 fn finer(experiment: &Experiment, method: MethodKind) -> String {
-    if has_error_control(method) && experiment.accuracy >= 1e3 * SMALLEST_ACCURACY {
+    if method.controls_error() && experiment.accuracy >= 1e3 * SMALLEST_ACCURACY {
         let accuracy = rounded(0.01 * experiment.accuracy).max(SMALLEST_ACCURACY);
         return format!("take accuracy = {accuracy:e} instead of {:e}, or {}", experiment.accuracy, step(experiment));
     }
@@ -75,7 +75,7 @@ fn finer(experiment: &Experiment, method: MethodKind) -> String {
 
 /// Another method than one of fixed steps, or a smaller step.
 pub(crate) fn finer_steps(experiment: &Experiment, method: MethodKind) -> String {
-    if has_error_control(method) {
+    if method.controls_error() {
         return format!("take {}", step(experiment));
     }
     // `auto` takes a method with error control
@@ -86,13 +86,9 @@ fn step(experiment: &Experiment) -> String {
     format!("step = {:?} instead of {:?}", rounded(0.1 * experiment.step), experiment.step)
 }
 
-fn has_error_control(method: MethodKind) -> bool {
-    matches!(method, MethodKind::DormandPrince | MethodKind::Stiff)
-}
-
 /// A setting that the finer run can meet.
 fn reachable(experiment: &Experiment, method: MethodKind) -> String {
-    if has_error_control(method) && experiment.accuracy < COARSE {
+    if method.controls_error() && experiment.accuracy < COARSE {
         let coarser = rounded(100.0 * experiment.accuracy);
         return format!(
             "take accuracy = {coarser:e} instead of {:e}, which the finer run can meet",

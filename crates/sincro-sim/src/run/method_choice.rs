@@ -44,7 +44,7 @@ impl MethodChoice {
     /// else than springs and dampers asks for the stiff one.
     pub fn new(loaded: &Loaded, method: MethodKind) -> Option<Self> {
         let is_auto = loaded.experiment.integrator == Integrator::Auto;
-        let has_control = matches!(method, MethodKind::DormandPrince | MethodKind::Stiff);
+        let has_control = method.controls_error();
         // rotors with a lag and blocks stay as fast as they are
         (is_auto && has_control && !is_stiff_otherwise(loaded)).then(|| Self {
             probe: StiffnessProbe::new(&loaded.scene.model),
