@@ -39,15 +39,13 @@ impl Constraints<f64> {
         self.kept = keep;
     }
 
-    /// Work of the forces of contacts and limits that have closed since it was last asked over their distances `[J]`.
-    pub fn closing_work(&mut self) -> f64 {
-        let mut work = 0.0;
-        for block in &self.blocks {
-            if !block.open && block.given.is_none() && self.memory.take_new(block.slot) {
-                work += (self.lambda[block.row] * self.residual[block.row]).abs();
-            }
+    /// Returns true once after contacts or limits that carry a force have closed.
+    pub fn take_closed(&mut self) -> bool {
+        let mut any = false;
+        for block in self.blocks.iter().filter(|block| !block.open && block.given.is_none()) {
+            any |= self.memory.take_new(block.slot);
         }
-        work
+        any
     }
 
     /// Size of the work of the impulses that the last projection removed rates by `[J]`.

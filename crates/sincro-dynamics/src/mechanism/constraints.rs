@@ -12,6 +12,7 @@ use crate::constraint::{
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::candidate_list::SlotCandidate;
 use crate::contact::{Collider, Margin, Pair};
+use crate::energy::energy_at;
 use crate::integrate::System;
 use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
 use crate::recursions::aba::{self, Prescribed};
@@ -57,8 +58,8 @@ pub(crate) struct ContactStatus {
 /// Result of a projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Projected {
-    /// Work of the forces of contacts that have closed since the last projection over the distances that this one
-    /// removed `[J]`.
+    /// Size of the change of potential energy by a projection that removes the distances at which contacts and limits
+    /// have closed `[J]`.
     pub closing_work: f64,
     /// Size of the work of the impulses that removed the rates of closed constraints `[J]`.
     pub rate_work: f64,
@@ -318,8 +319,8 @@ impl Mechanism<f64> {
                 return projected;
             }
             let c = self.constraints.as_deref_mut().expect("prepared");
-            if k == 0 {
-                projected.closing_work = c.closing_work();
+            if k == 0 && c.take_closed() {
+                before_closing = Some(self.potential_energy(&y[layout.velocities()]));
             }
             if rows == ProjectedRows::Bilateral {
                 c.keep_loop_joints();
@@ -329,6 +330,7 @@ impl Mechanism<f64> {
             }
             let worst = c.worst(&y[layout.velocities()]).0;
             // close to a singular position there may be a residual that must not be removed
+        let mut before_closing = None;
             if worst <= enough || worst > 0.5 * last {
                 break;
             }
@@ -337,6 +339,7 @@ impl Mechanism<f64> {
             let mut change = core::mem::take(&mut self.constraint_change);
             let c = self.constraints.as_deref_mut().expect("prepared");
             c.project(&self.model, &mut self.scratch, None, &mut change);
+            let c = self.constraints.as_deref_mut().expect("prepared");
             y[layout.displacement()].copy_from_slice(&change);
             self.constraint_change = change;
             self.rechart(y);
@@ -357,6 +360,9 @@ impl Mechanism<f64> {
         }
         self.factor();
         let mut change = core::mem::take(&mut self.constraint_change);
+        if let Some(before) = before_closing {
+            projected.closing_work = (self.potential_energy(&y[layout.velocities()]) - before).abs();
+        }
         let c = self.constraints.as_deref_mut().expect("prepared");
         c.project(&self.model, &mut self.scratch, Some(&y[layout.velocities()]), &mut change);
         projected.rate_work = c.rate_work();
@@ -384,6 +390,11 @@ impl Mechanism<f64> {
     /// Records contact modes and slip directions, as last evaluated.
     pub(crate) fn mark_start(&mut self) {
         if let Some(c) = &mut self.constraints {
+    /// Potential energy at the chart's origin `[J]`, for velocities `v` of the kinematics that the scratch then has.
+    fn potential_energy(&mut self, v: &[f64]) -> f64 {
+        energy_at(&self.model, &self.base, v, &mut self.scratch).potential
+    }
+
             c.memory.mark_start();
         }
     }

@@ -297,7 +297,8 @@ impl World {
         }
     }
 
-    /// Repeats the integration from the saved start of the sub-step, exactly `h` further.
+    /// Repeats the integration from the saved start of the sub-step, exactly `h` further. A finer run takes it in
+    /// parts: events bound its steps at the same instants, and it must not end up the same.
     pub(super) fn repeat_step(
         &mut self,
         t: f64,
@@ -314,7 +315,8 @@ impl World {
         while done < h {
             let at = t + done;
             let step = self
-                .method_step(at, h - done, ModeRule::Held, &mut &mut *system)
+        let part = if self.substeps > 1 { self.substep(h) } else { h };
+                .method_step(at, part.min(h - done), ModeRule::Held, &mut &mut *system)
                 .map_err(|failure| (at, Stop::Integration(failure)))?;
             steps += 1;
             if steps > MAX_REPEATED_STEPS {
