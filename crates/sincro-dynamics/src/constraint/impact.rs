@@ -4,7 +4,7 @@ use sincro_complementarity::{ContactMode, ContactProblem, UnilateralConstraint};
 use sincro_math::dot;
 
 use super::assembly::restitution;
-use super::{Constraints, ContactPoint, pair_of};
+use super::{Constraints, ContactPoint, LOCATED_DISTANCE, pair_of};
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::Vec3;
@@ -19,6 +19,9 @@ enum RestitutionLaw {
 
 /// Rounding of the energy lost, relative to the works that it is the difference of.
 const ROUNDING: f64 = 1e-12;
+
+/// Speed above which no contacts come to rest, however short their way [m/s], [rad/s].
+const MAX_SETTLING_SPEED: f64 = 1e-4;
 
 /// Returns true if the energy does not rise.
 fn is_loss((lost, works): (f64, f64)) -> bool {
@@ -67,10 +70,14 @@ impl Constraints<f64> {
     }
 
     /// Returns true if all contacts that are closed approach or separate so slowly that they come to rest: a body that
-    /// rocks from one contact to the other would otherwise make ever shorter and slower impacts without end.
+    /// rocks from one contact to the other would otherwise make ever shorter and slower impacts without end. So do
+    /// those that have come no further, from one event to the next, than what the instants of closing are located to:
+    /// where large forces bring them back, their speeds are those of that distance and get no smaller.
     fn settles(&self) -> bool {
         let rates = self.blocks.iter().filter(|block| !block.is_compliant).map(|block| self.before[block.row]);
-        rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs())) < self.settling_speed
+        let fastest = rates.fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
+        let has_not_left = fastest < MAX_SETTLING_SPEED && fastest * self.time_since_event < 10.0 * LOCATED_DISTANCE;
+        fastest < self.settling_speed || has_not_left
     }
 
     /// Brings the normal rates of all closed contacts to zero. Returns the energy lost `[J]`, which is never negative:

@@ -117,6 +117,6 @@ impl<R: Real> Constraints<R> {
 }
 
 /// Friction groups of the drives among constraints, in the order in which the drives were given.
-fn drive_groups<R: Real>(blocks: &[UnilateralConstraint<R>]) -> impl Iterator<Item = &FrictionGroup<R>> {
+pub(super) fn drive_groups<R: Real>(blocks: &[UnilateralConstraint<R>]) -> impl Iterator<Item = &FrictionGroup<R>> {
     blocks.iter().filter(|block| block.is_drive()).filter_map(|block| block.groups[0].as_ref())
 }

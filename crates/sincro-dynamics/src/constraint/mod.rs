@@ -48,7 +48,7 @@ pub(crate) mod warm_start;
 pub(crate) use sincro_complementarity::HeldLaw;
 use sincro_complementarity::sweeps::rest::Rest;
 use sincro_complementarity::{
-    ContactProblem, HELD_RATE, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable,
+    ContactMode, ContactProblem, HELD_RATE, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable,
 };
 use sincro_math::{Real, dot};
 
@@ -62,7 +62,7 @@ use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use implicit_forces::ImplicitForces;
-use kink::Kink;
+use kink::{Kink, drive_groups};
 use row::{Motions, Row};
 pub(crate) use time_stepping::DIRECT_ROWS;
 use time_stepping::TimeStepping;
@@ -82,6 +82,9 @@ pub(crate) const MAX_ZERO_SPEED: f64 = 1e-6;
 /// Speed below which contacts that meet come to rest [m/s] or [rad/s], with the speed that counts as none where that is
 /// larger; at most ten times that speed.
 pub(crate) const SETTLING_SPEED: f64 = 1e-7;
+
+/// Distance to which the closing of contacts is located, of a mechanism of 1 m or more `[m]`, `[rad]`.
+pub(crate) const LOCATED_DISTANCE: f64 = 1e-5 * CLOSED_DISTANCE;
 
 /// Conditioning of the loops below which a position is singular: no stage of a step may stand there.
 pub(crate) const SINGULAR: f64 = 1e-8;
@@ -173,6 +176,8 @@ pub(crate) struct Constraints<R> {
     pub zero_speed: f64,
     /// Speed below which contacts that meet come to rest [m/s] or [rad/s].
     pub settling_speed: f64,
+    /// Time from the event before to that of the present instant `[s]`; infinite if it is none.
+    pub time_since_event: f64,
     /// Treatment of contact modes.
     pub mode_rule: ModeRule,
     /// True if the held modes had no solution in the last evaluation, which decided them.
@@ -232,6 +237,7 @@ impl<R: Real> Constraints<R> {
             sub_step: 0.0,
             zero_speed: ZERO_SPEED,
             settling_speed: SETTLING_SPEED,
+            time_since_event: f64::INFINITY,
             mode_rule: ModeRule::Decided,
             lost_modes: false,
             violation: None,
@@ -401,7 +407,7 @@ impl<R: Real> Constraints<R> {
             self.solver.solve(&problem, &mut self.blocks, &mut self.lambda);
             self.solver.report.not_converged == report.not_converged
         };
-        if is_solved && !is_observable(&problem, self.solver.rates(), &self.held.rates) {
+        if is_solved && !is_observable(&problem, self.solver.rates(), &self.held.rates) && !self.releases_drives() {
             return;
         }
         self.solver.report.discard(&report);
@@ -409,6 +415,18 @@ impl<R: Real> Constraints<R> {
         self.lambda.copy_from_slice(&self.held.lambda);
         self.solver.find_rates(&problem, &self.lambda);
         self.violation = Some(law);
+    }
+
+    /// Returns true if drives that the held modes lock move in the last solution, by more than what counts as none over
+    /// the sub-step: a strong motor that pushes against a joint limit makes the largest rate of the problem, of which
+    /// that of a weak drive is no share.
+    fn releases_drives(&self) -> bool {
+        let (rates, h) = (self.solver.rates(), self.sub_step);
+        drive_groups(&self.blocks).zip(drive_groups(&self.held.blocks)).any(|(now, held)| {
+            held.mode == ContactMode::Stick
+                && now.mode == ContactMode::Slip
+                && rates[now.row].lane(0).abs() * h > self.zero_speed
+        })
     }
 
     /// Returns true if the multipliers last found leave rates of bilateral rows, beyond rounding.

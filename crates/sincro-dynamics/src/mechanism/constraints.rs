@@ -6,8 +6,8 @@ use sincro_math::Real;
 use crate::constraint::row::Motions;
 use crate::constraint::warm_start::WarmStart;
 use crate::constraint::{
-    CLOSED_DISTANCE, ConstraintSet, Constraints, DIRECT_ROWS, HeldLaw, LEAST_ZERO_SPEED, MAX_ZERO_SPEED, ModeRule,
-    SETTLING_SPEED, pair_of,
+    CLOSED_DISTANCE, ConstraintSet, Constraints, DIRECT_ROWS, HeldLaw, LEAST_ZERO_SPEED, LOCATED_DISTANCE,
+    MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED, pair_of,
 };
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::candidate_list::SlotCandidate;
@@ -202,6 +202,13 @@ impl Mechanism<f64> {
         }
     }
 
+    /// Tells the time from the event before to that of the present instant `[s]`; infinite if it is none.
+    pub(crate) fn set_time_since_event(&mut self, time: f64) {
+        if let Some(c) = &mut self.constraints {
+            c.time_since_event = time;
+        }
+    }
+
     /// Tells whether the instant of a violation is being located.
     pub(crate) fn set_locating(&mut self, is_locating: bool) {
         if let Some(c) = &mut self.constraints {
@@ -241,20 +248,28 @@ impl Mechanism<f64> {
         let small = match event {
             ContactEvent::Law(_) => 1e-11,
             ContactEvent::Reversal(..) => 1e-3 * self.constraints.as_ref().map_or(LEAST_ZERO_SPEED, |c| c.zero_speed),
-            ContactEvent::Opening(_) | ContactEvent::Closing(_) => 1e-5 * CLOSED_DISTANCE,
+            ContactEvent::Opening(_) | ContactEvent::Closing(_) => LOCATED_DISTANCE,
         };
         small * self.projection_scale
     }
 
-    /// Slot of the open contact or limit that has closed and still approaches, in the state last evaluated; the deepest
-    /// one.
+    /// Slot of the open contact or limit that has closed and still approaches, in the state last evaluated, or ended
+    /// its motion beyond what counts as closed; the deepest one.
     fn find_closing(&mut self, v: &[f64]) -> Option<usize> {
         let c = self.constraints.as_deref_mut()?;
         let set = &*self.model.params.constraints;
+        let zero_speed = c.zero_speed;
+        // what did not touch and has come to rest there passed the surface before
+        let has_passed = |is_closed: bool, distance: f64, rate: f64| {
+            rate < if !is_closed && distance < -CLOSED_DISTANCE { zero_speed } else { -zero_speed }
+        };
         let mut deepest: (Option<usize>, f64) = (None, 0.0);
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (self.q[limit.coordinate] - limit.bound);
-            if !c.memory.was_closed(slot) && distance < deepest.1 && limit.sign * v[limit.dof] < -c.zero_speed {
+            if !c.memory.was_closed(slot)
+                && distance < deepest.1
+                && has_passed(c.memory.is_closed(slot), distance, limit.sign * v[limit.dof])
+            {
                 deepest = (Some(slot), distance);
             }
         }
@@ -266,7 +281,8 @@ impl Mechanism<f64> {
             }
             let at = candidate.kinematics(&c.motions.at(&self.scratch));
             if at.distance < deepest.1
-                && (pair.material.stiffness.is_finite() || normal_rate(&c.motions, candidate, &at) < -c.zero_speed)
+                && (pair.material.stiffness.is_finite()
+                    || has_passed(c.memory.is_closed(slot), at.distance, normal_rate(&c.motions, candidate, &at)))
             {
                 deepest = (Some(slot), at.distance);
             }
@@ -314,6 +330,7 @@ impl Mechanism<f64> {
         let sticking = rows == ProjectedRows::Sticking;
         let enough = self.projection_scale * if sticking { PROJECTED } else { PROJECTED_ROUGHLY };
         let (mut last, mut projected) = (f64::INFINITY, Projected::default());
+        let mut before_closing = None;
         for k in 0..MAX_PROJECTIONS {
             if !self.prepare(y, k == 0) {
                 return projected;
@@ -322,6 +339,7 @@ impl Mechanism<f64> {
             if k == 0 && c.take_closed() {
                 before_closing = Some(self.potential_energy(&y[layout.velocities()]));
             }
+            let c = self.constraints.as_deref_mut().expect("prepared");
             if rows == ProjectedRows::Bilateral {
                 c.keep_loop_joints();
             } else {
@@ -330,7 +348,6 @@ impl Mechanism<f64> {
             }
             let worst = c.worst(&y[layout.velocities()]).0;
             // close to a singular position there may be a residual that must not be removed
-        let mut before_closing = None;
             if worst <= enough || worst > 0.5 * last {
                 break;
             }
@@ -339,10 +356,12 @@ impl Mechanism<f64> {
             let mut change = core::mem::take(&mut self.constraint_change);
             let c = self.constraints.as_deref_mut().expect("prepared");
             c.project(&self.model, &mut self.scratch, None, &mut change);
-            let c = self.constraints.as_deref_mut().expect("prepared");
             y[layout.displacement()].copy_from_slice(&change);
             self.constraint_change = change;
             self.rechart(y);
+        }
+        if let Some(before) = before_closing {
+            projected.closing_work = (self.potential_energy(&y[layout.velocities()]) - before).abs();
         }
         if !sticking && !has_bilateral {
             return projected;
@@ -360,9 +379,6 @@ impl Mechanism<f64> {
         }
         self.factor();
         let mut change = core::mem::take(&mut self.constraint_change);
-        if let Some(before) = before_closing {
-            projected.closing_work = (self.potential_energy(&y[layout.velocities()]) - before).abs();
-        }
         let c = self.constraints.as_deref_mut().expect("prepared");
         c.project(&self.model, &mut self.scratch, Some(&y[layout.velocities()]), &mut change);
         projected.rate_work = c.rate_work();
@@ -372,6 +388,11 @@ impl Mechanism<f64> {
         self.constraint_change = change;
         projected.has_impulses = !self.drives.is_empty();
         projected
+    }
+
+    /// Potential energy at the chart's origin `[J]`, for velocities `v` of the kinematics that the scratch then has.
+    fn potential_energy(&mut self, v: &[f64]) -> f64 {
+        energy_at(&self.model, &self.base, v, &mut self.scratch).potential
     }
 
     /// Assembles the rows at the chart's origin; returns false if there are none.
@@ -390,11 +411,6 @@ impl Mechanism<f64> {
     /// Records contact modes and slip directions, as last evaluated.
     pub(crate) fn mark_start(&mut self) {
         if let Some(c) = &mut self.constraints {
-    /// Potential energy at the chart's origin `[J]`, for velocities `v` of the kinematics that the scratch then has.
-    fn potential_energy(&mut self, v: &[f64]) -> f64 {
-        energy_at(&self.model, &self.base, v, &mut self.scratch).potential
-    }
-
             c.memory.mark_start();
         }
     }

@@ -11,8 +11,10 @@ use crate::mechanism::constraints::{ActivationRule, ProjectedRows};
 /// Maximum number of successive impacts at one instant (propagation through a stack); the rest counts as inelastic.
 const MAX_IMPACTS: usize = 50;
 
-/// Number of contact events in one tick beyond which its rest is made at velocity level.
-pub(super) const MAX_CONTACT_EVENTS: usize = 400;
+/// Number of contact events in one tick beyond which its rest is made at velocity level; where the tick before it was
+/// made so, a smaller number is.
+pub(super) const MAX_CONTACT_EVENTS: usize = 1200;
+pub(super) const MAX_EVENTS_AGAIN: usize = 400;
 
 /// Number of steps at velocity level into which the rest of such a tick is divided.
 const FINE_STEPS: u32 = 16;

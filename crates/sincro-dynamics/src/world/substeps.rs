@@ -1,6 +1,6 @@
 //! Sub-steps of a tick: as many as the method and the events need, and what ends storms of events.
 
-use super::contacts::MAX_CONTACT_EVENTS;
+use super::contacts::{MAX_CONTACT_EVENTS, MAX_EVENTS_AGAIN};
 use super::{Method, SAME_INSTANT, Stop, World};
 use crate::constraint::warm_start::ZenoFallback;
 use crate::constraint::{ModeRule, SolverReport};
@@ -62,6 +62,9 @@ impl World {
             self.set_zeno_fallback(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
             return self.finish_at_velocity_level(start, span, system);
         }
+        let is_first = zeno_fallback == ZenoFallback::default();
+        let most_events = if is_first { MAX_CONTACT_EVENTS } else { MAX_EVENTS_AGAIN };
+        self.mechanism.set_time_since_event(f64::INFINITY);
         while t < end {
             let corner = self.next_corner(t, end, system);
             if self.is_constrained() && end - t < 1e-13 * span {
@@ -101,6 +104,7 @@ impl World {
                 made => made?,
             };
             let is_event = self.handle_coupled_events(reached, system)? || is_event;
+            self.mechanism.set_time_since_event(if is_event && after_event { reached - t } else { f64::INFINITY });
             after_event = is_event;
             if is_event {
                 idle = if reached - t > IDLE * span { 0 } else { idle + 1 };
@@ -110,7 +114,7 @@ impl World {
                 if events > MAX_EVENTS {
                     return Err((reached, Stop::Chatter { t: reached }));
                 }
-                if self.is_constrained() && events > MAX_CONTACT_EVENTS {
+                if self.is_constrained() && events > most_events {
                     self.set_zeno_fallback(zeno_fallback.lost());
                     return self.finish_at_velocity_level(reached, end - reached, system);
                 }
@@ -311,11 +315,11 @@ impl World {
         if let Some(control) = control {
             self.set_control(control);
         }
+        let part = if self.substeps > 1 { self.substep(h) } else { h };
         let (mut done, mut steps) = (0.0, 0);
         while done < h {
             let at = t + done;
             let step = self
-        let part = if self.substeps > 1 { self.substep(h) } else { h };
                 .method_step(at, part.min(h - done), ModeRule::Held, &mut &mut *system)
                 .map_err(|failure| (at, Stop::Integration(failure)))?;
             steps += 1;
