@@ -18,7 +18,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
     ("sincro-motion", &[]),
-    ("sincro-vision", &["sincro-math"]),
+    ("sincro-vision", &["sincro-math", "sincro-values"]),
     ("sincro-values", &[]),
     ("sincro-planning", &["sincro-math", "sincro-motion", "sincro-values"]),
     ("sincro-conventions", &["sincro-math", "sincro-geometry"]),

@@ -10,7 +10,9 @@
 //! | `blobs.rs` | [`Blob`]: connected components with their smallest oriented rectangles |
 //! | `changes.rs` | pixels that have changed since the last time |
 //! | `pictures.rs` | pictures as bytes: turned over, scaled, as a bitmap |
+//! | `filters.rs` | the functions by name, on the sensors of a [`Sensors`]; [`for_filters!`] has their call tips |
 //! | `points.rs` | [`DepthLens`]: points of a depth map, by rows and columns or by angles |
+//! | `work_images.rs` | [`WorkImages`]: a work image and its two buffers |
 //!
 //! An image has columns and rows; pixels are counted row by row from the bottom, each row from left to right. Colours
 //! are red, green, blue from 0 to 1; intensity is their mean. What the functions compute, and the layout of what they
@@ -22,15 +24,19 @@ mod blobs;
 mod changes;
 mod color;
 mod convolution;
+mod filters;
 pub mod pictures;
 mod points;
+mod work_images;
 
 pub use binary::Moments;
 pub use blobs::Blob;
 pub use changes::ChangedPixel;
 pub use color::{ColorSpace, Segmentation};
 pub use convolution::gaussian;
+pub use filters::{Sensors, call};
 pub use points::{DepthLens, Sampling};
+pub use work_images::WorkImages;
 
 /// Image that filters work on: red, green and blue of each pixel, dimensionless, 0 to 1 unless a filter exceeds that.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,11 @@
 //! Work images of vision sensors, on which filters work, and what a script makes of a picture: a trigger and packets of
 //! numbers. The filters are those of `sincro-vision`.
 
-use sincro_vision::{DepthLens, WorkImage};
+use sincro_vision::{DepthLens, Sensors, WorkImage, WorkImages};
 
 use super::registry::Handle;
-use super::{ApiError, SimApi};
+use super::{ApiError, Reference, SimApi, Vec3};
 use sincro_scene::camera::{Layer, Lens};
-use sincro_values::work::check_operations;
 
 /// Pixels that all work images and their buffers may have together: 4 Mi, which take 100 MB.
 const MAX_WORK_PIXELS: usize = 1 << 22;
@@ -17,27 +16,6 @@ const MAX_PACKET_LEN: usize = 1 << 22;
 
 /// Operations on pixels or points in the time of one instruction of a script, about 10 ns.
 const OPERATIONS_PER_INSTRUCTION: u64 = 8;
-
-/// Work image of a sensor with its two buffers.
-#[derive(Clone, Debug)]
-pub(super) struct WorkImages {
-    pub work: WorkImage,
-    /// Empty until something is put into them.
-    pub buffers: [Option<WorkImage>; 2],
-}
-
-impl WorkImages {
-    fn n_pixels(&self) -> usize {
-        let [columns, rows] = self.work.size();
-        columns * rows * (1 + self.buffers.iter().flatten().count())
-    }
-
-    /// A buffer of the size of the work image, black before something was put into it.
-    pub fn buffer(&mut self, k: usize) -> &mut WorkImage {
-        let size = self.work.size();
-        self.buffers[k].get_or_insert_with(|| WorkImage::black(size))
-    }
-}
 
 /// Result of the filters of one sensor since its last handling.
 #[derive(Clone, Debug, Default)]
@@ -95,17 +73,6 @@ pub fn check_packets(n_packets: usize, n_numbers: usize) -> Result<(), ApiError>
 }
 
 impl SimApi<'_> {
-    /// Adds operations on pixels to the work of this call, before or after they are done.
-    ///
-    /// # Errors
-    ///
-    /// They are more than one call may take.
-    pub(super) fn count_operations(&mut self, n: u64) -> Result<(), ApiError> {
-        check_operations(n, "operations on pixels", "take fewer passes, or give the sensor a lower resolution")?;
-        self.add_operations(n);
-        Ok(())
-    }
-
     /// Adds operations to the work of this call.
     pub(super) fn add_operations(&mut self, n: u64) {
         self.n_operations = self.n_operations.saturating_add(n);
@@ -173,24 +140,6 @@ impl SimApi<'_> {
         Ok(())
     }
 
-    /// Makes the image of a sensor, or its depths, its work image.
-    pub(super) fn load_work_image(&mut self, handle: Handle, is_of_depths: bool) -> Result<(), ApiError> {
-        let size = self.registry.vision_sensor(handle)?.optics.resolution;
-        self.check_work_pixels(handle, size[0] * size[1])?;
-        let image = self.vision_image(handle)?;
-        let work = if is_of_depths {
-            WorkImage::from_intensities(size, image.depths(image.whole(), false))
-        } else {
-            WorkImage::from_rgb(size, image.rgb())
-        };
-        let images = &mut self.registry.filtered(handle)?.images;
-        match images {
-            Some(images) if images.work.size() == size => images.work = work,
-            _ => *images = Some(WorkImages { work, buffers: [None, None] }),
-        }
-        Ok(())
-    }
-
     fn check_work_pixels(&mut self, handle: Handle, n: usize) -> Result<(), ApiError> {
         let own = self.registry.filtered(handle)?.images.as_ref().map_or(0, WorkImages::n_pixels);
         let all: usize = self
@@ -208,9 +157,31 @@ impl SimApi<'_> {
              resolution, or release them with simVision.releaseBuffers"
         )))
     }
+}
 
-    /// Work image of a sensor with its buffers.
-    pub(super) fn work_images(&mut self, handle: Handle) -> Result<&mut WorkImages, ApiError> {
+impl Sensors for SimApi<'_> {
+    fn sensor(&self, handle: i32) -> Result<Handle, ApiError> {
+        super::functions::plain(self, handle)
+    }
+
+    fn load(&mut self, handle: Handle, is_of_depths: bool) -> Result<(), ApiError> {
+        let size = self.registry.vision_sensor(handle)?.optics.resolution;
+        self.check_work_pixels(handle, size[0] * size[1])?;
+        let image = self.vision_image(handle)?;
+        let work = if is_of_depths {
+            WorkImage::from_intensities(size, image.depths(image.whole(), false))
+        } else {
+            WorkImage::from_rgb(size, image.rgb())
+        };
+        let images = &mut self.registry.filtered(handle)?.images;
+        match images {
+            Some(images) if images.work.size() == size => images.work = work,
+            _ => *images = Some(WorkImages { work, buffers: [None, None] }),
+        }
+        Ok(())
+    }
+
+    fn images(&mut self, handle: Handle) -> Result<&mut WorkImages, ApiError> {
         let size = self.registry.vision_sensor(handle)?.optics.resolution;
         let help = "call simVision.sensorImgToWorkImg or sensorDepthMapToWorkImg before";
         let images = self.registry.filtered(handle)?.images.as_mut();
@@ -219,25 +190,30 @@ impl SimApi<'_> {
             .ok_or_else(|| ApiError(format!("there is no work image: {help}")))
     }
 
-    /// Frees the work image of a sensor and its buffers.
-    pub(super) fn release_work_images(&mut self, handle: Handle) -> Result<(), ApiError> {
+    fn release(&mut self, handle: Handle) -> Result<(), ApiError> {
         self.registry.filtered(handle)?.images = None;
         Ok(())
     }
 
-    /// Makes the work image of a sensor its image.
-    pub(super) fn store_work_image(&mut self, handle: Handle) -> Result<(), ApiError> {
-        let bytes = self.work_images(handle)?.work.rgb();
+    fn store(&mut self, handle: Handle) -> Result<(), ApiError> {
+        let bytes = self.images(handle)?.work.rgb();
         let whole = self.vision_image(handle)?.whole();
         self.write_vision(handle, whole, Layer { is_grey: false, cut_off: None }, &bytes)
     }
 
-    /// Lens of a sensor whose depths are turned into points.
-    pub(super) fn depth_lens(&self, handle: Handle) -> Result<DepthLens, ApiError> {
+    fn lens(&self, handle: Handle) -> Result<DepthLens, ApiError> {
         let optics = self.registry.vision_sensor(handle)?.optics;
         let (height, [columns, rows]) = (optics.half_height(), optics.resolution);
         let half = [height * columns as f64 / rows as f64, height];
         let is_perspective = matches!(optics.lens, Lens::Perspective(_));
         Ok(DepthLens { near: optics.near, far: optics.far, half, is_perspective })
+    }
+
+    fn in_world(&mut self, handle: Handle, point: [f64; 3]) -> Result<[f64; 3], ApiError> {
+        Ok(self.pose(handle, Reference::World)?.point(Vec3(point)).0)
+    }
+
+    fn spend(&mut self, operations: u64) {
+        self.add_operations(operations);
     }
 }
