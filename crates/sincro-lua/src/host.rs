@@ -168,6 +168,7 @@ impl Scripts {
         }
         if phase == Phase::Actuation {
             self.wait_for_main()?;
+            (0..n).try_for_each(|k| self.with_machine(k, Machine::deliver))?;
             (0..n).try_for_each(|k| self.with_machine(k, Machine::resume))?;
         }
         if phase == Phase::Sensing {
@@ -182,7 +183,8 @@ impl Scripts {
         let is_in_step = matches!(phase, Phase::Actuation | Phase::Sensing);
         let called = (0..n).try_for_each(|k| {
             // others call those that V-REP's cascade leaves to the script above
-            let is_left_out = is_in_step && self.shared.is_called_from_above(self.machines[k].place());
+            let sleeps = self.machines[k].sleeps();
+            let is_left_out = is_in_step && (sleeps || self.shared.is_called_from_above(self.machines[k].place()));
             if is_left_out { Ok(()) } else { self.with_machine(k, |m| m.call(phase)) }
         });
         match phase {
@@ -250,7 +252,8 @@ impl Scripts {
     ) -> Result<(), ScriptError> {
         let machine = &mut self.machines[k];
         let own = self.shared.script(machine.place());
-        if machine.is_dead() || !self.shared.is_present(&own, self.scene.as_ref()) {
+        let is_enabled = self.shared.activity(machine.place()).is_enabled;
+        if !is_enabled || machine.is_dead() || !self.shared.is_present(&own, self.scene.as_ref()) {
             return Ok(());
         }
         let done = call(machine);

@@ -249,6 +249,14 @@ impl Machine {
         self.within(Self::update_entries)
     }
 
+    /// Hands messages of topics to the functions of the script that have subscribed to them.
+    pub fn deliver(&mut self) -> Result<(), ScriptError> {
+        if !self.shared.topics().has_messages(self.index) {
+            return Ok(());
+        }
+        self.within(|m| m.lua.named_registry_value::<Function>(api::DELIVER)?.call(()))
+    }
+
     /// A phase of the step, or of the time between runs; threads are resumed by [`Machine::resume`].
     pub fn call(&mut self, phase: Phase) -> Result<(), ScriptError> {
         let is_old = self.style == Style::Old;
@@ -270,6 +278,11 @@ impl Machine {
             }
             Phase::Cleanup | Phase::Close => self.call_either("cleanup", "sysCall_cleanup"),
         }
+    }
+
+    /// Returns true if steps of a run do not call it, because a script has said so.
+    pub fn sleeps(&self) -> bool {
+        self.is_customization() && !self.shared.activity(self.index).is_in_runs
     }
 
     /// Returns true if it is a customization script.

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use mlua::{Lua, WeakLua};
+use sincro_coppelia::api::topics::Topics;
 use sincro_coppelia::api::{ApiError, Handle, ObjectRegistry, SimApi};
 use sincro_coppelia::host::Setting;
 use sincro_dynamics::world::World;
@@ -39,6 +40,8 @@ pub(crate) struct Shared {
     scripts: Mutex<Vec<Known>>,
     /// Errors after which the run went on, by the places of the scripts.
     failures: Mutex<BTreeMap<usize, Failures>>,
+    /// Topics of `simROS`, with their publishers and subscribers.
+    topics: Mutex<Topics>,
     /// Number of scripts that are calling each other down the tree.
     pub depth: AtomicUsize,
     /// Settings of the run.
@@ -62,6 +65,20 @@ struct Known {
     /// Number of the calls of an old script, unless it has set another one itself.
     n_executions: i64,
     cascade: Cascade,
+    activity: Activity,
+}
+
+/// When a script is called: as it has asked for, or another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Activity {
+    /// False if no step and no function of the simulation calls it any more.
+    pub is_enabled: bool,
+    /// False if it is a customization script that steps of a run do not call.
+    pub is_in_runs: bool,
+}
+
+impl Activity {
+    const NEW: Self = Self { is_enabled: true, is_in_runs: true };
 }
 
 /// Part of a script in the cascade of V-REP's calls: which scripts below it are called by whom.
@@ -97,7 +114,8 @@ impl Shared {
     pub fn new(setting: Setting, nothing: World) -> Self {
         let stage = Mutex::new(Stage { world: nothing, registry: None, t: 0.0 });
         let (messages, scripts, failures) = (Mutex::default(), Mutex::default(), Mutex::default());
-        Self { stage, messages, scripts, failures, depth: AtomicUsize::new(0), setting }
+        let topics = Mutex::default();
+        Self { stage, messages, scripts, failures, topics, depth: AtomicUsize::new(0), setting }
     }
 
     /// Counts an error of a script after which the run goes on; one of the same text is told once.
@@ -134,7 +152,14 @@ impl Shared {
         let is_same =
             |known: &Known| known.has_ended && (known.script.object, known.script.kind) == (script.object, script.kind);
         let earlier = scripts.iter().position(is_same);
-        let new = Known { script, state: None, has_ended: false, n_executions: 0, cascade: Cascade::NEW };
+        let new = Known {
+            script,
+            state: None,
+            has_ended: false,
+            n_executions: 0,
+            cascade: Cascade::NEW,
+            activity: Activity::NEW,
+        };
         if let Some(place) = earlier {
             scripts[place] = new;
             return place;
@@ -148,8 +173,24 @@ impl Shared {
         open(&self.scripts)[place].state = Some(state);
     }
 
+    /// When a script is called.
+    pub fn activity(&self, place: usize) -> Activity {
+        open(&self.scripts)[place].activity
+    }
+
+    /// Changes when a script is called.
+    pub fn change_activity(&self, place: usize, change: impl FnOnce(&mut Activity)) {
+        change(&mut open(&self.scripts)[place].activity);
+    }
+
+    /// Topics of the scripts.
+    pub fn topics(&self) -> MutexGuard<'_, Topics> {
+        open(&self.topics)
+    }
+
     /// Lets a script be found no longer.
     pub fn end(&self, place: usize) {
+        self.topics().forget(place);
         let known = &mut open(&self.scripts)[place];
         (known.state, known.has_ended) = (None, true);
     }

@@ -11,6 +11,7 @@
 //! | `fields.rs` | maps that functions take and give back |
 //! | `stored.rs` | data under tags |
 //! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
+//! | `topics.rs` | topics with publishers and subscribers |
 //! | `clouds.rs` | contents of octrees and point clouds |
 //! | `work.rs` | limit of the work of one call |
 //! | `ports.rs` | TCP ports that scripts ask for |
@@ -28,6 +29,7 @@ mod ports;
 pub mod radio;
 mod signals;
 pub mod stored;
+pub mod topics;
 pub mod tubes;
 pub mod unpack;
 mod value;

@@ -11,6 +11,7 @@ mod helpers;
 mod modules;
 mod moves;
 mod planning;
+mod ros;
 mod scripts;
 mod threads;
 mod vision;
@@ -20,6 +21,7 @@ use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub(crate) use callbacks::{find as function_of, hold_variables, set_held_variables};
+pub(crate) use ros::DELIVER;
 
 use mlua::{Error, Function, IntoLuaMulti, Lua, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions};

@@ -1,5 +1,6 @@
-//! Modules beside `sim`: `simIK`, `simOMPL`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and
-//! `matrix`, by `require` and, but for `dkjson`, as globals; files of the scene that a script is given, by `require`.
+//! Modules beside `sim`: `simIK`, `simOMPL`, `simUI`, `simVision`, `simROS`, `simROS2`, `simRemoteApi`, `messagePack`,
+//! `dkjson` and `matrix`, by `require` and, but for `dkjson`, as globals; files of the scene that a script is given, by
+//! `require`.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
@@ -8,7 +9,7 @@ use mlua::chunk::ChunkMode;
 use mlua::{Error, Function, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::functions;
 
-use super::{ApiContext, planning, vision};
+use super::{ApiContext, planning, ros, vision};
 use crate::{power, sandbox};
 
 /// Libraries of Lua, which are modules, too.
@@ -23,6 +24,9 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     modules.set("simUI", interfaces(context)?)?;
     modules.set("simVision", vision::module(context)?)?;
     modules.set("simRemoteApi", remote_api(context)?)?;
+    let [ros, ros2] = ros::modules(context)?;
+    modules.set("simROS", ros)?;
+    modules.set("simROS2", ros2)?;
     let pack: Table = lua.load(include_str!("../message_pack.lua")).set_name(crate::sandbox::OWN_SOURCE).call(())?;
     modules.set("messagePack", &pack)?;
     modules.set("MessagePack", pack)?;
@@ -66,7 +70,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 return lua.globals().get(name);
             }
             return Err(Error::RuntimeError(format!(
-                "there is no module '{name}': scripts have `sim`, `simIK`, `simOMPL`, `simUI`, `simVision`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
+                "there is no module '{name}': scripts have `sim`, `simIK`, `simOMPL`, `simUI`, `simVision`, `simROS`, `simROS2`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
             )));
         };
         let files = || loading.lock().unwrap_or_else(PoisonError::into_inner);

@@ -189,8 +189,34 @@ fn calls_of_an_old_script_are_counted() {
     assert_eq!(counted[1], "0\t-1");
     assert!(counted[0].contains("calls nothing: the step calls the scripts below"), "{counted:?}");
     assert_eq!(counted[3], "1\t-1");
-    let refused = said("print(pcall(sim.setScriptAttribute, sim.handle_self, sim.scriptattribute_enabled, 0))");
-    assert!(refused[0].contains("there is no attribute 4: "), "{refused:?}");
+    let refused = said("print(pcall(sim.setScriptAttribute, sim.handle_self, sim.scriptattribute_executionorder, 0))");
+    assert!(refused[0].contains("there is no attribute 1: "), "{refused:?}");
+}
+
+#[test]
+fn a_script_that_is_disabled_is_not_called_any_more() {
+    let code =
+        "function sysCall_init() n = 0 print(sim.getScriptAttribute(sim.handle_self, sim.scriptattribute_enabled)) end
+        function sysCall_actuation()
+            n = n + 1
+            print(n, sim.getScriptAttribute(sim.handle_self, sim.scriptattribute_scripttype))
+            if n == 2 then simSetScriptAttribute(sim.handle_self, sim.scriptattribute_enabled, false) end
+        end
+        function sysCall_cleanup() print('gone') end";
+    assert_eq!(said(code), ["true", "1\t1", "2\t1"]);
+}
+
+#[test]
+fn a_customization_script_may_be_left_out_of_runs() {
+    let code = "if sim_call_type == sim_customizationscriptcall_initialization then
+            n = 0
+            simSetScriptAttribute(sim_handle_self, sim_customizationscriptattribute_activeduringsimulation, false)
+            print(simGetScriptAttribute(sim_handle_self, sim_customizationscriptattribute_activeduringsimulation))
+        end
+        if sim_call_type == sim_customizationscriptcall_simulationactuation then n = n + 1 end
+        if sim_call_type == sim_customizationscriptcall_cleanup then print(n) end";
+    let run = run(&with_script(code, "kind = \"customization\"").unwrap());
+    assert_eq!(run.messages.iter().map(|m| m.text.as_str()).collect::<Vec<_>>(), ["false", "0"]);
 }
 
 /// Messages of scripts on `/hinge`, `/hinge/arm`, `/hinge/arm/tip` and `/hinge/arm/other` in one step.
