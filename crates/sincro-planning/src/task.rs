@@ -9,11 +9,13 @@ use crate::planner::Planner;
 use crate::space::{Kind, MAX_BOUND, MAX_WEIGHT, Part, Space};
 
 /// Tasks and components that may exist at once.
-const MAX_COUNT: usize = 1_000;
+const MAX_COUNT: usize = 10_000;
 /// Components, collision pairs and goals of one task.
 const MAX_PARTS: usize = 100;
 /// Checked states for a second of the time limit of a client: a clock would make every run another one.
 const CHECKS_PER_SECOND: f64 = 2_000.0;
+/// Checked states of one call at least: searches of OMPL that are given a tenth of a second try thousands.
+const MIN_CHECKS: f64 = 5_000.0;
 /// Checked states of one call at most.
 const MAX_CHECKS: f64 = 50_000.0;
 /// Seconds where none are given.
@@ -21,12 +23,12 @@ const DEFAULT_SECONDS: f64 = 5.0;
 /// Seed of the first search of a task.
 const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Number of checked states that a time limit `[s]` stands for: 2,000 a second, 50,000 at most; 10,000 for a limit that
-/// is not positive.
+/// Number of checked states that a time limit `[s]` stands for: 2,000 a second, 5,000 at least and 50,000 at most;
+/// 10,000 for a limit that is not positive.
 #[must_use]
 pub fn checks_in(seconds: f64) -> usize {
     let seconds = if seconds > 0.0 { seconds } else { DEFAULT_SECONDS };
-    (seconds * CHECKS_PER_SECOND).clamp(1.0, MAX_CHECKS) as usize
+    (seconds * CHECKS_PER_SECOND).clamp(MIN_CHECKS, MAX_CHECKS) as usize
 }
 
 /// Part of a state space that an object of the scene has: where it is, or the position of a joint.
@@ -251,6 +253,11 @@ impl Task {
         self.path.concat()
     }
 
+    /// Returns true if its last search has found no path.
+    fn has_failed(&self) -> bool {
+        self.n_searches & 0xffff_ffff > 0 && self.path.is_empty()
+    }
+
     /// Takes the effort since the last time, in checked states.
     pub fn take_checks(&mut self) -> usize {
         std::mem::take(&mut self.n_checks)
@@ -268,6 +275,8 @@ pub struct Tasks {
     tasks: BTreeMap<i64, Task>,
     components: BTreeMap<i64, Component>,
     n_made: i64,
+    /// Number of tasks that were removed after a search in vain.
+    n_failed: u64,
 }
 
 impl Tasks {
@@ -285,8 +294,11 @@ impl Tasks {
     /// # Errors
     ///
     /// There are too many.
-    pub fn add(&mut self, task: Task) -> Result<i64, ApiError> {
+    pub fn add(&mut self, mut task: Task) -> Result<i64, ApiError> {
         let handle = self.next()?;
+        // one that is made after others have failed searches in another way
+        let failed = self.tasks.values().filter(|task| task.has_failed()).count();
+        task.n_searches += (self.n_failed + failed as u64) << 32;
         self.tasks.insert(handle, task);
         Ok(handle)
     }
@@ -324,7 +336,8 @@ impl Tasks {
 
     /// Removes a task or a component; tasks have components of their own.
     pub fn remove(&mut self, handle: i64) {
-        self.tasks.remove(&handle);
+        let removed = self.tasks.remove(&handle);
+        self.n_failed += u64::from(removed.is_some_and(|task| task.has_failed()));
         self.components.remove(&handle);
     }
 }

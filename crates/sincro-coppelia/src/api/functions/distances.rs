@@ -46,6 +46,6 @@ fn collision(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let second = if a.has(1) { entity(sim, a, 1)? } else { Entity::All };
     Ok(match sim.collision(first, second)? {
         Some(bodies) => vec![Value::Int(1), Value::handles(bodies)],
-        None => vec![Value::Int(0), Value::List(Vec::new())],
+        None => vec![Value::Int(0), Value::handles([Handle(-1); 2])],
     })
 }
