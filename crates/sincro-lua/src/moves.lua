@@ -157,7 +157,8 @@ local function move_to_joint_positions(joints, positions, velocity, acceleration
   return go_along('moveToJointPositions', way, velocity or 1, acceleration, function(share)
     for k, joint in ipairs(joints) do
       local q = from[k] + share * (positions[k] - from[k])
-      if sim.getJointMode(joint) == sim.jointmode_dynamic then
+      -- one without a motor is put there, as V-REP does with passive ones
+      if sim.getJointMode(joint) == sim.jointmode_dynamic and sim.getObjectInt32Param(joint, 2000) ~= 0 then
         sim.setJointTargetPosition(joint, q)
       else
         sim.setJointPosition(joint, q)

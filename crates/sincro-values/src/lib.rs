@@ -11,8 +11,10 @@
 //! | `fields.rs` | maps that functions take and give back |
 //! | `stored.rs` | data under tags |
 //! | `signals.rs`, `tubes.rs`, `radio.rs` | signals; bytes between the ends of a tube; wireless packets |
+//! | `mesh_files.rs` | meshes as OBJ, STL and PLY files |
 //! | `topics.rs` | topics with publishers and subscribers |
 //! | `clouds.rs` | contents of octrees and point clouds |
+//! | `widgets.rs`, `widget_tips.rs` | interfaces without windows: what is set is kept |
 //! | `work.rs` | limit of the work of one call |
 //! | `ports.rs` | TCP ports that scripts ask for |
 
@@ -24,6 +26,7 @@ mod error;
 pub mod fields;
 pub mod graphs;
 mod handle;
+pub mod mesh_files;
 pub mod numbers;
 mod ports;
 pub mod radio;
@@ -33,6 +36,8 @@ pub mod topics;
 pub mod tubes;
 pub mod unpack;
 mod value;
+mod widget_tips;
+pub mod widgets;
 pub mod work;
 
 pub use error::ApiError;

@@ -10,8 +10,10 @@
 //! | `blobs.rs` | [`Blob`]: connected components with their smallest oriented rectangles |
 //! | `changes.rs` | pixels that have changed since the last time |
 //! | `pictures.rs` | pictures as bytes: turned over, scaled, as a bitmap |
+//! | `picture_files.rs` | pictures from PNG and BMP files |
 //! | `filters.rs` | the functions by name, on the sensors of a [`Sensors`]; [`for_filters!`] has their call tips |
 //! | `points.rs` | [`DepthLens`]: points of a depth map, by rows and columns or by angles |
+//! | `textures.rs` | pictures that shapes are given |
 //! | `work_images.rs` | [`WorkImages`]: a work image and its two buffers |
 //!
 //! An image has columns and rows; pixels are counted row by row from the bottom, each row from left to right. Colours
@@ -25,8 +27,10 @@ mod changes;
 mod color;
 mod convolution;
 mod filters;
+pub mod picture_files;
 pub mod pictures;
 mod points;
+pub mod textures;
 mod work_images;
 
 pub use binary::Moments;

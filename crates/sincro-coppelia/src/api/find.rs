@@ -5,8 +5,10 @@
 //! any run and any character; `/arm/Script` is the object of the script on `/arm`, which functions that take scripts
 //! take too. Free joints may be left out ([`super::tree`]). Copies that the scene language or V-REP has numbered
 //! (`ball1`, `ball#0`) are counted after those called `ball`: `ball[0]`, `ball[1]`; as `ball{0}`, `ball{1}` where no
-//! object of the level is called `ball`. Without a leading sign it is a name of V-REP: `joint`, `joint#` for the first
-//! of that name; `joint#0` for the object of that very name, or the second of those called `joint`.
+//! object of the level is called `ball`, or once those called `ball` have been counted. Without a leading sign it is a
+//! name of V-REP: `joint`, `joint#` for the first of that name; `joint#0` for the object of that very name, or the
+//! second of those called `joint`; `wall0` for the second of those called `wall` if it was loaded or copied at run time
+//! and no object has that very name.
 
 use super::ApiError;
 use super::registry::{Entry, Handle, ObjectRegistry};
@@ -24,6 +26,25 @@ pub struct Search {
     pub index: Option<usize>,
     /// Object below which a path without a leading sign is searched; none: such a text is a name of V-REP.
     pub below: Option<Handle>,
+}
+
+/// Counting of the numbered copies of a name among its matches.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Counting {
+    /// The first match is wanted: none are counted.
+    None,
+    /// Those of levels where no object has the very name.
+    CopiesIfAlone,
+    /// All, after the objects of the very name.
+    Copies,
+}
+
+/// Name and number of a name that ends with a number without leading zeros.
+fn numbered(text: &str) -> Option<(&str, usize)> {
+    let name = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    let digits = &text[name.len()..];
+    let is_plain = !name.is_empty() && (digits == "0" || !digits.starts_with('0'));
+    Some((name, digits.parse().ok().filter(|_| is_plain)?))
 }
 
 impl ObjectRegistry {
@@ -93,7 +114,13 @@ impl ObjectRegistry {
             Some((name, digits)) => (name, digits.parse::<usize>().ok()?.checked_add(1)?),
             None => (text, 0),
         };
-        self.entries().filter(|e| e.name == name).nth(nth).map(|e| e.handle)
+        let found = self.entries().filter(|e| e.name == name).nth(nth).map(|e| e.handle);
+        // V-REP 3 numbers what is loaded again: `wall`, `wall0`, `wall1`
+        found.or_else(|| {
+            let (name, nth) = numbered(text)?;
+            let again = self.entries().filter(|e| e.name == name).nth(nth.checked_add(1)?)?;
+            self.added.contains(&again.handle).then_some(again.handle)
+        })
     }
 
     fn find_path(&self, text: &str, search: Search) -> Result<Option<Handle>, ApiError> {
@@ -134,24 +161,31 @@ impl ObjectRegistry {
         let Some(elements) = rest.split('/').map(element).collect::<Option<Vec<_>>>() else {
             return Err(ApiError(format!("`{text}` is no path of objects")));
         };
-        let mut left = index.unwrap_or(0);
-        let found = self.search(start, &elements, index.is_some(), &mut left);
-        if found.is_some() || !is_loose {
+        let counting = if index.is_some() { Counting::CopiesIfAlone } else { Counting::None };
+        let levels = [Some(start), is_loose.then_some(None)];
+        let found =
+            levels.iter().flatten().find_map(|level| self.search(*level, &elements, counting, &mut index.unwrap_or(0)));
+        if found.is_some() || index.is_none() {
             return Ok(found);
         }
-        let mut left = index.unwrap_or(0);
-        Ok(self.search(None, &elements, index.is_some(), &mut left))
+        // a number beyond those of the very name counts its numbered copies, too
+        Ok(levels
+            .iter()
+            .flatten()
+            .find_map(|level| self.search(*level, &elements, Counting::Copies, &mut index.unwrap_or(0))))
     }
 
-    /// Looks for the path among the objects of a level, then below them; `counts`: a match of several is wanted.
-    fn search(&self, level: Option<Handle>, path: &[Element], counts: bool, left: &mut usize) -> Option<Handle> {
+    /// Looks for the path among the objects of a level, then below them, until `left` matches were passed over.
+    fn search(&self, level: Option<Handle>, path: &[Element], counting: Counting, left: &mut usize) -> Option<Handle> {
         let objects: Vec<&Entry> = self.level(level);
         let (first, more) = path.split_first()?;
         let (mut n_matches, mut taken) = (0, Vec::new());
         let (named, others): (Vec<&Entry>, Vec<&Entry>) =
             objects.iter().copied().partition(|o| fits(&first.pattern, &o.name));
         // numbered copies come after what has the very name
-        let is_counted = first.among.is_some() || counts && named.is_empty();
+        let is_counted = first.among.is_some()
+            || counting == Counting::Copies
+            || counting == Counting::CopiesIfAlone && named.is_empty();
         let is_copy = |o: &&Entry| is_counted && copied(&o.name).is_some_and(|name| fits(&first.pattern, name));
         for object in named.into_iter().chain(others.into_iter().filter(is_copy)) {
             let is_wanted = first.among.is_none_or(|k| k == n_matches);
@@ -167,13 +201,13 @@ impl ObjectRegistry {
                     return Some(object.handle);
                 }
                 *left -= 1;
-            } else if let Some(found) = self.search(Some(object.handle), more, counts, left) {
+            } else if let Some(found) = self.search(Some(object.handle), more, counting, left) {
                 return Some(found);
             }
         }
         // what a free joint carries is among the objects already
         let below = objects.iter().filter(|o| !taken.contains(&o.handle) && !self.is_left_out(o.handle));
-        below.into_iter().find_map(|o| self.search(Some(o.handle), path, counts, left))
+        below.into_iter().find_map(|o| self.search(Some(o.handle), path, counting, left))
     }
 
     fn missing(&self, text: &str) -> ApiError {

@@ -65,8 +65,8 @@ impl SimApi<'_> {
     }
 
     /// Configurations of some joints in which a group reaches its targets, each within the limits of the joints: from
-    /// the present one, then from others at random (the same in every run); at most `n`, as many attempts as `seconds`
-    /// stand for. The nearest to the present one comes first.
+    /// the present one, then from others at random (the same in every run, others for another `salt`); at most `n`, as
+    /// many attempts as `seconds` stand for. The nearest to the present one comes first.
     ///
     /// # Errors
     ///
@@ -76,7 +76,7 @@ impl SimApi<'_> {
         (environment, group): (i64, i64),
         joints: &[Handle],
         n: usize,
-        seconds: f64,
+        (seconds, salt): (f64, u64),
     ) -> Result<Vec<Vec<f64>>, ApiError> {
         let mut group = self.enabled(environment, group)?;
         group.iterations = group.iterations.max(MIN_ITERATIONS);
@@ -84,7 +84,7 @@ impl SimApi<'_> {
         self.inside(environment, &group, |sim, moved| {
             let places = places(joints, moved)?;
             let start: Vec<f64> = moved.iter().map(|m| sim.position_of(m)).collect();
-            let (mut found, mut random) = (Vec::<Vec<f64>>::new(), SplitMix64::new(SEED));
+            let (mut found, mut random) = (Vec::<Vec<f64>>::new(), SplitMix64::new(SEED.wrapping_add(salt)));
             for attempt in 0..attempts {
                 let from: Vec<f64> = match attempt {
                     0 => start.clone(),

@@ -27,6 +27,7 @@ mod joint_modes;
 mod joints;
 mod lens;
 mod meshes;
+mod meshing;
 mod motions;
 mod pairs;
 mod parameters;
@@ -42,6 +43,7 @@ mod senses;
 mod shapes;
 mod sim_api;
 mod structure;
+mod textures;
 mod tree;
 mod vision;
 

@@ -1,10 +1,12 @@
 //! Parameters of objects, by the numbers that clients use for them. Those of the simulator are in `program.rs`.
 
 use sincro_dynamics::actuation::MotorMode;
+use sincro_dynamics::contact::Surface;
 
 use super::lens::{vision_float, vision_int};
 use super::program::unknown;
 use super::registry::{Handle, Kind};
+use super::senses::handle_of;
 use super::structure::Role;
 use super::{ApiError, SimApi};
 
@@ -47,9 +49,25 @@ impl SimApi<'_> {
             (3003, Kind::Body(_)) => i64::from(self.is_static(handle)?),
             (3004, Kind::Body(_)) => i64::from(self.is_respondable(handle)?),
             (3019, Kind::Body(_) | Kind::Shape) => self.respondable_mask(handle),
+            (3016..=3018 | 3028, Kind::Body(_) | Kind::Shape) => self.shape_int(handle, id)?,
             (LINK_TYPE, Kind::Dummy | Kind::Frame) => CLOSURE,
             (id, Kind::Body(_) | Kind::Shape) if LOOK_INTS.contains(&id) => self.look(handle, id) as i64,
             _ => return Err(unknown("whole-number object", id)),
+        })
+    }
+
+    /// Whole-number parameter of the geometry of a shape: 3016 of several parts, 3017 and 3018 of convex ones alone,
+    /// 3028 number of its parts.
+    fn shape_int(&self, handle: Handle, id: i64) -> Result<i64, ApiError> {
+        let own = self.registry.entry(handle)?.handle;
+        let parts = self.registry.senses.pieces().filter(|piece| handle_of(piece) == own);
+        let is_convex = |surface: &Surface| !matches!(surface, Surface::Mesh(..) | Surface::HeightField { .. });
+        let (n, n_convex) =
+            parts.fold((0, 0), |(n, n_convex), part| (n + 1, n_convex + i64::from(is_convex(part.geometry.surface()))));
+        Ok(match id {
+            3016 => i64::from(n > 1),
+            3028 => n,
+            _ => i64::from(n == n_convex),
         })
     }
 

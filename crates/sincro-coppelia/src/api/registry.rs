@@ -26,7 +26,6 @@ use super::pairs::{self, Pair};
 use super::scene_objects::handle_of_id;
 use super::senses::Senses;
 use super::structure::{Belt, Link, Material, Needed, Role};
-
 use super::vision::Vision;
 use super::{ApiError, Phase};
 use sincro_scene::scene::{Object, Scene};
@@ -40,7 +39,9 @@ use sincro_values::clouds::{Points, Voxels};
 use sincro_values::radio::Radio;
 use sincro_values::stored::Stored;
 use sincro_values::tubes::Tubes;
-use sincro_values::{LegacyPorts, PortRequest, Signals, Value};
+use sincro_values::widgets::Widgets;
+use sincro_values::{LegacyPorts, PortRequest, Signals};
+use sincro_vision::textures::Textures;
 
 /// Bytes that clients and scripts may store: string signals, data with objects, named parameters.
 const MAX_BYTES: usize = 256 << 20;
@@ -235,16 +236,12 @@ pub struct ObjectRegistry {
     pub(super) drawings: Drawings,
     /// Frames of the scene that clients or scripts have moved.
     pub(super) moved_frames: BTreeSet<Handle>,
+    /// Textures, and the shapes that have them.
+    pub(super) textures: Textures,
     /// Tubes between scripts and clients.
     pub(super) tubes: Tubes,
-    /// Values of widgets: interface, widget, what it is a value of.
-    pub(super) widgets: BTreeMap<(String, i64, &'static str), Value>,
-    /// Interfaces that were made and not destroyed.
-    pub(super) interfaces: BTreeSet<String>,
-    /// Names of windows of V-REP 3, in the order in which they were asked for.
-    pub(super) windows: Vec<String>,
-    /// Number of interfaces that were made.
-    pub(super) n_interfaces: usize,
+    /// Interfaces, with the values of their widgets.
+    pub(super) widgets: Widgets,
     /// Frames of the scene that recorded signals are about.
     pub(super) recorded_frames: BTreeSet<Handle>,
     /// Free joints, and frames that were free joints: clients do not see them as parents.
@@ -289,6 +286,8 @@ pub struct ObjectRegistry {
     pub(crate) sent_folder: Option<PathBuf>,
     /// Random numbers that clients and scripts were given in this run.
     pub(super) n_random: u64,
+    /// Searches for configurations of V-REP's groups in this run.
+    pub(super) n_searches: u64,
     /// Objects that clients and scripts have selected, in their order.
     pub(super) selection: Vec<Handle>,
     /// Wireless data on their way.
@@ -376,12 +375,10 @@ impl ObjectRegistry {
             drawings: Drawings::default(),
             moved_frames: BTreeSet::new(),
             tubes: Tubes::default(),
-            widgets: BTreeMap::new(),
-            interfaces: BTreeSet::new(),
-            windows: Vec::new(),
-            n_interfaces: 0,
+            widgets: Widgets::default(),
             recorded_frames: BTreeSet::new(),
             n_random: 0,
+            n_searches: 0,
             selection: Vec::new(),
             radio: Radio::default(),
             is_told_of_step: false,
@@ -411,6 +408,7 @@ impl ObjectRegistry {
             respondable_masks: BTreeMap::new(),
             looks: BTreeMap::new(),
             component_colors: BTreeMap::new(),
+            textures: Textures::default(),
             dummy_links: BTreeMap::new(),
             belts: BTreeMap::new(),
             statics: BTreeSet::new(),
@@ -667,9 +665,7 @@ impl ObjectRegistry {
         let signals = self.integers.names_size() + self.floats.names_size() + self.strings.names_size();
         let data = self.data.iter().map(|((_, tag), data)| tag.len() + data.bytes.len()).sum::<usize>();
         let named = self.named.iter().map(|(name, bytes)| name.len() + bytes.len()).sum::<usize>();
-        let of_widget =
-            |((own, ..), value): (&(String, i64, &str), &Value)| own.len() + value.as_text().map_or(0, str::len);
-        let widgets = self.widgets.iter().map(of_widget).sum::<usize>();
+        let widgets = self.widgets.size();
         let stored = self.strings.total() + signals + self.tubes.total() + self.radio.total() + data + named + widgets;
         if stored + n > MAX_BYTES {
             let mib = MAX_BYTES >> 20;
@@ -857,7 +853,7 @@ impl ObjectRegistry {
         self.images.clear();
         self.notes = Notes::default();
         (self.has_stepped, self.has_begun, self.is_told_of_step) = (false, false, false);
-        self.n_random = 0;
+        (self.n_random, self.n_searches) = (0, 0);
         self.vision.forget();
         self.reset_looks();
     }
@@ -887,12 +883,12 @@ impl ObjectRegistry {
         self.belts = before.belts;
         self.dummy_links = before.dummy_links;
         (self.looks, self.component_colors) = (before.looks, before.component_colors);
+        self.textures = before.textures;
         (self.respondable_masks, self.joint_modes) = (before.respondable_masks, before.joint_modes);
         (self.added_scripts, self.switched_off) = (before.added_scripts, before.switched_off);
         (self.broken, self.statics) = (before.broken, before.statics);
         (self.has_stepped, self.has_begun) = (false, false);
-        (self.widgets, self.interfaces, self.n_interfaces) = (before.widgets, before.interfaces, before.n_interfaces);
-        self.windows = before.windows;
+        self.widgets = before.widgets;
         self.recorded_frames = before.recorded_frames;
         self.moved_frames = before.moved_frames;
         self.drawings.end_run();

@@ -84,6 +84,7 @@ impl ObjectRegistry {
         self.forget_links(handle);
         self.looks.retain(|(owner, _), _| *owner != handle);
         self.component_colors.retain(|(owner, _), _| *owner != handle);
+        self.textures.forget(handle);
         self.flags.forget(handle);
         self.forget_entity(Entity::Object(handle));
         Ok(())

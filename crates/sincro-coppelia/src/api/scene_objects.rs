@@ -189,6 +189,7 @@ impl ObjectRegistry {
         self.forget_links(handle);
         self.looks.retain(|(owner, _), _| *owner != handle);
         self.component_colors.retain(|(owner, _), _| *owner != handle);
+        self.textures.forget(handle);
         self.solids.remove(&handle);
         self.recorded_frames.remove(&handle);
         self.moved_frames.remove(&handle);

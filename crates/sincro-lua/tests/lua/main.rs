@@ -23,6 +23,7 @@ mod propeller;
 mod senses;
 mod structure;
 mod styles;
+mod textures;
 mod topics;
 mod touching;
 mod vision;

@@ -6,7 +6,7 @@ use sincro_sim::prelude::*;
 use sincro_testing::scenes::box_above_floor;
 use sincro_testing::{OpenSession, SceneFolder};
 
-use super::world::{open, run};
+use super::world::{open, run, said};
 
 const EXPERIMENT: &str = r#"
 title = "Structure"
@@ -462,4 +462,26 @@ fn texts_that_are_refused_use_up_no_scripts() {
         end",
     );
     assert!(said.len() == 1 && said[0].starts_with("true\t"), "{said:?}");
+}
+
+#[test]
+fn what_is_hung_beside_an_object_of_its_name_gets_a_number() {
+    let code = "function sysCall_sensing()
+            if done then return end
+            done = true
+            local bodies = {}
+            for k = 1, 3 do
+                bodies[k] = sim.createPureShape(0, 8, { 0.1, 0.1, 0.1 }, 1, nil)
+                sim.setObjectPosition(bodies[k], -1, { k, 5, 1 })
+                local lid = sim.createPureShape(0, 8, { 0.05, 0.05, 0.05 }, 1, nil)
+                sim.setObjectPosition(lid, -1, { k, 5, 1.1 })
+                sim.setObjectParent(lid, bodies[k], true)
+            end
+            local all = sim.groupShapes(bodies)
+            local names = {}
+            for k = 0, 2 do names[k + 1] = sim.getObjectName(sim.getObjectChild(all, k)) end
+            print(#names, names[1] ~= names[2], names[2] ~= names[3])
+            print(sim.loadModel and sim.setShapeColor(all, nil, sim.colorcomponent_transparency, { 0.2 }))
+        end";
+    assert_eq!(said(code), ["3\ttrue\ttrue", "1"]);
 }

@@ -48,14 +48,14 @@ fn contacts_force_sensors_and_stops_are_seen() {
         print(state, math.abs(force[3] + 19.62) < 1e-9, math.abs(torque[1]) < 1e-9)
         local cyclic, interval = sim.getJointInterval(sim.getObject('/first'))
         print(cyclic, interval[1], interval[2], sim.getJointDependency(sim.getObject('/second')))
-        print(pcall(sim.createTexture, 1, 2, 3))
+        print(pcall(sim.setShapeMaterial, 1, 2))
         print(select(2, pcall(sim.checkCollision, floor, sim.getObject('/load'))))
     end";
     let run = with_box(code, "record = [\"/loose.position.z\"]", "");
     let said = texts(&run);
     assert!(said[0].starts_with("true\ttrue\t1\t"), "{said:?}");
     assert_eq!(said[1..3], ["1\ttrue\ttrue", "false\t-0.5\t1.5\t6\t0.0\t4.0"]);
-    assert!(said[3].contains("sim.createTexture is not offered: textures are made in"));
+    assert!(said[3].contains("sim.setShapeMaterial is not offered: the parameters of Bullet"));
     assert!(said[4].contains("`/scale/load` has no shape: it meets nothing"), "{said:?}");
 }
 

@@ -52,6 +52,7 @@ fn every_listed_name_answers_any_arguments() {
             for object in things.made.objects() {
                 client.exchange("sim.removeObject", &[object]);
             }
+            client.exchange("sim.ruckigRemove", &[things.made.motion()]);
         }
         assert!(n_results > 300 && n_reasons > 1000, "{n_results} results, {n_reasons} reasons");
     }

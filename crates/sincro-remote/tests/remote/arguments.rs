@@ -18,8 +18,8 @@ pub const ELSEWHERE: [&str; 8] = [
 ];
 
 /// Functions that need what is not here: a script and the grant to change it, sensors, bodies that touch, stops,
-/// couplings, groups, a motion, mesh files.
-pub const NEEDS_MORE: [&str; 35] = [
+/// couplings, groups, a motion, mesh files, the grant to write files.
+pub const NEEDS_MORE: [&str; 37] = [
     "setSphericalJointMatrix",
     "getEngineFloatParameter",
     "setEngineFloatParameter",
@@ -48,6 +48,8 @@ pub const NEEDS_MORE: [&str; 35] = [
     "importShape",
     "importMesh",
     "loadModel",
+    "saveScene",
+    "exportMesh",
     "callScriptFunction",
     "executeScriptString",
     "moveToConfig",
@@ -99,6 +101,11 @@ impl Made {
     pub fn objects(&self) -> [Value; 6] {
         let [one, other] = &self.shapes;
         [&self.point, one, other, &self.sensor, &self.octree, &self.cloud].map(Value::clone)
+    }
+
+    /// The motion, to be removed, too: there may be 1,000.
+    pub fn motion(&self) -> Value {
+        self.motion.clone()
     }
 }
 
@@ -269,6 +276,19 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         "getLinkDummy" => vec![point.clone()],
         "setPathTargetNominalVelocity" => vec![path.clone(), Value::Real(0.0)],
         "getUIHandle" => vec![text()],
+        "createUIButton" => vec![int(500_000), Value::reals([0.0, 0.0]), Value::reals([1.0, 1.0]), int(5)],
+        "handleMill" | "resetMill" | "resetMilling" => vec![int(-2)],
+        "addPointCloud" => vec![int(0), int(255), int(-1), int(0), Value::Real(5.0), three()],
+        // number 1 is that texture
+        "createTexture" => vec![Value::from(""), int(0)],
+        "readTexture" => vec![int(1)],
+        "writeTexture" => {
+            vec![int(1), int(0), Value::Bytes(vec![7; 3]), int(0), int(0), int(1), int(1)]
+        }
+        "loadImage" => vec![int(0), Value::Bytes(bitmap())],
+        "getQHull" => vec![Value::reals([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0])],
+        "reorientShapeBoundingBox" => vec![shape.clone(), int(-1)],
+        "alignShapeBB" | "relocateShapeFrame" => vec![shape.clone(), pose()],
         "addObjectCustomData" => vec![joint.clone(), int(5), Value::Bytes(vec![1])],
         "getObjectCustomData" => vec![joint.clone(), int(5)],
         "setUIButtonLabel" => vec![int(500_000), int(1), text()],
@@ -335,6 +355,15 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
         _ if name.starts_with("setObjectFloat") => vec![joint.clone(), int(2017), Value::Real(1.0)],
         _ => return None,
     })
+}
+
+/// A bitmap of one pixel.
+fn bitmap() -> Vec<u8> {
+    let mut file = b"BM".to_vec();
+    for number in [58_u32, 0, 54, 40, 1, 1, 1 | 24 << 16, 0, 4, 0, 0, 0, 0, 0x0003_0201] {
+        file.extend(number.to_le_bytes());
+    }
+    file
 }
 
 /// Functions that take the scene's own objects away from those that are called after them.

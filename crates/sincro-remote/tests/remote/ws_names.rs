@@ -77,6 +77,7 @@ fn every_name_answers_any_arguments_in_json_and_cbor() {
         for object in things.made.objects() {
             client.cbor("sim.removeObject", &[object]);
         }
+        client.cbor("sim.ruckigRemove", &[things.made.motion()]);
     }
     assert!(n_results > 300 && n_reasons > 1000, "{n_results} results, {n_reasons} reasons");
     // called twice, what makes something fits what takes it more often

@@ -7,6 +7,36 @@ use crate::api::{ApiError, Arguments, Phase, Request, SimApi, Value};
 /// Plug-ins of V-REP and CoppeliaSim whose functions are built in, by their names there.
 const MODULES: [&str; 3] = ["RemoteApi", "IK", "UI"];
 
+/// A function on mills: there are none, so that all of them are none.
+const fn milling(name: &'static str, tip: &'static str) -> Function {
+    Function {
+        name,
+        tip,
+        run: |_, a| match a.int(0)? {
+            -2 | -3 => one(0_i64),
+            own => Err(ApiError(format!("{own} is no mill: nothing is milled here, shapes keep their form"))),
+        },
+    }
+}
+
+/// The text of the scene as runs begin with it: a file kept with the run of a script, or of a client one in the folder
+/// for files of clients.
+fn save(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let name = a.text(0)?.to_owned();
+    let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let stem = [".ttt", ".simscene.xml", ".toml"].iter().find_map(|end| last.strip_suffix(end)).unwrap_or(last);
+    let file = format!("{stem}.toml");
+    super::check_file_name(&file)?;
+    let (text, n_left_out) = sim.scene_text()?;
+    sim.keep_file(file.clone(), text.into_bytes())?;
+    let left_out = match n_left_out {
+        0 => String::new(),
+        n => format!("; {n} objects that were made at run time and are no part of the model are left out"),
+    };
+    sim.log(300, &format!("the scene is saved as `{file}`, a scene file of this program{left_out}"));
+    one(1_i64)
+}
+
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
         name: "msgBox",
@@ -26,6 +56,10 @@ pub(super) const FUNCTIONS: &[Function] = &[
         run: |d, _| ask(d, Request::Stop),
     },
     Function { name: "loadScene", tip: "sim.loadScene(string filename)", run: load },
+    Function { name: "saveScene", tip: "int result=sim.saveScene(string filename)", run: save },
+    milling("handleMill", "int removedItems=sim.handleMill(int millHandle)"),
+    milling("resetMill", "int result=sim.resetMill(int millHandle)"),
+    milling("resetMilling", "int result=sim.resetMilling(int objectHandle)"),
     Function { name: "closeScene", tip: "int result=sim.closeScene()", run: |d, _| ask(d, Request::Close) },
     Function {
         name: "getSimulationState",

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use sincro_conventions::names::BEFORE_BODIES;
 
-use super::{Function, bits, buffers, images, old_windows, rotations, signals, transforms, tubes, ui, windows};
+use super::{Function, bits, buffers, images, rotations, signals, transforms, tubes, ui, windows};
 use crate::api::{ApiError, Arguments, Handle, Search, SimApi, Value};
 
 /// Functions that remove objects.
@@ -22,7 +22,7 @@ fn without_objects() -> &'static BTreeSet<&'static str> {
         bits::FUNCTIONS,
         buffers::FUNCTIONS,
         images::FUNCTIONS,
-        old_windows::FUNCTIONS,
+        ui::WINDOWS,
         rotations::FUNCTIONS,
         signals::FUNCTIONS,
         transforms::FUNCTIONS,

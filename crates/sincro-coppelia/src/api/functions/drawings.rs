@@ -57,7 +57,31 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "sim.removeParticleObject(int particleObjectHandle)",
         run: |d, a| remove(d, a, true),
     },
+    Function {
+        name: "addPointCloud",
+        tip: "int pointCloudHandle=sim.addPointCloud(int pageMask,int layerMask,int objectHandle,int options,float pointSize,float[] pointCoordinates,float[] defaultColors=nil,float[] pointColors=nil,float[] pointNormals=nil)",
+        run: add_points,
+    },
 ];
+
+/// Points in the world, which move with an object, in one colour (0 to 255): those of V-REP 3.
+fn add_points(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let points = a.get(5).as_reals().filter(|list| list.len().is_multiple_of(3) && !list.is_empty());
+    let points = points.ok_or_else(|| ApiError::new("argument 6 is no list of points, three numbers each"))?;
+    let color = a
+        .get(6)
+        .as_reals()
+        .filter(|list| list.len() >= 3)
+        .map_or([255; 3], |list| [0, 1, 2].map(|k| list[k].clamp(0.0, 255.0).round() as u8));
+    let style = DrawingStyle { kind: DrawingKind::Points, size: a.real(4)?, color, lifetime: 0.0, falls: false };
+    let layout = ItemLayout { n_drawn: 3, n_given: 3, is_local: false };
+    let (parent, capacity) = (parent(sim, a, 2)?, points.len() as i64 / 3);
+    let (is_cyclic, tolerance, is_persistent) = (false, 0.0, false);
+    let own =
+        sim.add_drawing(DrawingRequest { style, layout, parent, capacity, is_cyclic, tolerance, is_persistent })?;
+    sim.draw_items(own, &points, true, false)?;
+    one(own)
+}
 
 fn add(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let kind = a.int(0)?;

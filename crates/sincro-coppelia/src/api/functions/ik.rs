@@ -551,7 +551,7 @@ fn one_config(sim: &mut SimApi<'_>, a: Arguments<'_>, seconds: f64) -> Outcome {
     if a.has(6) && a.get(6).as_text() != Some("") {
         return Err(ApiError::new("clients have no validation callbacks here: check what simIK.findConfigs gives"));
     }
-    let found = sim.find_configurations((a.int(0)?, a.int(1)?), &handles(a, 2)?, 1, seconds)?;
+    let found = sim.find_configurations((a.int(0)?, a.int(1)?), &handles(a, 2)?, 1, (seconds, 0))?;
     one(found.into_iter().next().map_or(Value::Nil, Value::reals))
 }
 
@@ -569,7 +569,7 @@ fn find_configs(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
             }
         }
     }
-    let found = sim.find_configurations((a.int(0)?, a.int(1)?), &handles(a, 2)?, n, seconds)?;
+    let found = sim.find_configurations((a.int(0)?, a.int(1)?), &handles(a, 2)?, n, (seconds, 0))?;
     Ok(vec![Value::List(found.into_iter().map(Value::reals).collect())])
 }
 

@@ -12,6 +12,9 @@ const IN_ONE: i64 = 32;
 /// Configurations of which one is looked for that is good.
 const MAX_CONFIGURATIONS: usize = 50;
 
+/// Time of a search at least `[s]`, as attempts: V-REP tries hundreds in a few milliseconds.
+const MIN_SECONDS: f64 = 0.05;
+
 /// Results of a calculation.
 const NOT_PERFORMED: i64 = 0;
 const SUCCESS: i64 = 1;
@@ -146,7 +149,11 @@ fn config(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
             && q.iter().zip(&low).zip(&range).all(|((q, low), range)| q - low <= *range)
     };
     let n = if pairs.is_empty() && low.is_empty() { 1 } else { MAX_CONFIGURATIONS };
-    for q in sim.find_configurations(group, &joints, n, a.real(3)?.abs() / 1000.0)? {
+    let seconds = (a.real(3)?.abs() / 1000.0).max(MIN_SECONDS);
+    // a script that asks again gets other attempts, as in V-REP
+    let salt = sim.registry.n_searches;
+    sim.registry.n_searches = salt.wrapping_add(1);
+    for q in sim.find_configurations(group, &joints, n, (seconds, salt))? {
         if is_within(&q) && sim.is_free(&joints, &q, &pairs)? {
             return Ok(vec![Value::reals(q)]);
         }

@@ -147,15 +147,12 @@ pub(crate) fn check_file_name(name: &str) -> Result<(), ApiError> {
 
 /// Keeps the file of a picture.
 fn keep(sim: &mut SimApi<'_>, name: String, file: Vec<u8>) -> Result<(), ApiError> {
-    if sim.own.is_some() && sim.is_running() {
-        return sim.registry.keep_image(&name, file);
-    }
-    if sim.registry.sent_folder.is_none() {
+    if sim.registry.sent_folder.is_none() && !(sim.own.is_some() && sim.is_running()) {
         return Err(ApiError(format!(
             "`{name}` is not written: in a run scripts save pictures, clients with `sincro serve --grant files`; `.png` gives the picture back as bytes"
         )));
     }
-    sim.registry.ask_to_save_image(name, file)
+    sim.keep_file(name, file)
 }
 
 /// Numbers as others: offset + multiplier · number.

@@ -22,7 +22,6 @@ mod joints;
 mod motions;
 mod moves;
 mod objects;
-mod old_windows;
 mod partly;
 mod path_objects;
 mod paths;
@@ -36,6 +35,7 @@ mod selection;
 mod sensing;
 mod shapes;
 mod signals;
+mod textures;
 mod touching;
 mod transforms;
 mod tubes;
@@ -129,6 +129,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         moves::FUNCTIONS,
         vision::FUNCTIONS,
         images::FUNCTIONS,
+        textures::FUNCTIONS,
         sensing::FUNCTIONS,
         distances::FUNCTIONS,
         planning::CALCULATIONS,
@@ -140,7 +141,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
         radio::FUNCTIONS,
         selection::FUNCTIONS,
         scripts::FUNCTIONS,
-        old_windows::FUNCTIONS,
+        ui::WINDOWS,
         properties::TYPED,
         properties::FUNCTIONS,
     ];

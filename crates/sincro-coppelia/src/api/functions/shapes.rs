@@ -6,11 +6,12 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 
 use super::objects::handles;
 use super::{Function, Outcome, done, handle, one};
-use crate::api::convention::numbers_of_pose;
+use crate::api::convention::{numbers_of_pose, pose_of_numbers};
 use crate::api::shapes::primitive_of;
 use crate::api::structure::Role;
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 use sincro_scene::scene::Triangles as MeshFile;
+use sincro_values::mesh_files::Format;
 
 pub(super) const FUNCTIONS: &[Function] = &[
     Function {
@@ -117,6 +118,62 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "int result=sim.setObjectColor(int objectHandle,int index,int colorComponent,float[3] rgbData)",
         run: |d, a| paint(d, a, (2, 3)),
     },
+    Function {
+        name: "getQHull",
+        tip: "float[] verticesOut,int[] indicesOut=sim.getQHull(float[] verticesIn)",
+        run: |sim, a| {
+            let points = threes(a, 0)?;
+            let mesh = sim.hull(&points)?;
+            let [corners, indices, _] = lists(&(mesh.corners, mesh.triangles));
+            Ok(vec![corners, indices])
+        },
+    },
+    Function {
+        name: "reorientShapeBoundingBox",
+        tip: "int result=sim.reorientShapeBoundingBox(int shapeHandle,int relativeToHandle,int reservedSetToZero=0)",
+        run: |sim, a| {
+            let against = if a.int(1)? == -1 { Reference::World } else { Reference::Object(handle(sim, a, 1)?) };
+            sim.reorient(handle(sim, a, 0)?, against)?;
+            one(1_i64)
+        },
+    },
+    Function {
+        name: "alignShapeBB",
+        tip: "int result=sim.alignShapeBB(int shapeHandle,float[7] pose)",
+        run: |sim, a| {
+            let (own, numbers) = (handle(sim, a, 0)?, a.reals::<7>(1)?);
+            if numbers.iter().all(|x| *x == 0.0) {
+                sim.reorient(own, Reference::Object(own))?;
+                return one(1_i64);
+            }
+            let turned = pose_of_numbers(numbers).ok_or_else(|| ApiError::new("the quaternion of the pose is zero"))?;
+            let x_wo = sim.pose(own, Reference::World)?;
+            sim.reframe(own, &Pose { pos: x_wo.pos, rot: turned.rot })?;
+            sim.reorient(own, Reference::Object(own))?;
+            one(1_i64)
+        },
+    },
+    Function {
+        name: "relocateShapeFrame",
+        tip: "int result=sim.relocateShapeFrame(int shapeHandle,float[7] pose)",
+        run: |sim, a| {
+            let (own, numbers) = (handle(sim, a, 0)?, a.reals::<7>(1)?);
+            let x_wn = if numbers.iter().all(|x| *x == 0.0) {
+                let [low, high] = sim.shape_box(own)?;
+                let x_wo = sim.pose(own, Reference::World)?;
+                Pose { pos: x_wo.point(Vec3([0, 1, 2].map(|k| 0.5 * (low[k] + high[k])))), rot: x_wo.rot }
+            } else {
+                pose_of_numbers(numbers).ok_or_else(|| ApiError::new("the quaternion of the pose is zero"))?
+            };
+            sim.reframe(own, &x_wn)?;
+            one(1_i64)
+        },
+    },
+    Function {
+        name: "exportMesh",
+        tip: "sim.exportMesh(int fileformat,string pathAndFilename,int options,float scalingFactor,float[] vertices,int[] indices)",
+        run: export,
+    },
 ];
 
 fn primitive(sim: &mut SimApi<'_>, kind: i64, size: [f64; 3]) -> Outcome {
@@ -156,13 +213,16 @@ pub(super) fn threes(a: Arguments<'_>, k: usize) -> Result<Vec<[f64; 3]>, ApiErr
 }
 
 fn mesh(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let (corners, indices) = (threes(a, 2)?, threes(a, 3)?);
+    let (corners, triangles) = (threes(a, 2)?, triangles(a, 3)?);
+    one(sim.create_mesh(&corners, &triangles)?)
+}
+
+/// Triangles of argument `k`.
+fn triangles(a: Arguments<'_>, k: usize) -> Result<Vec<[u32; 3]>, ApiError> {
     let index = |x: f64| (x.fract() == 0.0 && (0.0..4e9).contains(&x)).then_some(x as u32);
     let triangle = |t: &[f64; 3]| Some([index(t[0])?, index(t[1])?, index(t[2])?]);
-    let triangles = indices.iter().map(triangle).collect::<Option<Vec<_>>>();
-    let triangles =
-        triangles.ok_or_else(|| ApiError::new("argument 4 has indices that are no whole numbers from 0 on"))?;
-    one(sim.create_mesh(&corners, &triangles)?)
+    let triangles = threes(a, k)?.iter().map(triangle).collect::<Option<Vec<_>>>();
+    triangles.ok_or_else(|| ApiError(format!("argument {} has indices that are no whole numbers from 0 on", k + 1)))
 }
 
 fn heights(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
@@ -170,6 +230,28 @@ fn heights(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let (columns, rows, size) = (count(2)?, count(3)?, a.real(4)?);
     let heights = a.get(5).as_reals().ok_or_else(|| ApiError::new("argument 6 is no list of numbers"))?;
     one(sim.create_height_field(columns, rows, size, heights)?)
+}
+
+/// Meshes of lists of lists, or of one list each of corners and indices.
+fn export(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
+    let (format, scale) = (Format::of(a.int(0)?)?, factor(a, 3)?);
+    let inner = |k: usize| match a.get(k) {
+        Value::List(list) if list.iter().all(|item| matches!(item, Value::List(_))) && !list.is_empty() => list.clone(),
+        one => vec![one.clone()],
+    };
+    let (corners, indices) = (inner(4), inner(5));
+    if corners.len() != indices.len() {
+        let (n, m) = (corners.len(), indices.len());
+        return Err(ApiError(format!("{n} lists of vertices, {m} of indices: expected as many")));
+    }
+    let mut meshes = Vec::new();
+    for (corners, indices) in corners.into_iter().zip(indices) {
+        let both = [corners, indices];
+        let both = Arguments(&both);
+        meshes.push(MeshFile { corners: threes(both, 0)?, triangles: triangles(both, 1)? });
+    }
+    sim.export_meshes(format, a.text(1)?, scale, &meshes)?;
+    done()
 }
 
 /// The factor of argument `k`; 0 and nothing leave the file's own size.
@@ -215,6 +297,12 @@ fn save(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let name = if a.has(1) { a.text(1)? } else { "" };
     if name.is_empty() {
         return Ok(vec![Value::Bytes(text.into_bytes())]);
+    }
+    if sim.own.is_some() && sim.is_running() {
+        // kept with the run, whatever folder is meant
+        let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+        sim.registry.keep_text(last, text.as_bytes(), false)?;
+        return one(1_i64);
     }
     if sim.registry.sent_folder.is_none() {
         return Err(ApiError::new("a file needs a session with `--grant files`; without a name the text is returned"));
@@ -304,7 +392,12 @@ fn color(sim: &mut SimApi<'_>, a: Arguments<'_>, k: usize) -> Outcome {
 /// The ambient and diffuse component is the colour; the others are kept.
 fn paint(sim: &mut SimApi<'_>, a: Arguments<'_>, (k, color): (usize, usize)) -> Outcome {
     let own = handle(sim, a, 0)?;
-    let (component, color) = (component(a, k)?, a.reals(color)?);
+    let component = component(a, k)?;
+    let color = match a.get(color).as_reals().as_deref() {
+        // a transparency is one number
+        Some([x]) if component == 4 => [*x; 3],
+        _ => a.reals(color)?,
+    };
     if component == 0 {
         sim.paint(own, color)?;
     } else {

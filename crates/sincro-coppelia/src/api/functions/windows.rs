@@ -55,10 +55,6 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "setLightParameters",
         "int result=sim.setLightParameters(int lightHandle,int state,float[3] ambientPart=nil,float[3] diffusePart=nil,float[3] specularPart=nil)",
     ),
-    shown(
-        "setShapeTexture",
-        "sim.setShapeTexture(int shapeHandle,int textureId,int mappingMode,int options,float[2] uvScaling)",
-    ),
 ];
 
 /// Returns true if the function with a present name, without `sim.`, only affects what windows show (views, consoles,

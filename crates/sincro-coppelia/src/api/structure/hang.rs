@@ -61,7 +61,7 @@ impl SimApi<'_> {
                 let place = place.compose(&shown.inverse().compose(&own));
                 let (parent, x_wp) = self.parent_in_edit(parent, &edit)?;
                 let path = self.model_path(moved)?;
-                edit.draft.hang(&path, &parent, &x_wp.inverse().compose(&place));
+                edit.hang(&path, &parent, &x_wp.inverse().compose(&place));
             }
         }
         self.part_idle(&mut edit)?;

@@ -61,6 +61,26 @@ struct Rebuild {
     is_placement: bool,
 }
 
+impl Rebuild {
+    /// Hangs an object on another parent (`/`: the world) at a pose there `[m]`, with another number behind its name if
+    /// the parent has an object of that name. Returns its new path.
+    fn hang(&mut self, path: &str, parent: &str, pose: &Pose<f64>) -> String {
+        let (own, name) = path.rsplit_once('/').unwrap_or(("", path));
+        let is_taken = |name: &str| {
+            let there = format!("{}/{name}", parent.trim_end_matches('/'));
+            there != path && self.draft.has(&there)
+        };
+        if !is_taken(name) {
+            return self.draft.hang(path, parent, pose);
+        }
+        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let mut others = (0..).map(|k: usize| format!("{stem}{k}"));
+        let other = others.find(|name| !is_taken(name) && !self.draft.has(&format!("{own}/{name}")));
+        let renamed = self.draft.set_name(path, &other.expect("there are not that many objects"));
+        self.draft.hang(&renamed, parent, pose)
+    }
+}
+
 /// Scripts that a scene may have at once; each has a state of its own.
 const MAX_SCRIPTS: usize = 1_000;
 

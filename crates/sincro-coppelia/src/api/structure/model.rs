@@ -1,12 +1,38 @@
 //! Models: scene files that are loaded below an object of their own, and written.
 
+use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
 
 use crate::api::registry::Handle;
 use crate::api::{ApiError, SimApi};
+use sincro_scene::script::Kind as ScriptKind;
 
 /// Largest model that is written [bytes].
 const MAX_TEXT: usize = 16 << 20;
+
+/// Text as a string of TOML on one line.
+fn quoted(text: &str) -> String {
+    let mut out = "\"".to_owned();
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            '\n' => out.push_str("\\n"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// Ends of a whole path of another computer, the longest first: `D:/me/walls/a.ttm` gives `walls/a.ttm`.
+fn ends_of(path: &str) -> impl Iterator<Item = &str> {
+    let is_drive = path.as_bytes().get(1) == Some(&b':');
+    let parts = path.match_indices('/').skip(1).map(|(k, _)| &path[k + 1..]);
+    parts.filter(move |end| (path.starts_with('/') || is_drive) && end.contains('/'))
+}
 
 impl SimApi<'_> {
     /// Loads the objects of a scene file, or of the scene of a folder, below a new object at the world's origin, and
@@ -21,6 +47,12 @@ impl SimApi<'_> {
     ///
     /// There is no such model, it lies elsewhere, or something in it is wrong.
     pub(crate) fn load_model(&mut self, name: &str) -> Result<Handle, ApiError> {
+        let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+        if let Some(text) = self.registry.kept_text(last) {
+            // one that a script has saved in this run
+            let text = String::from_utf8_lossy(text).into_owned();
+            return self.load_model_text_as(&text, last.split('.').next().unwrap_or_default());
+        }
         let file = self.find_model(name)?;
         let is_sent = self.registry.sent_folder.as_ref().and_then(|folder| folder.canonicalize().ok());
         if is_sent.is_some_and(|folder| file.starts_with(folder)) {
@@ -98,7 +130,9 @@ impl SimApi<'_> {
             let below = |text| Path::new(text).strip_prefix(root).or_else(|_| Path::new(text).strip_prefix(&scene));
             let [whole, whole_plain] =
                 [&*text, plain].map(|text| below(text).ok().and_then(Path::to_str).unwrap_or(text));
-            let candidates = [whole, whole_plain, under_models, last, &spelled].into_iter().filter(|name| stays(name));
+            let ends = ends_of(&text).flat_map(|end| [end, end.strip_suffix(".ttm").unwrap_or(end)]);
+            let candidates = [whole, whole_plain, under_models].into_iter().chain(ends).chain([last, &*spelled]);
+            let candidates = candidates.filter(|name| stays(name));
             if let Some(file) = candidates.filter_map(|name| within(root, name)).next() {
                 return Ok(file);
             }
@@ -112,6 +146,26 @@ impl SimApi<'_> {
         let help =
             "give a folder or scene file inside the folder of the scene, a scene folder beside it, or one of `models/`";
         Err(ApiError(format!("there is no model `{short}`: {help}")))
+    }
+
+    /// Text of the scene file of the model, as runs begin with it, and the number of runtime objects that it does not
+    /// have.
+    ///
+    /// # Errors
+    ///
+    /// The scene's file is not known, or too long.
+    pub(crate) fn scene_text(&mut self) -> Result<(String, usize), ApiError> {
+        let mut text = self.draft()?.draft.text();
+        for script in &self.registry.scene().scripts {
+            let kind = if script.kind == ScriptKind::Customization { "kind = \"customization\"\n" } else { "" };
+            let threaded = if script.is_threaded { "threaded = true\n" } else { "" };
+            let (object, code) = (quoted(&script.path), quoted(&script.text));
+            let _ = write!(text, "\n[[script]]\nobject = {object}\n{kind}{threaded}code = {code}\n");
+        }
+        if text.len() > MAX_TEXT {
+            return Err(ApiError(format!("the scene takes more than {} MiB", MAX_TEXT >> 20)));
+        }
+        Ok((text, self.registry.entries().filter(|entry| entry.is_runtime).count()))
     }
 
     /// Text of a scene file with an object of the model and all below it, joints at their present positions; it can be

@@ -167,7 +167,7 @@ impl SimApi<'_> {
                 }
                 let (parent, x_wp) = self.model_parent(above)?;
                 let pose = x_wp.inverse().compose(&self.own_pose(handle)?);
-                let new = edit.draft.hang(&child, &parent, &pose);
+                let new = edit.hang(&child, &parent, &pose);
                 paths = paths.into_iter().map(|path| moved_path(path, &child, &new)).collect();
             }
         }
