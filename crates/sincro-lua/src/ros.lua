@@ -1,6 +1,8 @@
--- `simROS` and `simROS2`: topics between the scripts of the scene. There is no ROS: nothing leaves the program.
+-- `simROS`, `simROS2` and `simB0`: topics between the scripts of the scene. There is no ROS: nothing leaves the program.
 local sim, advertise, subscribe, publish, shut_down, take, refuse = ...
 local callbacks = {}
+-- messages of nodes of BlueZero, which wait until the node spins
+local waiting, is_node = {}, {}
 
 local function topic_of(name, f)
   if type(name) ~= 'string' then error("argument 1 is no name of a topic (in function '" .. f .. "')", 3) end
@@ -14,16 +16,27 @@ local function listen(name, callback, capacity, f)
   return handle
 end
 
+local function hand(message)
+  local f = callbacks[message[1]]
+  if type(f) == 'string' then
+    local name = f
+    f = _G[name]
+    if type(f) ~= 'function' then error('there is no function `' .. name .. '` to call with a message') end
+  end
+  if f then f(message[2]) end
+end
+
 local function deliver()
   for _, message in ipairs(take()) do
-    local f = callbacks[message[1]]
-    if type(f) == 'string' then
-      local name = f
-      f = _G[name]
-      if type(f) ~= 'function' then error('there is no function `' .. name .. '` to call with a message') end
-    end
-    if f then f(message[2]) end
+    if is_node[message[1]] then waiting[#waiting + 1] = message else hand(message) end
   end
+end
+
+local function spin()
+  deliver()
+  local messages = waiting
+  waiting = {}
+  for _, message in ipairs(messages) do hand(message) end
 end
 
 local function close(handle)
@@ -93,8 +106,34 @@ local ros2 = {
   getTime = stamp, getSystemTime = stamp, getSimulationTime = stamp,
 }
 
+-- a node is no more than a number: its publishers and subscribers are those of the script
+local n_nodes = 0
+local b0 = {
+  nodeCreate = function()
+    n_nodes = n_nodes + 1
+    return n_nodes
+  end,
+  nodeInit = nothing, nodeCleanup = nothing, nodeDestroy = nothing, nodeSpinOnce = spin,
+  publisherCreate = function(_, name) return advertise(topic_of(name, 'simB0.publisherCreate'), false) end,
+  publisherPublish = publish, publisherInit = nothing, publisherCleanup = nothing, publisherDestroy = close,
+  subscriberCreate = function(_, name, callback)
+    local handle = listen(name, callback, 100, 'simB0.subscriberCreate')
+    is_node[handle] = true
+    return handle
+  end,
+  subscriberSpinOnce = spin, subscriberInit = nothing, subscriberCleanup = nothing, subscriberDestroy = close,
+  pingResolver = function() return true end,
+}
+for old, present in pairs {
+  create = 'nodeCreate', init = 'nodeInit', cleanup = 'nodeCleanup', destroy = 'nodeDestroy', spinOnce = 'nodeSpinOnce',
+  createPublisher = 'publisherCreate', destroyPublisher = 'publisherDestroy',
+  createSubscriber = 'subscriberCreate', destroySubscriber = 'subscriberDestroy',
+} do
+  b0[old] = b0[present]
+end
+
 local function finish(module, name, prefix)
-  for function_name, f in pairs(common) do module[function_name] = f end
+  for function_name, f in pairs(common) do module[function_name] = module[function_name] or f end
   if prefix then
     for function_name, f in pairs(module) do _G[prefix .. function_name] = f end
   end
@@ -105,4 +144,5 @@ end
 -- the second is the name of V-REP 3.3 and 3.4
 finish(ros, 'simROS', 'simExtRosInterface_')
 finish(ros2, 'simROS2')
-return ros, ros2, deliver
+finish(b0, 'simB0')
+return ros, ros2, b0, deliver

@@ -1,6 +1,6 @@
-//! Modules beside `sim`: `simIK`, `simOMPL`, `simUI`, `simVision`, `simROS`, `simROS2`, `simRemoteApi`, `messagePack`,
-//! `dkjson` and `matrix`, by `require` and, but for `dkjson`, as globals; files of the scene that a script is given, by
-//! `require`.
+//! Modules beside `sim`: `simIK`, `simOMPL`, `simUI`, `simVision`, `simROS`, `simROS2`, `simB0`, `simRemoteApi`,
+//! `messagePack`, `dkjson` and `matrix`, by `require` and, but for `dkjson`, as globals; files of the scene that a
+//! script is given, by `require`.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
@@ -24,9 +24,10 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
     modules.set("simUI", interfaces(context)?)?;
     modules.set("simVision", vision::module(context)?)?;
     modules.set("simRemoteApi", remote_api(context)?)?;
-    let [ros, ros2] = ros::modules(context)?;
+    let [ros, ros2, b0] = ros::modules(context)?;
     modules.set("simROS", ros)?;
     modules.set("simROS2", ros2)?;
+    modules.set("simB0", b0)?;
     let pack: Table = lua.load(include_str!("../message_pack.lua")).set_name(crate::sandbox::OWN_SOURCE).call(())?;
     modules.set("messagePack", &pack)?;
     modules.set("MessagePack", pack)?;
@@ -70,7 +71,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
                 return lua.globals().get(name);
             }
             return Err(Error::RuntimeError(format!(
-                "there is no module '{name}': scripts have `sim`, `simIK`, `simOMPL`, `simUI`, `simVision`, `simROS`, `simROS2`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
+                "there is no module '{name}': scripts have `sim`, `simIK`, `simOMPL`, `simUI`, `simVision`, `simROS`, `simROS2`, `simB0`, `simRemoteApi`, `messagePack`, `dkjson` and `matrix`; a file of the scene's folder that stands under `files` of the script is one, too: files = [\"{name}.lua\"]"
             )));
         };
         let files = || loading.lock().unwrap_or_else(PoisonError::into_inner);

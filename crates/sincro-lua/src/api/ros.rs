@@ -1,4 +1,4 @@
-//! The tables `simROS` and `simROS2`: topics between the scripts of the scene.
+//! The tables `simROS`, `simROS2` and `simB0`: topics between the scripts of the scene.
 //!
 //! Scripts that talk to ROS publish what they measure and wait for what others tell them. Here those others are scripts
 //! of the same scene; nothing leaves the program, and messages are not checked against the types of ROS. Callbacks are
@@ -17,14 +17,17 @@ fn refused(ApiError(message): ApiError) -> Error {
     Error::RuntimeError(format!("{message} (in module 'simROS')"))
 }
 
-/// The two modules.
-pub(super) fn modules(context: &ApiContext<'_>) -> mlua::Result<[Table; 2]> {
+/// The three modules.
+pub(super) fn modules(context: &ApiContext<'_>) -> mlua::Result<[Table; 3]> {
     let (lua, index) = (context.lua, context.index);
     let told = std::sync::atomic::AtomicBool::new(false);
     let shared = context.shared.clone();
     let advertise = lua.create_function(move |_, (topic, latches): (String, bool)| {
         if !told.swap(true, std::sync::atomic::Ordering::Relaxed) {
-            shared.say(index, "topics of simROS and simROS2 join the scripts of this scene: there is no ROS".into());
+            shared.say(
+                index,
+                "topics of simROS, simROS2 and simB0 join the scripts of this scene: there is no ROS".into(),
+            );
         }
         shared.topics().advertise(index, &topic, latches).map_err(refused)
     })?;
@@ -53,8 +56,8 @@ pub(super) fn modules(context: &ApiContext<'_>) -> mlua::Result<[Table; 2]> {
         Err(Error::RuntimeError(format!("{name} is not offered: {why}")))
     })?;
     let text = lua.load(include_str!("../ros.lua")).set_name(crate::sandbox::OWN_SOURCE);
-    let (ros, ros2, deliver): (Table, Table, Function) =
+    let (ros, ros2, b0, deliver): (Table, Table, Table, Function) =
         text.call((&context.sim, advertise, subscribe, publish, shut_down, take, refuse))?;
     lua.set_named_registry_value(DELIVER, deliver)?;
-    Ok([ros, ros2])
+    Ok([ros, ros2, b0])
 }

@@ -1,4 +1,4 @@
-//! `simROS` and `simROS2`: topics between the scripts of a scene.
+//! `simROS`, `simROS2` and `simB0`: topics between the scripts of a scene.
 
 use sincro_sim::results::Status;
 
@@ -79,4 +79,34 @@ fn times_and_pictures_are_messages_as_ros_has_them() {
         end";
     let told = said(code);
     assert_eq!(told[1..], ["true\t0", "2\t2\t6\t12\trgb8", "arm"], "{told:?}");
+}
+
+#[test]
+fn messages_of_a_node_wait_until_it_spins() {
+    let sender = "function sysCall_init()
+            node = simB0.create('sender')
+            topic = simB0.createPublisher(node, 'speed')
+            simB0.init(node)
+        end
+        function sysCall_sensing() simB0.publish(topic, 'fast') end
+        function sysCall_cleanup() simB0.cleanup(node) simB0.destroyPublisher(topic) simB0.destroy(node) end";
+    let receiver = "function heard(message) print(spins, message) end
+        function sysCall_init()
+            spins = 0
+            node = simB0.nodeCreate('receiver')
+            simB0.subscriberCreate(node, 'speed', 'heard')
+            print(simB0.pingResolver(), require('simB0') == simB0)
+        end
+        function sysCall_sensing()
+            n = (n or 0) + 1
+            if n == 4 then
+                spins = 1
+                simB0.nodeSpinOnce(node)
+                spins = 2
+            end
+        end";
+    let told = said_by_two(sender, receiver);
+    let heard = told.iter().filter(|line| line.contains("fast")).collect::<Vec<_>>();
+    assert!(heard.len() >= 3 && heard.iter().all(|line| *line == "1\tfast"), "{told:?}");
+    assert!(told.contains(&"true\ttrue".to_owned()), "{told:?}");
 }
