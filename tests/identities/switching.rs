@@ -132,8 +132,8 @@ fn run(mechanism: Draw, draw: u64, kind: MethodKind, accuracy: f64, substeps: u3
     }
     let statistics = world.statistics();
     assert_eq!(
-        (statistics.fallback_steps, statistics.undecided_modes),
-        (0, 0),
+        (statistics.fallback_steps, statistics.undecided_modes, world.jams().count),
+        (0, 0, 0),
         "draw {draw}, {kind:?}: {statistics:?}"
     );
     world

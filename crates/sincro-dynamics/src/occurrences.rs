@@ -2,8 +2,9 @@
 
 /// Number of occurrences in a run, from
 /// [`World::passed_singularities`](crate::world::World::passed_singularities),
-/// [`World::ambiguous_events`](crate::world::World::ambiguous_events) and
-/// [`World::chattering_steps`](crate::world::World::chattering_steps).
+/// [`World::ambiguous_events`](crate::world::World::ambiguous_events),
+/// [`World::chattering_steps`](crate::world::World::chattering_steps) and
+/// [`World::jams`](crate::world::World::jams).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Occurrences {
     /// Number of occurrences.

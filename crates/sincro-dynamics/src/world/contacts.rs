@@ -109,6 +109,7 @@ impl World {
     ) -> Result<(), (f64, Stop)> {
         self.statistics.fallback_ticks += 1;
         let h = span / f64::from(FINE_STEPS);
+        self.statistics.fallback_square += f64::from(FINE_STEPS) * h * h;
         for k in 0..FINE_STEPS {
             self.velocity_level_step(t + f64::from(k) * h, h, &mut &mut *system)?;
         }

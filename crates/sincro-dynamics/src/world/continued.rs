@@ -32,6 +32,7 @@ impl World {
         new.statistics = self.statistics;
         new.ambiguous_events = self.ambiguous_events;
         new.chattering_steps = self.chattering_steps;
+        new.jams = self.jams;
         if let (Some(own), Some(before)) = (&mut new.mechanism.constraints, &self.mechanism.constraints) {
             own.solver.report = before.solver.report;
         }

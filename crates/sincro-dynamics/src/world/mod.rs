@@ -156,6 +156,9 @@ pub struct StepStatistics {
     pub fallback_ticks: u64,
     /// Number of steps at velocity level after too many events without progress in time.
     pub fallback_steps: u64,
+    /// Sum of the squares of the lengths of all steps at velocity level by a method of higher order `[s²]`: half of it
+    /// times the acceleration is their error.
+    pub fallback_square: f64,
     /// Number of times that the modes of drives could not be decided within the iteration limit.
     pub undecided_modes: u64,
     /// Work that events leave open `[J]`, an uncertainty of the energy balance that no finer step reduces: of contact
@@ -220,6 +223,7 @@ pub struct World {
     /// faster and come to rest.
     mode_changes: u32,
     chattering_steps: Occurrences,
+    jams: Occurrences,
     /// Tick at whose end the laws hold; none after a change from outside.
     settled_at: Option<u64>,
 }
@@ -312,6 +316,7 @@ impl World {
             may_graze: true,
             mode_changes: 0,
             chattering_steps: Occurrences::default(),
+            jams: Occurrences::default(),
             settled_at: None,
         }
     }
@@ -355,6 +360,14 @@ impl World {
     #[must_use]
     pub fn chattering_steps(&self) -> Occurrences {
         self.chattering_steps
+    }
+
+    /// Instants since the world was made at which no finite forces kept the laws of contact and friction (Painlevé's
+    /// paradox: a body that jams), or changed faster than any step could follow: impulses over a short step at velocity
+    /// level ended it. Not part of the state.
+    #[must_use]
+    pub fn jams(&self) -> Occurrences {
+        self.jams
     }
 
     /// Contact points with their forces, as of the last [`World::rates`] or [`World::observe`]; empty before.

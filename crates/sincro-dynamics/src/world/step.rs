@@ -194,6 +194,7 @@ impl StepStatistics {
             impacts: self.impacts - before.impacts,
             fallback_ticks: self.fallback_ticks - before.fallback_ticks,
             fallback_steps: self.fallback_steps - before.fallback_steps,
+            fallback_square: self.fallback_square - before.fallback_square,
             undecided_modes: self.undecided_modes - before.undecided_modes,
             event_work: self.event_work - before.event_work,
         }

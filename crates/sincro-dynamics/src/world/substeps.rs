@@ -40,6 +40,11 @@ const MAX_REPEATED_STEPS: usize = 1000;
 /// Length of the first step at velocity level after too many of them, relative to the tick.
 const IDLE_STEP: f64 = 1e-3;
 
+/// Length of the first step at velocity level where bodies jam, relative to the tick: finite forces make no difference
+/// over it; and the growth from one to the next within a tick.
+const JAM_STEP: f64 = 1e-9;
+const JAM_GROWTH: f64 = 8.0;
+
 /// Maximum number of constraint problems without convergence in a run.
 const MAX_UNSOLVED: u64 = 100_000;
 
@@ -56,7 +61,7 @@ impl World {
             return self.smooth_sub_steps(start, span, system);
         }
         let (mut t, end, mut events, mut idle, mut close) = (start, start + span, 0, 0, 0);
-        let (mut share, mut after_event, mut crawling) = (IDLE_STEP, false, 0);
+        let (mut share, mut jam, mut after_event, mut crawling) = (IDLE_STEP, JAM_STEP, false, 0);
         let zeno_fallback = self.zeno_fallback();
         if zeno_fallback.left > 0 {
             self.set_zeno_fallback(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
@@ -76,7 +81,7 @@ impl World {
                 self.may_graze = idle <= MAX_GRAZING_EVENTS;
                 if !self.resolve_modes(t, (h_max, after_event), system) {
                     // no finite forces keep the laws here (Painlevé): impulses do
-                    t = self.fallback_step(t, span, (&mut share, end), system)?;
+                    t = self.end_jam(t, (&mut jam, span), end, system)?;
                     continue;
                 }
                 if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
@@ -95,7 +100,7 @@ impl World {
                     // laws without a continuous solution here: no step is small enough
                     self.restore();
                     control.into_iter().for_each(|control| self.set_control(control));
-                    t = self.fallback_step(t, span, (&mut share, end), system)?;
+                    t = self.end_jam(t, (&mut jam, span), end, system)?;
                     continue;
                 }
                 Err((t, Stop::Integration(Failure::NotFinite { .. }))) if !self.y.iter().all(|x| x.is_finite()) => {
@@ -125,7 +130,9 @@ impl World {
             t = reached;
             if idle > MAX_IDLE_EVENTS || close > MAX_CLOSE_EVENTS || crawling > MAX_CRAWLING_STEPS {
                 // whatever alternates here is decided over a short step as a whole
-                t = self.fallback_step(t, span, (&mut share, end), system)?;
+                self.statistics.fallback_steps += 1;
+                t = self.fallback_step(t, (share * span, end), system)?;
+                share *= 2.0;
                 (idle, close, crawling) = (0, 0, 0);
             }
         }
@@ -215,17 +222,30 @@ impl World {
         Ok((reached, false))
     }
 
-    /// Makes a step at velocity level from `t` over a `share` of the tick, which doubles each time.
-    pub(super) fn fallback_step(
+    /// Lets impulses act at `t`, where no finite forces keep the laws: over a `share` of the tick of length `span`, which
+    /// grows each time.
+    fn end_jam(
         &mut self,
         t: f64,
-        span: f64,
-        (share, end): (&mut f64, f64),
+        (share, span): (&mut f64, f64),
+        end: f64,
         system: &mut dyn CoupledSystem<f64>,
     ) -> Result<f64, (f64, Stop)> {
-        let h = (*share * span).min(end - t);
-        *share *= 2.0;
-        self.statistics.fallback_steps += 1;
+        self.jams.note(t);
+        let h = *share * span;
+        *share *= JAM_GROWTH;
+        self.fallback_step(t, (h, end), system)
+    }
+
+    /// Makes a step at velocity level from `t`, of length `h` up to the `end` of the tick.
+    fn fallback_step(
+        &mut self,
+        t: f64,
+        (h, end): (f64, f64),
+        system: &mut dyn CoupledSystem<f64>,
+    ) -> Result<f64, (f64, Stop)> {
+        let h = h.min(end - t);
+        self.statistics.fallback_square += h * h;
         self.velocity_level_step(t, h, &mut &mut *system)?;
         let reached = if h < end - t { t + h } else { end };
         if !self.is_constrained() {

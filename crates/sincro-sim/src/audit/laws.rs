@@ -22,7 +22,7 @@ pub struct LawAudit {
     /// Largest residual of an island of contacts, and the time `[s]` after the step that had it.
     rough: (f64, f64),
     /// Ticks finished, and steps made, at velocity level because contacts or drives changed without end, decisions
-    /// between modes of drives that did not end, and the time `[s]` after the first.
+    /// between modes of drives that did not end, jams, and the time `[s]` after the first.
     fallback: (u64, f64),
     /// Largest acceleration [rad/s²], [m/s²].
     acceleration: f64,
@@ -74,7 +74,8 @@ impl LawAudit {
             self.rough = (rough, t);
         }
         let done = world.statistics();
-        let steps = done.fallback_ticks + done.fallback_steps + done.undecided_modes;
+        let jams = world.jams().count as u64;
+        let steps = done.fallback_ticks + done.fallback_steps + done.undecided_modes + jams;
         self.fallback = (steps, if self.fallback.0 == 0 { t } else { self.fallback.1 });
     }
 
@@ -118,14 +119,17 @@ impl LawAudit {
         laws
     }
 
-    /// Local error of a step that was finished at velocity level: of sixteen steps of first order.
+    /// Local errors of all steps at velocity level, which are of first order; where modes were not decided, of a step
+    /// made in sixteen of them.
     fn velocity_level_steps(&self, world: &World, experiment: &Experiment, limits: &Limits) -> Finding {
-        let h = experiment.step / 16.0;
+        let done = world.statistics();
+        let undecided = done.undecided_modes as f64 * experiment.step * experiment.step / 16.0;
+        let square = done.fallback_square + undecided;
         Finding {
             law: "velocity-level-step".to_owned(),
             element: format!("{} of {} steps", self.fallback.0, world.state.tick),
             time: self.fallback.1,
-            value: 16.0 * 0.5 * h * h * self.acceleration,
+            value: 0.5 * square * self.acceleration,
             limit: limits.local_error(),
             unit: String::new(),
             help: String::new(),

@@ -325,6 +325,14 @@ fn about_constraints(world: &World) -> Vec<String> {
             ambiguous.first
         ));
     }
+    let jams = world.jams();
+    if jams.count > 0 {
+        let words = if jams.count == 1 { "once,".to_owned() } else { format!("{} times, first", jams.count) };
+        warnings.push(format!(
+            "bodies jammed {words} at t = {:.6} s: no finite forces of contact and friction kept their laws there, and impulses stopped what moved",
+            jams.first
+        ));
+    }
     let chatter = world.chattering_steps();
     if chatter.count > 0 {
         let words = match chatter.count {
