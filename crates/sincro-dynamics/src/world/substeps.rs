@@ -17,6 +17,9 @@ const MAX_IDLE_EVENTS: usize = 20;
 /// the event that ends the next sub-step at once, while the modes of the present instant may hold for a while.
 const MAX_GRAZING_EVENTS: usize = 2;
 
+/// Number of close events after which they are not taken.
+const MAX_CLOSE_GRAZING_EVENTS: usize = 20;
+
 /// Time between events, relative to the tick, that counts as none.
 const IDLE: f64 = 1e-12;
 
@@ -78,7 +81,7 @@ impl World {
             let h_max = self.longest_sub_step((t, corner), (start, end, span));
             if self.is_constrained() {
                 self.resolve_impacts();
-                self.may_graze = idle <= MAX_GRAZING_EVENTS;
+                self.may_graze = idle <= MAX_GRAZING_EVENTS && close <= MAX_CLOSE_GRAZING_EVENTS;
                 if !self.resolve_modes(t, (h_max, after_event), system) {
                     // no finite forces keep the laws here (Painlevé): impulses do
                     t = self.end_jam(t, (&mut jam, span), end, system)?;
