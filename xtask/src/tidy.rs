@@ -17,6 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-integrate", &["sincro-math"]),
     ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
+    ("sincro-actuation", &["sincro-math", "sincro-integrate"]),
     ("sincro-motion", &[]),
     ("sincro-vision", &["sincro-math", "sincro-values"]),
     ("sincro-values", &[]),
@@ -31,6 +32,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-contact",
             "sincro-integrate",
             "sincro-aero",
+            "sincro-actuation",
         ],
     ),
     ("sincro-blocks", &["sincro-math"]),
@@ -123,7 +125,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The crates that compute.
-const THINKING: [&str; 12] = [
+const THINKING: [&str; 13] = [
     "sincro-math",
     "sincro-complementarity",
     "sincro-geometry",
@@ -131,6 +133,7 @@ const THINKING: [&str; 12] = [
     "sincro-integrate",
     "sincro-camera",
     "sincro-aero",
+    "sincro-actuation",
     "sincro-motion",
     "sincro-planning",
     "sincro-vision",

@@ -225,8 +225,8 @@ impl World {
         Ok((reached, false))
     }
 
-    /// Lets impulses act at `t`, where no finite forces keep the laws: over a `share` of the tick of length `span`, which
-    /// grows each time.
+    /// Lets impulses act at `t`, where no finite forces keep the laws: over a `share` of the tick of length `span`,
+    /// which grows each time.
     fn end_jam(
         &mut self,
         t: f64,

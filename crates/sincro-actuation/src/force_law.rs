@@ -28,7 +28,7 @@ const MAX_STACK: usize = 16;
 /// acts towards larger x. Units below are those of a line; of a joint with an angle they are N·m, rad, rad/s.
 ///
 /// ```
-/// use sincro_dynamics::actuation::ForceLaw;
+/// use sincro_actuation::ForceLaw;
 ///
 /// let law = ForceLaw { stiffness: 200.0, damping: 5.0, preload: 0.0, nonlinear: None };
 /// assert_eq!(law.force(0.1, -2.0), -200.0 * 0.1 + 5.0 * 2.0); // [N]
@@ -136,7 +136,7 @@ impl NonlinearLaw {
     /// −∂N/∂x and −∂N/∂ẋ, without derivatives of their own; zero where a slope is infinite or none, as that of a square
     /// root at 0, which is then taken explicitly.
     #[inline]
-    pub(crate) fn negated_partials<R: Real>(&self, x: R, v: R) -> (R, R) {
+    pub fn negated_partials<R: Real>(&self, x: R, v: R) -> (R, R) {
         let partial = |i: usize| {
             R::from_lanes(|l| {
                 let at = [Dual::<2>::variable(x.lane(l), 0), Dual::<2>::variable(v.lane(l), 1)];

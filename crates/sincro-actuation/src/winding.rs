@@ -14,10 +14,10 @@
 use sincro_math::Real;
 
 /// Winding of a direct-current motor with its gear, on one degree of freedom; attached to a joint by
-/// `JointSpec::winding` beside a motor in mode [`Voltage`](super::MotorMode::Voltage).
+/// `JointSpec::winding` beside a motor in mode `Voltage`.
 ///
 /// ```
-/// use sincro_dynamics::actuation::Winding;
+/// use sincro_actuation::Winding;
 ///
 /// // 24 V across 2 Ω: 12 A at stall
 /// let winding = Winding { max_voltage: 24.0, ..Winding::new(2.0, 0.05) };
@@ -31,7 +31,7 @@ pub struct Winding<R> {
     pub motor: usize,
     /// Index of the degree of freedom, 0 to n_v − 1; set when the model is built.
     pub dof: usize,
-    /// Index of the current in [`State::rotors`](crate::state::State::rotors); `None` without inductance. Set when the
+    /// Index of the current in the states of elements; `None` without inductance. Set when the
     /// model is built.
     pub state: Option<usize>,
     /// Resistance R `[Ω]`, above 0.
@@ -85,14 +85,14 @@ impl Winding<f64> {
 
     /// This winding for the motor of that index on a degree of freedom; its current, if it is a state, is entry `state`
     /// of the states of elements.
-    pub(crate) fn mounted(self, motor: usize, dof: usize, state: usize) -> Self {
+    pub fn mounted(self, motor: usize, dof: usize, state: usize) -> Self {
         Self { motor, dof, state: (self.inductance > 0.0).then_some(state), ..self }
     }
 }
 
 /// Power of a [`Winding`] `[W]`, from [`Winding::power`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct WindingPower<R> {
+pub struct WindingPower<R> {
     /// Power of the source V i.
     pub electrical: R,
     /// Heat: of the source what is neither stored nor moves the joint.
@@ -133,7 +133,7 @@ impl<R: Real> Winding<R> {
 
     /// Current at the end of a linearly implicit step of length `h` `[s]` (0: now) with the rate `v_end` there.
     #[inline(always)]
-    pub(crate) fn current_after(&self, state: R, v_end: R, command: R, h: R) -> R {
+    pub fn current_after(&self, state: R, v_end: R, command: R, h: R) -> R {
         let drive = self.voltage(command) - self.back_emf(v_end);
         if self.state.is_none() {
             return drive / self.resistance;
@@ -144,7 +144,7 @@ impl<R: Real> Winding<R> {
     /// Torque on the joint for its rate `v` at the start, and the implicit diagonal, of a step of length `h` `[s]` (0:
     /// explicit).
     #[inline(always)]
-    pub(crate) fn torque(&self, state: R, v: R, command: R, h: R) -> (R, R) {
+    pub fn torque(&self, state: R, v: R, command: R, h: R) -> (R, R) {
         let tau = self.torque_per_ampere() * self.current_after(state, v, command, h);
         let damping = self.torque_per_ampere() * self.back_emf(h);
         let share =
@@ -154,21 +154,21 @@ impl<R: Real> Winding<R> {
 
     /// Damping of the joint by the winding in short circuit at constant speed, N² k_t k_e/R `[N·m·s/rad]` or `[N·s/m]`.
     #[inline(always)]
-    pub(crate) fn shorted_damping(&self) -> R {
+    pub fn shorted_damping(&self) -> R {
         self.torque_per_ampere() * self.back_emf(R::one()) / self.resistance
     }
 
     /// Rate of the current `[A/s]` over a linearly implicit step of length `h` `[s]` (0: now) with the rate `v_end` at
     /// its end.
     #[inline(always)]
-    pub(crate) fn current_rate(&self, state: R, v_end: R, command: R, h: R) -> R {
+    pub fn current_rate(&self, state: R, v_end: R, command: R, h: R) -> R {
         let drive = self.voltage(command) - self.back_emf(v_end) - self.resistance * state;
         drive / (self.inductance + h * self.resistance)
     }
 
     /// Mean power over a step of length `h` `[s]` (0: now), with the rates of the joint at its end and in the mean.
     #[inline(always)]
-    pub(crate) fn power(&self, state: R, (v_end, v_mean): (R, R), command: R, h: R) -> WindingPower<R> {
+    pub fn power(&self, state: R, (v_end, v_mean): (R, R), command: R, h: R) -> WindingPower<R> {
         let end = self.current_after(state, v_end, command, h);
         let (mean, stored) = if self.state.is_none() {
             (end, R::zero())

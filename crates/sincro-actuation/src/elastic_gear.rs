@@ -10,7 +10,7 @@
 
 use sincro_math::Real;
 
-/// Elastic gear of a model; from [`ElasticGearSpec`](crate::model::ElasticGearSpec). Units are those of a revolute
+/// Elastic gear of a model; from an `ElasticGearSpec`. Units are those of a revolute
 /// second joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticGear<R> {
@@ -65,7 +65,7 @@ impl<R: Real> ElasticGear<R> {
 
     /// Stiffness and damping that a linearly implicit step takes at the new state; zero where the torque is.
     #[inline(always)]
-    pub(crate) fn implicit_terms(&self, x: R, rate: R) -> (R, R) {
+    pub fn implicit_terms(&self, x: R, rate: R) -> (R, R) {
         let (zero, torque) = (R::zero(), self.torque(x, rate));
         let acts = |y: R| zero.if_less(torque.abs(), y, zero);
         let touches = |y: R| zero.if_less(self.backlash, acts(y), y);
@@ -74,7 +74,7 @@ impl<R: Real> ElasticGear<R> {
 
     /// Power that becomes heat `[W]` at the mesh error `x`, for its rate.
     #[inline(always)]
-    pub(crate) fn dissipation(&self, x: R, rate: R) -> R {
+    pub fn dissipation(&self, x: R, rate: R) -> R {
         -((self.torque(x, rate) + self.stiffness * self.deflection(x)) * rate)
     }
 

@@ -34,7 +34,7 @@ pub enum ActivationDynamics<R> {
 /// command has without; attached by `JointSpec::activation` or `SpringDamperSpec::activation`.
 ///
 /// ```
-/// use sincro_dynamics::actuation::{Activation, ActivationDynamics};
+/// use sincro_actuation::{Activation, ActivationDynamics};
 ///
 /// let lag = Activation::new(ActivationDynamics::Filter { time_constant: 0.1 });
 /// assert_eq!(lag.rate(0.5, 1.5, 0.0), (1.5 - 0.5) / 0.1);
@@ -45,7 +45,7 @@ pub enum ActivationDynamics<R> {
 pub struct Activation<R> {
     /// Index of its command in the model's commands; set when the model is built.
     pub command: usize,
-    /// Index in [`State::rotors`](crate::state::State::rotors); set when the model is built.
+    /// Index in the states of elements; set when the model is built.
     pub state: usize,
     /// Dynamics.
     pub dynamics: ActivationDynamics<R>,
@@ -120,7 +120,7 @@ impl<R: Real> Activation<R> {
 
     /// Rate of the activation at the ends of its range: zero for a `rate` that points outwards.
     #[inline(always)]
-    pub(crate) fn stopped_rate(&self, state: R, rate: R) -> R {
+    pub fn stopped_rate(&self, state: R, rate: R) -> R {
         let from_below = self.range[0].if_less(state, rate, rate.max(R::zero()));
         state.if_less(self.range[1], from_below, from_below.min(R::zero()))
     }
