@@ -191,8 +191,8 @@ impl<R: Real> Mechanism<R> {
         let layout = self.layout;
         self.forget_conditioning();
         self.base.copy_from_slice(&x.q);
-        self.commands.copy_from_slice(&x.commands);
-        self.drives.copy_from_slice(&x.drives);
+        copy_any(&mut self.commands, &x.commands);
+        copy_any(&mut self.drives, &x.drives);
         if let Some(constraints) = &mut self.constraints {
             constraints.memory.load(&x.contacts);
         }
@@ -201,7 +201,7 @@ impl<R: Real> Mechanism<R> {
         if layout.tracks_totals() {
             y[layout.totals()].copy_from_slice(&x.totals);
         }
-        y[layout.rotor_states()].copy_from_slice(&x.rotors);
+        copy_any(&mut y[layout.rotor_states()], &x.rotors);
     }
 
     /// Writes to `x` the state that `y` ([`System::dim`] entries) describes, in a chart centred there; commands and
@@ -210,14 +210,14 @@ impl<R: Real> Mechanism<R> {
         let layout = self.layout;
         x.q.copy_from_slice(&self.base);
         x.v.copy_from_slice(&y[layout.velocities()]);
-        x.drives.copy_from_slice(&self.drives);
+        copy_any(&mut x.drives, &self.drives);
         if let Some(constraints) = &self.constraints {
             constraints.memory.store(&mut x.contacts);
         }
         if layout.tracks_totals() {
             x.totals.copy_from_slice(&y[layout.totals()]);
         }
-        x.rotors.copy_from_slice(&y[layout.rotor_states()]);
+        copy_any(&mut x.rotors, &y[layout.rotor_states()]);
     }
 
     /// Layout of y.
@@ -797,6 +797,14 @@ impl<R: Real> System<R> for Mechanism<R> {
             return self.base[self.model.dofs[k].q_idx as usize].lane(0).abs();
         }
         1.0
+    }
+}
+
+/// Copies numbers of which most models have none: the test costs less than the call.
+#[inline(always)]
+pub(crate) fn copy_any<R: Copy>(to: &mut [R], from: &[R]) {
+    if !(to.is_empty() && from.is_empty()) {
+        to.copy_from_slice(from);
     }
 }
 

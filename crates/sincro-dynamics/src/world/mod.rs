@@ -34,9 +34,9 @@ use crate::constraint::{ContactPoint, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::ids::{MotorId, RotorId};
 use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, Rk4, SemiImplicitEuler, System};
-use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::ActivationRule;
 use crate::mechanism::layout::Layout;
+use crate::mechanism::{Mechanism, copy_any};
 use crate::model::Model;
 use crate::occurrences::Occurrences;
 use crate::state::State;
@@ -682,7 +682,7 @@ impl World {
     fn load(&mut self, system: &mut dyn CoupledSystem<f64>) {
         self.mechanism.load(&self.state, &mut self.y);
         let own = self.mechanism.dim();
-        self.y[own..].copy_from_slice(system.states());
+        copy_any(&mut self.y[own..], system.states());
     }
 
     /// f(t, y) into `self.slope`.
