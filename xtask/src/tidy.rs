@@ -22,7 +22,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-vision", &["sincro-math", "sincro-values"]),
     ("sincro-values", &[]),
     ("sincro-planning", &["sincro-math", "sincro-motion", "sincro-values"]),
-    ("sincro-conventions", &["sincro-math", "sincro-geometry"]),
+    ("sincro-conventions", &["sincro-math", "sincro-geometry", "sincro-values"]),
     (
         "sincro-dynamics",
         &[

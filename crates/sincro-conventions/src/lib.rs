@@ -8,7 +8,7 @@
 //! | `ik_objects.rs` | dummies and joints of environments of `simIK` |
 //! | `ik_names.rs` | constants and older names of `simIK` |
 //! | `path_shapes.rs` | points of paths between control points |
-//! | `paths.rs` | paths of configurations |
+//! | `paths.rs`, `path_functions.rs` | paths of configurations, and the functions on them |
 //! | `names.rs` | old names of functions |
 //! | `properties.rs` | properties that are functions under another name |
 //! | `absent.rs`, `absent.txt` | functions that are not offered, and why |
@@ -20,6 +20,7 @@ pub mod ik_names;
 pub mod ik_objects;
 pub mod names;
 pub mod object_paths;
+pub mod path_functions;
 pub mod path_shapes;
 pub mod paths;
 pub mod poses;

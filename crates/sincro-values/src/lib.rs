@@ -5,6 +5,7 @@
 //! | `handle.rs`, `value.rs`, `error.rs` | [`Handle`], [`Value`] and [`Arguments`], [`ApiError`]: what functions take and give |
 //! | `cbor.rs`, `unpack.rs` | values as bytes and back |
 //! | `bits.rs` | bits of whole numbers |
+//! | `buffers.rs` | functions that pack numbers and tables as bytes |
 //! | `coercion.rs` | numbers as text and texts as numbers, by the parameters of call tips |
 //! | `numbers.rs` | types of numbers in buffers |
 //! | `graphs.rs` | streams of graphs |
@@ -19,6 +20,7 @@
 //! | `ports.rs` | TCP ports that scripts ask for |
 
 pub mod bits;
+pub mod buffers;
 pub mod cbor;
 pub mod clouds;
 pub mod coercion;

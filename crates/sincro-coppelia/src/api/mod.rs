@@ -64,7 +64,7 @@ pub use sincro_dynamics::spatial::{Pose, Vec3};
 pub use sincro_planning as paths;
 pub use sincro_values::stored::check_name;
 pub use sincro_values::{ApiError, Arguments, LegacyPorts, PortRequest, Signals, Value, cbor, topics};
-use sincro_values::{radio, stored, unpack};
+use sincro_values::{radio, stored};
 
 /// State of the simulation of a session, as clients and scripts ask for it; [`ObjectRegistry::phase`] holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
