@@ -23,6 +23,7 @@ mod law;
 mod lexer;
 mod library;
 mod machine;
+mod older_names;
 mod power;
 mod sandbox;
 mod shared;

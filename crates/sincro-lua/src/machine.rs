@@ -23,7 +23,7 @@ use crate::guard::Guard;
 use crate::lexer::{self, Sort, Word};
 use crate::sandbox::{self, CHUNK};
 use crate::shared::Shared;
-use crate::{api, callback, contact, convert, fault, files, power, vision};
+use crate::{api, callback, contact, convert, fault, files, older_names, power, vision};
 
 /// Values of `sim_call_type`; any numbers will do, scripts compare names.
 pub(crate) const CALL_TYPES: [(&str, i64); 10] = [
@@ -98,7 +98,7 @@ struct Entries {
 
 /// Compiles a text, its lines counted as in its source.
 pub(crate) fn compile(lua: &Lua, script: &Script) -> mlua::Result<Function> {
-    let text = "\n".repeat(script.lines_before) + &power::with_calls(&script.text);
+    let text = "\n".repeat(script.lines_before) + &power::with_calls(&older_names::renamed(&script.text));
     lua.load(text).set_name(format!("={CHUNK}")).set_mode(ChunkMode::Text).into_function()
 }
 
@@ -196,7 +196,7 @@ impl Machine {
     pub fn evaluate(&mut self, text: &str) -> Result<Vec<sim_api::Value>, ApiError> {
         let done = self.within(|m| {
             sandbox::charge_text(&m.lua, &m.guard, text)?;
-            let text = power::with_calls(text);
+            let text = power::with_calls(&older_names::renamed(text));
             let values = m.lua.load(text).set_name("=text").set_mode(ChunkMode::Text).call(())?;
             convert::list_from_lua(values)
         });

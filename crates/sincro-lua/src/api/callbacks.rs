@@ -5,6 +5,7 @@ use mlua::{Error, Function, Lua, MultiValue, Table, Value as LuaValue};
 use super::{ApiContext, scripts};
 use crate::convert;
 use crate::guard::Guard;
+use crate::older_names;
 
 /// Scripts that may be calling each other at once.
 const MAX_DEPTH: usize = 16;
@@ -117,7 +118,7 @@ pub(crate) fn find(lua: &Lua, name: &str) -> Option<Function> {
     let mut at = LuaValue::Table(lua.globals());
     for part in name.split('.') {
         let LuaValue::Table(table) = at else { return None };
-        at = table.get(part).ok()?;
+        at = table.get(older_names::inside(part)).ok()?;
     }
     match at {
         LuaValue::Function(function) => Some(function),

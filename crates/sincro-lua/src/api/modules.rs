@@ -10,7 +10,7 @@ use mlua::{Error, Function, MultiValue, Table, Value as LuaValue};
 use sincro_coppelia::api::functions;
 
 use super::{ApiContext, planning, ros, vision};
-use crate::{power, sandbox};
+use crate::{older_names, power, sandbox};
 
 /// Libraries of Lua, which are modules, too.
 const LIBRARIES: [&str; 9] = ["_G", "coroutine", "debug", "io", "math", "os", "string", "table", "utf8"];
@@ -81,7 +81,7 @@ pub(super) fn offer(context: &ApiContext<'_>) -> mlua::Result<()> {
             )));
         }
         sandbox::charge_text(lua, &guard, &source.text)?;
-        let text = power::with_calls(&source.text);
+        let text = power::with_calls(&older_names::renamed(&source.text));
         let is_old = text.contains("module");
         let chunk = lua.load(text).set_name(format!("={file}")).set_mode(ChunkMode::Text);
         let chunk = if is_old { chunk.set_environment(environment.call::<Table>(())?) } else { chunk };
