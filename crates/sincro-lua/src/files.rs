@@ -21,7 +21,7 @@ pub(crate) fn offer(lua: &Lua, shared: &Arc<Shared>, index: usize, guard: &Arc<G
     let (files, of_reads) = (script.files.clone(), shared.clone());
     let text = lua.create_function(move |lua, name: String| {
         // the second tells that the scene has it
-        if let Some((_, source)) = files.iter().find(|(known, _)| *known == name) {
+        if let Some(source) = given(&files, &name) {
             return Ok((Some(lua.create_string(&source.text)?), true));
         }
         let written = of_reads.with_sim(own, |sim| Ok(sim.registry.kept_text(&file_name(&name)).map(<[u8]>::to_vec)));
@@ -45,6 +45,16 @@ pub(crate) fn offer(lua: &Lua, shared: &Arc<Shared>, index: usize, guard: &Arc<G
     Ok(())
 }
 
+/// The file of the scene that a script means by `name`: that of this name, or, of a path on some computer, the one
+/// whose name in the scene is the longest end of it.
+fn given<'a, T>(files: &'a [(String, T)], name: &str) -> Option<&'a T> {
+    let path = name.replace('\\', "/");
+    let is_end = |known: &str| path.strip_suffix(known).is_some_and(|before| before.ends_with('/'));
+    let exact = files.iter().find(|(known, _)| *known == name || *known == path);
+    let ending = || files.iter().filter(|(known, _)| is_end(known)).max_by_key(|(known, _)| known.len());
+    exact.or_else(ending).map(|(_, file)| file)
+}
+
 /// Name in the results of a file that a script writes: the last part of a path, with an extension of texts.
 fn file_name(path: &str) -> String {
     let last = path.rsplit(['/', '\\']).next().unwrap_or_default();
@@ -62,4 +72,24 @@ fn keep(sim: &mut SimApi<'_>, path: &str, text: &[u8], is_behind: bool) -> Resul
         return Err(ApiError(format!("`{name}` is not written: {when}, into the folder `files` of its results")));
     }
     sim.registry.keep_text(&name, text, is_behind)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::given;
+
+    #[test]
+    fn files_are_found_by_the_end_of_a_path() {
+        let files = [("path.csv".to_owned(), 1), ("data/path.csv".to_owned(), 2)];
+        for (name, expected) in [
+            ("path.csv", Some(1)),
+            ("/scenes/of/others/path.csv", Some(1)),
+            (r"C:\scenes\data\path.csv", Some(2)),
+            ("data/path.csv", Some(2)),
+            ("mypath.csv", None),
+            ("path.csv/other", None),
+        ] {
+            assert_eq!(given(&files, name).copied(), expected, "{name}");
+        }
+    }
 }
