@@ -102,7 +102,7 @@ local ros2 = {
   imageTransportCreateSubscription = function(name, callback)
     return listen(name, callback, 10, 'simROS2.imageTransportCreateSubscription')
   end,
-  imageTransportShutdownSubscription = close,
+  imageTransportShutdownSubscription = close, spinSome = deliver,
   getTime = stamp, getSystemTime = stamp, getSimulationTime = stamp,
 }
 

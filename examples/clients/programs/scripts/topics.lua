@@ -28,6 +28,10 @@ end
 
 function sysCall_sensing()
     simROS2.publish(ranges, { header = { stamp = simROS2.getTime() }, range = sim.getSimulationTime() + 0.1 })
+    -- what has been published is taken now
+    local before = seen
+    simROS2.spinSome()
+    if seen == before then seen = -1 end
 end
 
 function sysCall_cleanup()
