@@ -219,6 +219,45 @@ fn voxels_of_an_octree_are_seen_where_they_are() {
 }
 
 #[test]
+fn objects_fill_octrees_and_clouds_by_their_surfaces() {
+    let mut session = open();
+    let octree = call(&mut session, "sim.createOctree", &[0.1.into()]).remove(0);
+    let cloud = call(&mut session, "sim.createPointCloud", &[0.1.into(), 10_i64.into()]).remove(0);
+    let of_block = [3_i64.into(), Value::reals([0.38; 3]), 0_i64.into()];
+    let block = call(&mut session, "sim.createPrimitiveShape", &of_block).remove(0);
+    call(&mut session, "sim.setObjectPosition", &[block.clone(), Value::reals([0.2; 3]), (-1_i64).into()]);
+    let given = |first: &Value| [first.clone(), block.clone(), 0_i64.into()];
+    // the surface of a cube of four voxels a side: 4³ − 2³
+    assert_eq!(call(&mut session, "sim.insertObjectIntoOctree", &given(&octree)), [Value::Int(56)]);
+    let grid = [cloud.clone(), octree.clone(), 0_i64.into(), 0.1.into()];
+    assert_eq!(call(&mut session, "sim.insertObjectIntoPointCloud", &grid), [Value::Int(56)]);
+    // what is there already is not added again within the tolerance
+    let again = [cloud.clone(), block.clone(), 0_i64.into(), 0.1.into(), Value::reals([0.0; 3]), 0.01.into()];
+    assert_eq!(call(&mut session, "sim.insertObjectIntoPointCloud", &again), [Value::Int(56)]);
+    let dummy = call(&mut session, "sim.createDummy", &[0.01.into()]).remove(0);
+    call(&mut session, "sim.setObjectPosition", &[dummy.clone(), Value::reals([0.05; 3]), (-1_i64).into()]);
+    let corner = [octree.clone(), dummy, 0_i64.into()];
+    assert_eq!(call(&mut session, "sim.subtractObjectFromOctree", &corner), [Value::Int(55)]);
+    assert_eq!(call(&mut session, "sim.subtractObjectFromOctree", &given(&octree)), [Value::Int(0)]);
+    assert_eq!(call(&mut session, "sim.subtractObjectFromPointCloud", &again[..4]), [Value::Int(0)]);
+}
+
+#[test]
+fn a_shape_that_is_no_body_has_mass_and_inertia_by_its_density() {
+    let mut session = open();
+    let cube = [3_i64.into(), Value::reals([0.2, 0.3, 0.4]), 0_i64.into()];
+    let own = call(&mut session, "sim.createPrimitiveShape", &cube).remove(0);
+    assert_eq!(call(&mut session, "sim.computeMassAndInertia", &[own.clone(), 500.0.into()]), [Value::Int(1)]);
+    let found = call(&mut session, "sim.getShapeMassAndInertia", std::slice::from_ref(&own));
+    let (mass, inertia) = (found[0].as_real().unwrap(), found[1].as_reals().unwrap());
+    assert!((mass - 500.0 * 0.024).abs() < 1e-12, "{mass}");
+    let about_x = mass / 12.0 * (0.3 * 0.3 + 0.4 * 0.4);
+    assert!((inertia[0] - about_x).abs() < 1e-12, "{inertia:?}");
+    let refused = session.call("sim.computeMassAndInertia", &[own, 0.0.into()]);
+    assert!(refused.unwrap_err().0.contains("not positive"));
+}
+
+#[test]
 fn points_of_a_cloud_come_back_without_duplicates() {
     let mut session = open();
     let cloud = call(&mut session, "sim.createPointCloud", &[0.02.into(), 20_i64.into()]).remove(0);

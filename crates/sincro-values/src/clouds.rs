@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::work::check_operations;
 use super::{ApiError, MAX_LENGTH};
 
 /// Voxels of an octree, or points of a point cloud, at most.
@@ -103,6 +104,51 @@ impl Voxels {
         Ok(self.cells.get(&self.cell(point)?).map(|(_, tag)| *tag))
     }
 
+    /// Adds the voxels that a triangle `[m]` meets, or gives them another colour and tag. Returns the number of voxels
+    /// that were looked at, those in the box about the triangle.
+    ///
+    /// # Errors
+    ///
+    /// A corner is too far away, the box has too many voxels, or there are [`MAX_ITEMS`] voxels already.
+    pub fn insert_triangle(&mut self, corners: [[f64; 3]; 3], color: [u8; 3], tag: i64) -> Result<u64, ApiError> {
+        let (met, n) = self.cells_of(corners)?;
+        met.into_iter().try_for_each(|cell| self.insert(self.center(&cell), color, tag).map(|_| ()))?;
+        Ok(n)
+    }
+
+    /// Removes the voxels that a triangle `[m]` meets. Returns the number of voxels that were looked at.
+    ///
+    /// # Errors
+    ///
+    /// A corner is too far away, or the box about the triangle has too many voxels.
+    pub fn remove_triangle(&mut self, corners: [[f64; 3]; 3]) -> Result<u64, ApiError> {
+        let (met, n) = self.cells_of(corners)?;
+        for cell in met {
+            self.cells.remove(&cell);
+        }
+        Ok(n)
+    }
+
+    /// The voxels that a triangle meets, and the number of those in the box about it.
+    fn cells_of(&self, corners: [[f64; 3]; 3]) -> Result<(Vec<[i32; 3]>, u64), ApiError> {
+        let cells = [self.cell(corners[0])?, self.cell(corners[1])?, self.cell(corners[2])?];
+        let low = [0, 1, 2].map(|k| cells.iter().map(|cell| cell[k]).min().unwrap_or(0));
+        let high = [0, 1, 2].map(|k| cells.iter().map(|cell| cell[k]).max().unwrap_or(0));
+        let n = (0..3).fold(1_u64, |n, k| n.saturating_mul(u64::from(high[k].abs_diff(low[k])) + 1));
+        check_operations(n, "comparisons of voxels", "take larger voxels")?;
+        let mut met = Vec::new();
+        for i in low[0]..=high[0] {
+            for j in low[1]..=high[1] {
+                for k in low[2]..=high[2] {
+                    if triangle_meets_cube(corners, self.center(&[i, j, k]), 0.5 * self.size) {
+                        met.push([i, j, k]);
+                    }
+                }
+            }
+        }
+        Ok((met, n))
+    }
+
     fn center(&self, cell: &[i32; 3]) -> [f64; 3] {
         cell.map(|k| (f64::from(k) + 0.5) * self.size)
     }
@@ -111,6 +157,27 @@ impl Voxels {
     pub fn items(&self) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
         self.cells.iter().map(|(cell, (color, _))| (self.center(cell), *color))
     }
+}
+
+/// Returns true if a triangle and a cube of half the edge `half` along the axes have a point in common: no axis
+/// separates them, of the cube, the triangle, and edge by edge (T. Akenine-Möller, "Fast 3D Triangle-Box Overlap
+/// Testing", 2001).
+fn triangle_meets_cube(corners: [[f64; 3]; 3], center: [f64; 3], half: f64) -> bool {
+    let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    let cross =
+        |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    let points = corners.map(|corner| minus(corner, center));
+    let edges = [minus(points[1], points[0]), minus(points[2], points[1]), minus(points[0], points[2])];
+    let separates = |axis: [f64; 3]| {
+        let reach = half * (axis[0].abs() + axis[1].abs() + axis[2].abs());
+        let along = points.map(|p| axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]);
+        along.iter().all(|x| *x > reach) || along.iter().all(|x| *x < -reach)
+    };
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let is_separated = axes.iter().any(|axis| separates(*axis))
+        || separates(cross(edges[0], edges[1]))
+        || axes.iter().any(|axis| edges.iter().any(|edge| separates(cross(*axis, *edge))));
+    !is_separated
 }
 
 /// Points of a point cloud, in the order in which they were added.
@@ -159,6 +226,22 @@ impl Points {
         self.points.retain(|(point, _)| places.iter().any(|place| is_within(*point, *place, tolerance)));
     }
 
+    /// Removes the points that are in voxels of an octree.
+    ///
+    /// # Errors
+    ///
+    /// A point is too far away for the voxels.
+    pub fn remove_in(&mut self, voxels: &Voxels) -> Result<(), ApiError> {
+        let mut stays = Vec::with_capacity(self.points.len());
+        for item in &self.points {
+            if voxels.tag_at(item.0)?.is_none() {
+                stays.push(*item);
+            }
+        }
+        self.points = stays;
+        Ok(())
+    }
+
     /// Removes all points.
     pub fn clear(&mut self) {
         self.points.clear();
@@ -196,6 +279,30 @@ mod tests {
         voxels.remove([0.49; 3]).unwrap();
         assert_eq!(voxels.items().collect::<Vec<_>>(), [([-0.25, 0.25, 0.25], [0, 0, 255])]);
         assert!(voxels.insert([f64::NAN, 0.0, 0.0], [0; 3], 0).is_err() && Voxels::new(0.0).is_err());
+    }
+
+    #[test]
+    fn a_triangle_fills_the_voxels_that_it_meets() {
+        let mut voxels = Voxels::new(1.0).unwrap();
+        let flat = [[0.1, 0.1, 0.5], [2.5, 0.1, 0.5], [0.1, 2.5, 0.5]];
+        assert_eq!(voxels.insert_triangle(flat, [0; 3], 3).unwrap(), 9);
+        // the long side is x + y = 2.6: of the nine, three lie beyond it
+        let met: Vec<[f64; 2]> = voxels.items().map(|([x, y, _], _)| [x, y]).collect();
+        assert_eq!(met, [[0.5, 0.5], [0.5, 1.5], [0.5, 2.5], [1.5, 0.5], [1.5, 1.5], [2.5, 0.5]]);
+        // x + y + z = 3.5: the box about it has the voxel at the origin, which the triangle does not meet
+        let oblique = [[0.0, 0.0, 3.5], [3.5, 0.0, 0.0], [0.0, 3.5, 0.0]];
+        let mut others = Voxels::new(1.0).unwrap();
+        others.insert_triangle(oblique, [0; 3], 0).unwrap();
+        assert_eq!((others.tag_at([0.1; 3]).unwrap(), others.tag_at([1.2, 0.9, 0.5]).unwrap()), (None, Some(0)));
+        let mut points = Points::default();
+        points.insert([0.1; 3], [0; 3], 0.0).unwrap();
+        points.insert([1.2, 0.9, 0.5], [0; 3], 0.0).unwrap();
+        points.remove_in(&others).unwrap();
+        assert_eq!(points.len(), 1);
+        voxels.remove_triangle(flat).unwrap();
+        assert!(voxels.is_empty());
+        let far = [[0.0; 3], [1e6, 1e6, 0.0], [1e6, 0.0, 1e6]];
+        assert!(voxels.insert_triangle(far, [0; 3], 0).unwrap_err().0.contains("larger voxels"));
     }
 
     #[test]

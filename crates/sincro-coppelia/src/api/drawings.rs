@@ -168,6 +168,11 @@ impl SimApi<'_> {
         Ok(())
     }
 
+    /// Returns true if there is a drawing, or particles, of that handle.
+    pub(crate) fn has_drawing(&self, handle: i64) -> bool {
+        self.registry.drawings.list.contains_key(&handle)
+    }
+
     /// Removes a drawing, or all for none: those of particles, or all others.
     ///
     /// # Errors

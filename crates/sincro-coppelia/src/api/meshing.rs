@@ -13,12 +13,13 @@ use super::{ApiError, Reference, SimApi};
 const MAX_HULL: (usize, u64) = (1_000_000, 256);
 
 impl SimApi<'_> {
-    /// Corners and triangles of the convex hull of some points `[m]`.
+    /// Corners and triangles of the convex hull of some points `[m]`; none if they lie in a plane, or are fewer than
+    /// four.
     ///
     /// # Errors
     ///
-    /// The points lie in a plane, are too few or too many, or not finite.
-    pub(crate) fn hull(&mut self, points: &[[f64; 3]]) -> Result<MeshFile, ApiError> {
+    /// The points are too many, or not finite.
+    pub(crate) fn hull(&mut self, points: &[[f64; 3]]) -> Result<Option<MeshFile>, ApiError> {
         let (max, per_point) = MAX_HULL;
         if points.len() > max || points.iter().flatten().any(|x| !x.is_finite()) {
             return Err(ApiError(format!("a hull is computed of {max} points at most, all finite")));
@@ -26,9 +27,7 @@ impl SimApi<'_> {
         let n = per_point * points.len() as u64;
         check_operations(n, "operations on points", "give fewer points")?;
         self.add_operations(n);
-        let hull = convex_hull(points);
-        let (corners, triangles) = hull.ok_or_else(|| ApiError::new("the points have no hull: they lie in a plane"))?;
-        Ok(MeshFile { corners, triangles })
+        Ok(convex_hull(points).map(|(corners, triangles)| MeshFile { corners, triangles }))
     }
 
     /// Turns the frame of a runtime shape and puts it in the middle of the box about the shape in its axes; the surface

@@ -196,6 +196,10 @@ pub fn fitting(name: &str, things: &Things) -> Option<Vec<Value>> {
             vec![octree.clone(), int(0), three()]
         }
         "getOctreeVoxels" => vec![octree.clone()],
+        "insertObjectIntoOctree" | "subtractObjectFromOctree" => vec![octree.clone(), shape.clone(), Value::Int(0)],
+        "insertObjectIntoPointCloud" | "subtractObjectFromPointCloud" => {
+            vec![cloud.clone(), shape.clone(), Value::Int(0), Value::Real(0.05)]
+        }
         "insertPointsIntoPointCloud" => vec![cloud.clone(), int(0), three()],
         "removePointsFromPointCloud" | "intersectPointsWithPointCloud" => {
             vec![cloud.clone(), int(0), three(), Value::Real(0.1)]

@@ -100,9 +100,18 @@ fn nine(m: [f64; 6]) -> Value {
     Value::reals(Sym3(m).full().0.into_iter().flatten())
 }
 
+/// Mass properties of a body, or of a shape that is none.
+fn properties(sim: &mut SimApi<'_>, own: Handle) -> Result<MassProperties, ApiError> {
+    if sim.registry.entry(own)?.kind == Kind::Shape {
+        sim.check_shape(own)?;
+        return sim.shape_mass_properties(own);
+    }
+    sim.mass(own)
+}
+
 fn inertia(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = body(sim, a)?;
-    let mass = sim.mass(own)?;
+    let mass = properties(sim, own)?;
     let at = sincro_dynamics::spatial::Pose::translation(Vec3(mass.center_of_mass));
     Ok(vec![nine(mass.inertia), Value::reals(matrix_of(&at))])
 }
@@ -110,7 +119,7 @@ fn inertia(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 /// About the centre of mass, in the axes of the given frame, the world's if none is given.
 fn both(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = body(sim, a)?;
-    let mass = sim.mass(own)?;
+    let mass = properties(sim, own)?;
     let x_wb = sim.pose(own, Reference::World)?;
     let x_fb = if a.has(1) { pose_of_matrix(&a.reals(1)?).inverse().compose(&x_wb) } else { x_wb };
     let placed = mass.placed(&x_fb.rot, x_fb.pos);
@@ -165,6 +174,11 @@ fn set_both(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn compute(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = body(sim, a)?;
+    if sim.registry.entry(own)?.kind == Kind::Shape {
+        sim.check_shape(own)?;
+        sim.set_shape_density(own, a.real(1)?)?;
+        return one(1_i64);
+    }
     let mass = sim.mass_at_density(own, a.real(1)?)?;
     sim.set_mass(own, mass)?;
     one(1_i64)

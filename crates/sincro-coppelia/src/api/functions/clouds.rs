@@ -8,6 +8,7 @@ use sincro_values::clouds::{Points, Voxels};
 use sincro_values::work::check_operations;
 
 use super::{Function, Outcome, handle, one};
+use crate::api::registry::Kind;
 use crate::api::{ApiError, Arguments, Handle, Reference, SimApi, Value};
 
 /// Radius of the ball that a point is `[m]`.
@@ -39,6 +40,31 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "insertVoxelsIntoOctree",
         tip: "int totalVoxelCnt=sim.insertVoxelsIntoOctree(int octreeHandle,int options,float[] pts,int[] color=nil,int[] tag=nil)",
         run: insert_voxels,
+    },
+    Function {
+        name: "insertObjectIntoOctree",
+        tip: "int totalVoxelCnt=sim.insertObjectIntoOctree(int octreeHandle,int objectHandle,int options,int[3] color=nil,int tag=0)",
+        run: |sim, a| {
+            let (own, mut voxels) = octree(sim, a)?;
+            let (color, tag) = (color(a, 3)?, a.int_or(4, 0)?);
+            voxelize(sim, own, handle(sim, a, 1)?, |n, item| match item {
+                Item::Point(point) => voxels.insert(point, color, tag).map(|_| ()),
+                Item::Triangle(corners) => voxels.insert_triangle(corners, color, tag).map(|more| *n += more),
+            })?;
+            show_voxels(sim, own, voxels)
+        },
+    },
+    Function {
+        name: "subtractObjectFromOctree",
+        tip: "int totalVoxelCnt=sim.subtractObjectFromOctree(int octreeHandle,int objectHandle,int options)",
+        run: |sim, a| {
+            let (own, mut voxels) = octree(sim, a)?;
+            voxelize(sim, own, handle(sim, a, 1)?, |n, item| match item {
+                Item::Point(point) => voxels.remove(point),
+                Item::Triangle(corners) => voxels.remove_triangle(corners).map(|more| *n += more),
+            })?;
+            show_voxels(sim, own, voxels)
+        },
     },
     Function {
         name: "removeVoxelsFromOctree",
@@ -86,6 +112,31 @@ pub(super) const FUNCTIONS: &[Function] = &[
         name: "insertPointsIntoPointCloud",
         tip: "int totalPointCnt=sim.insertPointsIntoPointCloud(int pointCloudHandle,int options,float[] pts,int[] color=nil,float duplicateTolerance=0)",
         run: insert_points,
+    },
+    Function {
+        name: "insertObjectIntoPointCloud",
+        tip: "int totalPointCnt=sim.insertObjectIntoPointCloud(int pointCloudHandle,int objectHandle,int options,float gridSize,int[3] color=nil,float duplicateTolerance=0)",
+        run: |sim, a| {
+            let (own, mut cloud) = cloud(sim, a)?;
+            let (color, tolerance) = (color(a, 4)?, distance(a, 5)?);
+            let grid = on_grid(sim, own, handle(sim, a, 1)?, a.real(3)?)?;
+            if tolerance > 0.0 {
+                count(sim, grid.len(), cloud.len() + grid.len())?;
+            }
+            grid.items().try_for_each(|(point, _)| cloud.insert(point, color, tolerance).map(|_| ()))?;
+            show_points(sim, own, cloud)
+        },
+    },
+    Function {
+        name: "subtractObjectFromPointCloud",
+        tip: "int totalPointCnt=sim.subtractObjectFromPointCloud(int pointCloudHandle,int objectHandle,int options,float tolerance)",
+        run: |sim, a| {
+            let (own, mut cloud) = cloud(sim, a)?;
+            let grid = on_grid(sim, own, handle(sim, a, 1)?, a.real(3)?)?;
+            count(sim, cloud.len(), PER_VOXEL)?;
+            cloud.remove_in(&grid)?;
+            show_points(sim, own, cloud)
+        },
     },
     Function {
         name: "removePointsFromPointCloud",
@@ -155,6 +206,66 @@ fn points(sim: &mut SimApi<'_>, a: Arguments<'_>, (own, k): (Handle, usize)) -> 
 fn distance(a: Arguments<'_>, k: usize) -> Result<f64, ApiError> {
     let x = if a.has(k) { a.real(k)? } else { 0.0 };
     if x.is_finite() && x >= 0.0 { Ok(x) } else { Err(ApiError(format!("a tolerance of {x} m: expected 0 or more"))) }
+}
+
+/// Part of an object in the frame of an octree or point cloud `[m]`.
+enum Item {
+    Point([f64; 3]),
+    Triangle([[f64; 3]; 3]),
+}
+
+/// Passes the parts of an object to `each`, in the frame of the octree or point cloud `own`: the triangles of a body or
+/// shape, the centres of voxels, the points of a point cloud, the place of a dummy. `each` adds to the number of
+/// comparisons that it has made.
+fn voxelize(
+    sim: &mut SimApi<'_>,
+    own: Handle,
+    object: Handle,
+    mut each: impl FnMut(&mut u64, Item) -> Result<(), ApiError>,
+) -> Result<(), ApiError> {
+    let x_co = sim.pose(own, Reference::World)?.inverse().compose(&sim.pose(object, Reference::World)?);
+    let place = |p: [f64; 3]| x_co.point(Vec3(p)).0;
+    let registry = &sim.registry;
+    let points: Option<Vec<[f64; 3]>> = if let Some(voxels) = registry.octrees.get(&object) {
+        Some(voxels.items().map(|(center, _)| center).collect())
+    } else if let Some(cloud) = registry.clouds.get(&object) {
+        Some(cloud.items().map(|(point, _)| point).collect())
+    } else if matches!(registry.entry(object)?.kind, Kind::Dummy | Kind::Frame) {
+        Some(vec![[0.0; 3]])
+    } else {
+        None
+    };
+    let mut n = 0;
+    if let Some(points) = points {
+        n += points.len() as u64;
+        points.into_iter().try_for_each(|point| each(&mut n, Item::Point(place(point))))?;
+    } else {
+        for part in sim.meshes(object)? {
+            let (corners, triangles) = part.mesh;
+            for triangle in triangles {
+                each(&mut n, Item::Triangle(triangle.map(|k| place(corners[k as usize]))))?;
+                check_operations(n, WORK, HELP)?;
+            }
+        }
+    }
+    sim.add_operations(n);
+    Ok(())
+}
+
+/// Voxels of the size of a grid `[m]` that an object meets, in the frame of the point cloud `own`.
+fn on_grid(sim: &mut SimApi<'_>, own: Handle, object: Handle, size: f64) -> Result<Voxels, ApiError> {
+    let mut grid = Voxels::new(size)?;
+    voxelize(sim, own, object, |n, item| match item {
+        Item::Point(point) => grid.insert(point, [0; 3], 0).map(|_| ()),
+        Item::Triangle(corners) => grid.insert_triangle(corners, [0; 3], 0).map(|more| *n += more),
+    })?;
+    Ok(grid)
+}
+
+/// Colour of argument `k`, from 0 to 255; red if there is none.
+fn color(a: Arguments<'_>, k: usize) -> Result<[u8; 3], ApiError> {
+    let given = if a.has(k) { a.reals(k)? } else { [255.0, 0.0, 0.0] };
+    Ok(given.map(|x| x.clamp(0.0, 255.0).round() as u8))
 }
 
 /// Colours of argument 4, from 0 to 255: one for all points, or one for each of `n`.

@@ -151,8 +151,13 @@ fn item(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 /// A drawing, or all of them by `sim.handle_all`.
+/// As in V-REP, particles that are not there give −1, a drawing that is not there is an error: scripts keep −1 for
+/// particles that they have not made, and remove it.
 fn remove(sim: &mut SimApi<'_>, a: Arguments<'_>, particles: bool) -> Outcome {
     let given = a.int(0)?;
+    if particles && given != HANDLE_ALL && !sim.has_drawing(given & HANDLE) {
+        return one(-1_i64);
+    }
     let handle = if given == HANDLE_ALL { None } else { Some(own_handle(given)?) };
     sim.remove_drawing(handle, particles)?;
     one(1_i64)

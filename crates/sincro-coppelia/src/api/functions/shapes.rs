@@ -123,7 +123,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
         tip: "float[] verticesOut,int[] indicesOut=sim.getQHull(float[] verticesIn)",
         run: |sim, a| {
             let points = threes(a, 0)?;
-            let mesh = sim.hull(&points)?;
+            // points in a plane give nothing, as in V-REP
+            let Some(mesh) = sim.hull(&points)? else { return done() };
             let [corners, indices, _] = lists(&(mesh.corners, mesh.triangles));
             Ok(vec![corners, indices])
         },

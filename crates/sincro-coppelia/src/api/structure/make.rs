@@ -230,20 +230,50 @@ impl SimApi<'_> {
         if let Some(mass) = self.registry.masses.get(&shape) {
             return Ok(*mass);
         }
+        Ok(self.mass_of_water(shape)?.mass)
+    }
+
+    /// Mass `[kg]`, centre of mass `[m]` and inertia about it `[kg·m²]` of a shape that is no body, in its frame: those
+    /// of an even density.
+    ///
+    /// # Errors
+    ///
+    /// As of [`SimApi::shape_mass`].
+    pub(crate) fn shape_mass_properties(&mut self, shape: Handle) -> Result<MassProperties, ApiError> {
+        let (mass, of_water) = (self.shape_mass(shape)?, self.mass_of_water(shape)?);
+        let scale = mass / of_water.mass;
+        Ok(MassProperties { mass, inertia: of_water.inertia.map(|x| x * scale), ..of_water })
+    }
+
+    /// Gives a shape that is no body the mass that it has at a density `[kg/m³]`.
+    ///
+    /// # Errors
+    ///
+    /// The density is not positive, or it encloses no volume.
+    pub(crate) fn set_shape_density(&mut self, shape: Handle, density: f64) -> Result<(), ApiError> {
+        if !(density.is_finite() && density > 0.0) {
+            return Err(ApiError(format!("density {density} kg/m³ is not positive")));
+        }
+        let mass = self.mass_of_water(shape)?.mass * (density / DENSITY);
+        self.set_shape_mass(shape, mass)
+    }
+
+    /// Mass properties of a shape that is no body, in its frame, at the density of water.
+    fn mass_of_water(&mut self, shape: Handle) -> Result<MassProperties, ApiError> {
         self.shapes_of_body(shape)?;
         let parts = self.registry.senses.parts_of(shape);
         if let Some(hull) = hull_mass(&parts, None) {
-            return Ok(hull.mass);
+            return Ok(hull);
         }
-        let mut sum = 0.0;
-        for (piece, _) in parts {
+        let mut solids = Vec::with_capacity(parts.len());
+        for (piece, place) in parts {
             let Surface::Solid(solid) = piece.geometry.surface() else {
                 let path = &self.registry.entry(shape)?.path;
                 return Err(ApiError(format!("`{path}` has several meshes: give it a mass with sim.setShapeMass")));
             };
-            sum += solid.mass_properties(DENSITY).mass;
+            solids.push(solid.mass_properties(DENSITY).placed(&place.rot, place.pos));
         }
-        Ok(sum)
+        Ok(MassProperties::sum(&solids))
     }
 
     /// Removes what waits for it, and makes bodies of the model of all shapes that wait for it: one compilation. Shapes
