@@ -39,7 +39,6 @@ pub const VISION: &[(&str, &str)] = &[
     ("rotateWorkImg", RESAMPLED),
     ("workImgToSensorDepthMap", "depths are what a sensor measures: only its colours can be written"),
     ("distort", SEVERAL),
-    ("handleSpherical", SEVERAL),
     ("handleAnaglyphStereo", SEVERAL),
     ("createVelodyneHDL64E", VELODYNE),
     ("destroyVelodyneHDL64E", VELODYNE),
@@ -52,5 +51,5 @@ pub const VISION: &[(&str, &str)] = &[
     ("handleVelodyneROSModel", VELODYNE),
 ];
 const RESAMPLED: &str = "work images are not resampled: give the sensor another resolution, or turn it";
-const SEVERAL: &str = "pictures of several sensors are not put together: read each of them";
+const SEVERAL: &str = "pictures are not distorted, and those of two sensors not put together: read each of them";
 const VELODYNE: &str = "four sensors are not turned into one lidar: simVision.velodyneDataFromWorkImg gives the points of each, in the world with sim.handleflag_abscoords";

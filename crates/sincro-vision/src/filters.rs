@@ -7,6 +7,7 @@ use sincro_math::elementary::{atan2, sin_cos};
 use sincro_values::work::{MAX_OPERATIONS, check_operations};
 use sincro_values::{ApiError, Arguments, Handle, Value};
 
+use crate::spherical::origins;
 use crate::work_images::WorkImages;
 use crate::{ColorSpace, DepthLens, Moments, Sampling, WorkImage, gaussian};
 
@@ -22,6 +23,8 @@ const MAX_POINTS: i64 = 1 << 20;
 const MAX_PASSES: i64 = 100;
 /// Operations on a pixel of filters without a kernel: the conversion of a colour.
 const PER_PIXEL: u64 = 8;
+/// Pixels that the pictures may have from which one of all directions is put together.
+const MAX_PIXELS: usize = 1 << 22;
 /// Colours that a segmentation may find; fewer in large images, whose comparisons one call could not make.
 const MAX_COLORS: usize = 1_024;
 
@@ -48,6 +51,25 @@ pub trait Sensors {
     ///
     /// It is no vision sensor, or all work images would have too many pixels.
     fn load(&mut self, sensor: Handle, is_of_depths: bool) -> Result<(), ApiError>;
+    /// Takes the picture of a sensor now, and returns it, or its depths (0 near plane, 1 far plane); of a sensor with
+    /// external input the picture that was written.
+    ///
+    /// # Errors
+    ///
+    /// It is no vision sensor.
+    fn take(&mut self, sensor: Handle, is_of_depths: bool) -> Result<WorkImage, ApiError>;
+    /// Numbers of columns and rows of a sensor.
+    ///
+    /// # Errors
+    ///
+    /// It is no vision sensor.
+    fn size(&self, sensor: Handle) -> Result<[usize; 2], ApiError>;
+    /// Makes an image of the size of a sensor its picture.
+    ///
+    /// # Errors
+    ///
+    /// It is no vision sensor.
+    fn show(&mut self, sensor: Handle, image: &WorkImage) -> Result<(), ApiError>;
     /// Makes the work image of a sensor its picture.
     ///
     /// # Errors
@@ -86,6 +108,7 @@ macro_rules! for_filters {
             "sensorDepthMapToWorkImg" "simVision.sensorDepthMapToWorkImg(int visionSensorHandle)"
             "workImgToSensorImg" "simVision.workImgToSensorImg(int visionSensorHandle,bool removeBuffer=true)"
             "releaseBuffers" "simVision.releaseBuffers(int visionSensorHandle)"
+            "handleSpherical" "simVision.handleSpherical(int rgbVisionSensorHandle,int[6] activeVisionSensorHandles,float horizontalAngle,float verticalAngle,int depthVisionSensorHandle=-1)"
             "workImgToBuffer1" "simVision.workImgToBuffer1(int visionSensorHandle)"
             "workImgToBuffer2" "simVision.workImgToBuffer2(int visionSensorHandle)"
             "swapBuffers" "simVision.swapBuffers(int visionSensorHandle)"
@@ -132,6 +155,7 @@ pub fn call(sensors: &mut impl Sensors, name: &str, a: Arguments<'_>) -> Outcome
         "sensorDepthMapToWorkImg" => load(sensors, a, true),
         "workImgToSensorImg" => store(sensors, a),
         "releaseBuffers" => release(sensors, a),
+        "handleSpherical" => spherical(sensors, a),
         "workImgToBuffer1" => edit(sensors, a, |images| images.buffers[0] = Some(images.work.clone())),
         "workImgToBuffer2" => edit(sensors, a, |images| images.buffers[1] = Some(images.work.clone())),
         "swapBuffers" => edit(sensors, a, |images| images.buffers.swap(0, 1)),
@@ -276,6 +300,47 @@ fn store<S: Sensors>(sensors: &mut S, a: Arguments<'_>) -> Outcome {
     count(sensors, own, PER_PIXEL)?;
     sensors.store(own)?;
     silent()
+}
+
+/// A picture of all directions from those of six sensors, in colours in one sensor, of distances in another one.
+fn spherical<S: Sensors>(sensors: &mut S, a: Arguments<'_>) -> Outcome {
+    let find = |sensors: &S, handle: i64| {
+        let handle = i32::try_from(handle).map_err(|_| ApiError(format!("there is no object {handle}")))?;
+        sensors.sensor(handle)
+    };
+    let targets = [a.int(0)?, a.int_or(4, -1)?];
+    let six: [f64; 6] = a.reals(1)?;
+    let six = six.iter().map(|handle| find(sensors, *handle as i64)).collect::<Result<Vec<_>, ApiError>>()?;
+    let side = sensors.size(six[0])?[0];
+    for own in &six {
+        if sensors.size(*own)? != [side; 2] {
+            return Err(ApiError::new("the six sensors need as many rows as columns, all the same"));
+        }
+    }
+    if 6 * side * side > MAX_PIXELS {
+        return Err(ApiError(format!("the six pictures have more than {MAX_PIXELS} pixels: give the sensors fewer")));
+    }
+    let lens = sensors.lens(six[0])?;
+    let range = lens.far - lens.near;
+    for (target, is_of_depths) in targets.into_iter().zip([false, true]).filter(|(target, _)| *target != -1) {
+        let own = find(sensors, target)?;
+        let size = sensors.size(own)?;
+        sensors.spend(PER_POINT * (size[0] * size[1]) as u64);
+        let mut pictures: [Option<WorkImage>; 6] = [const { None }; 6];
+        let mut image = WorkImage::black(size);
+        for (pixel, origin) in image.pixels.iter_mut().zip(origins(size, [a.real(2)?, a.real(3)?], side)) {
+            let picture = match &mut pictures[origin.sensor] {
+                Some(picture) => picture,
+                none => none.insert(sensors.take(six[origin.sensor], is_of_depths)?),
+            };
+            let seen = picture.pixels[origin.pixel];
+            // along the ray instead of the axis, in the range between the planes
+            let far = |depth: f64| (((lens.near + range * depth) * origin.stretch - lens.near) / range).min(1.0);
+            *pixel = if is_of_depths { seen.map(far) } else { seen };
+        }
+        sensors.show(own, &image)?;
+    }
+    Ok(Vec::new())
 }
 
 fn release<S: Sensors>(sensors: &mut S, a: Arguments<'_>) -> Outcome {

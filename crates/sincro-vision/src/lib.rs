@@ -13,6 +13,7 @@
 //! | `picture_files.rs` | pictures from PNG and BMP files |
 //! | `filters.rs` | the functions by name, on the sensors of a [`Sensors`]; [`for_filters!`] has their call tips |
 //! | `points.rs` | [`DepthLens`]: points of a depth map, by rows and columns or by angles |
+//! | `spherical.rs` | pictures of all directions, from those of six sensors |
 //! | `textures.rs` | pictures that shapes are given |
 //! | `work_images.rs` | [`WorkImages`]: a work image and its two buffers |
 //!
@@ -30,6 +31,7 @@ mod filters;
 pub mod picture_files;
 pub mod pictures;
 mod points;
+mod spherical;
 pub mod textures;
 mod work_images;
 

@@ -4,6 +4,7 @@
 use sincro_vision::{DepthLens, Sensors, WorkImage, WorkImages};
 
 use super::registry::Handle;
+use super::vision::Sensors as Handled;
 use super::{ApiError, Reference, SimApi, Vec3};
 use sincro_scene::camera::{Layer, Lens};
 
@@ -159,6 +160,19 @@ impl SimApi<'_> {
     }
 }
 
+impl SimApi<'_> {
+    /// Picture of a vision sensor as of its last handling, or its depths (0 near plane, 1 far plane).
+    fn picture(&mut self, handle: Handle, is_of_depths: bool) -> Result<WorkImage, ApiError> {
+        let size = self.registry.vision_sensor(handle)?.optics.resolution;
+        let image = self.vision_image(handle)?;
+        Ok(if is_of_depths {
+            WorkImage::from_intensities(size, image.depths(image.whole(), false))
+        } else {
+            WorkImage::from_rgb(size, image.rgb())
+        })
+    }
+}
+
 impl Sensors for SimApi<'_> {
     fn sensor(&self, handle: i32) -> Result<Handle, ApiError> {
         super::functions::plain(self, handle)
@@ -167,12 +181,7 @@ impl Sensors for SimApi<'_> {
     fn load(&mut self, handle: Handle, is_of_depths: bool) -> Result<(), ApiError> {
         let size = self.registry.vision_sensor(handle)?.optics.resolution;
         self.check_work_pixels(handle, size[0] * size[1])?;
-        let image = self.vision_image(handle)?;
-        let work = if is_of_depths {
-            WorkImage::from_intensities(size, image.depths(image.whole(), false))
-        } else {
-            WorkImage::from_rgb(size, image.rgb())
-        };
+        let work = self.picture(handle, is_of_depths)?;
         let images = &mut self.registry.filtered(handle)?.images;
         match images {
             Some(images) if images.work.size() == size => images.work = work,
@@ -196,9 +205,22 @@ impl Sensors for SimApi<'_> {
     }
 
     fn store(&mut self, handle: Handle) -> Result<(), ApiError> {
-        let bytes = self.images(handle)?.work.rgb();
+        let work = self.images(handle)?.work.clone();
+        self.show(handle, &work)
+    }
+
+    fn take(&mut self, handle: Handle, is_of_depths: bool) -> Result<WorkImage, ApiError> {
+        self.handle_vision(Handled::One(handle))?;
+        self.picture(handle, is_of_depths)
+    }
+
+    fn size(&self, handle: Handle) -> Result<[usize; 2], ApiError> {
+        Ok(self.registry.vision_sensor(handle)?.optics.resolution)
+    }
+
+    fn show(&mut self, handle: Handle, image: &WorkImage) -> Result<(), ApiError> {
         let whole = self.vision_image(handle)?.whole();
-        self.write_vision(handle, whole, Layer { is_grey: false, cut_off: None }, &bytes)
+        self.write_vision(handle, whole, Layer { is_grey: false, cut_off: None }, &image.rgb())
     }
 
     fn lens(&self, handle: Handle) -> Result<DepthLens, ApiError> {
