@@ -69,6 +69,7 @@
 //! | [`table`], [`formats`], [`sweep`], [`check`], [`results`], [`result_folder`], [`file`](mod@file) | columns of numbers, sweeps, checks, `run.json`, folders and files of results |
 //! | [`task`] | many worlds of a task, for reinforcement learning |
 //! | [`campaign`] | an experiment with its variants, sweep and error bars |
+//! | [`workers`] | independent jobs on all processors |
 
 pub mod audit;
 pub mod campaign;
@@ -100,5 +101,6 @@ pub mod table;
 pub mod task;
 pub mod trace;
 pub mod validity;
+pub mod workers;
 
 pub use load::{ControllerFactory, Extensions, Loaded, ScriptEngine, load, load_without_variants};

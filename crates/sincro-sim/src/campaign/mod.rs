@@ -2,7 +2,7 @@
 //! checks.
 
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use sincro_dynamics::joint::JointKind;
 
@@ -24,6 +24,7 @@ use crate::run::{RunError, RunMonitor, RunOptions, Simulated, method_word, simul
 use crate::sweep::Sweep;
 use crate::table::Table;
 use crate::trace::model_hash;
+use crate::workers::on_all_processors;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::{Experiment, Sweep as SweepPlan, Variant};
 use sincro_scene::open::settings_with;
@@ -81,13 +82,14 @@ pub struct Campaign {
     pub report: RunReport,
 }
 
-/// Callback for the progress of a campaign: receives what is being done (`run`, `variant NAME` …) and the share of it
-/// that is done, 0 to 1.
+/// Callback for the progress of a campaign: receives what is being done (`run`, `run and 3 variants` …) and the share
+/// of it that is done, 0 to 1.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
 
-/// Runs a loaded experiment with its variants and its sweep, and judges them by their checks. `folder` and `overrides`
-/// are those that it was loaded with; `out_dir`, if given, receives `signals.csv`, `sweep.csv`, `run.json` and a folder
-/// for each variant. Once `interrupt` is true the present run ends and no other begins.
+/// Runs a loaded experiment with its variants and its sweep on all processors, and judges them by their checks.
+/// `folder` and `overrides` are those that it was loaded with; `out_dir`, if given, receives `signals.csv`,
+/// `sweep.csv`, `run.json` and a folder for each variant. Once `interrupt` is true the present runs end and no others
+/// begin.
 ///
 /// # Errors
 ///
@@ -120,30 +122,16 @@ pub fn run_campaign(
     interrupt: &AtomicBool,
     progress: Progress<'_>,
 ) -> Result<Campaign, RunError> {
-    let csv = out_dir.map(|dir| dir.join("signals.csv"));
-    let main = one_run(loaded, None, &[], csv.as_deref(), (interrupt, "run", &mut *progress))?;
+    let (main, variants) = match loaded.experiment.variants.as_slice() {
+        [] => {
+            let mut tell = |share: f64| progress("run", share);
+            let mut main = one_run(loaded, None, out_dir, &mut RunMonitor { interrupt, progress: &mut tell })?;
+            main.outcomes = evaluate_checks(loaded, None, &main, &[]);
+            (main, Vec::new())
+        }
+        variants => run_with_variants(overrides, (loaded, variants), out_dir, interrupt, progress)?,
+    };
     let interrupted = |done: &CompletedRun| matches!(done.simulated.status, Status::Interrupted { .. });
-
-    let mut variants = Vec::new();
-    for variant in &loaded.experiment.variants {
-        if interrupted(&main) {
-            break;
-        }
-        let settings = settings_with(overrides, &variant.set);
-        let other = loaded.with_overrides(&settings)?;
-        let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
-        if let Some(dir) = &dir {
-            crate::file::prepare(dir)?;
-        }
-        let csv = dir.map(|dir| dir.join("signals.csv"));
-        let words = format!("variant {}", variant.name);
-        let before: Vec<(&str, &Table)> = std::iter::once(("main", &main.simulated.table))
-            .chain(variants.iter().map(|(v, done): &(Variant, CompletedRun)| (v.name.as_str(), &done.simulated.table)))
-            .collect();
-        let observer = (interrupt, words.as_str(), &mut *progress);
-        let done = one_run(&other, Some(&variant.name), &before, csv.as_deref(), observer)?;
-        variants.push((variant.clone(), done));
-    }
     let sweep = match &loaded.experiment.sweep {
         Some(plan) if !interrupted(&main) => Some(run_sweep(overrides, loaded, plan, interrupt, progress)?),
         _ => None,
@@ -177,45 +165,110 @@ pub fn judge(folder: &Path, loaded: &Loaded, simulated: Simulated) -> Campaign {
     Campaign { main, variants: Vec::new(), sweep: None, report }
 }
 
-type Observer<'a, 'b> = (&'a AtomicBool, &'a str, &'a mut (dyn FnMut(&str, f64) + 'b));
+/// The main run and its variants, on all processors.
+fn run_with_variants(
+    overrides: &[Override],
+    (loaded, variants): (&Loaded, &[Variant]),
+    out_dir: Option<&Path>,
+    interrupt: &AtomicBool,
+    progress: Progress<'_>,
+) -> Result<(CompletedRun, Vec<(Variant, CompletedRun)>), RunError> {
+    let n = 1 + variants.len();
+    let shares: Vec<AtomicU64> = (0..n).map(|_| AtomicU64::new(0)).collect();
+    let is_refused = AtomicBool::new(false);
+    let job = |k: usize| -> Result<Option<(Option<Loaded>, CompletedRun)>, RunError> {
+        let variant = k.checked_sub(1).map(|k| &variants[k]);
+        if variant.is_some() && (interrupt.load(Ordering::Relaxed) || is_refused.load(Ordering::Relaxed)) {
+            return Ok(None);
+        }
+        let mut tell = |share: f64| shares[k].store(share.to_bits(), Ordering::Relaxed);
+        let mut monitor = RunMonitor { interrupt, progress: &mut tell };
+        let done = match variant {
+            None => one_run(loaded, None, out_dir, &mut monitor).map(|done| (None, done)),
+            Some(variant) => variant_run((overrides, loaded), variant, out_dir, &mut monitor),
+        };
+        tell(1.0);
+        is_refused.fetch_or(done.is_err(), Ordering::Relaxed);
+        done.map(Some)
+    };
+    let words = format!("run and {} variant{}", n - 1, if n == 2 { "" } else { "s" });
+    let mut meanwhile = || {
+        let done: f64 = shares.iter().map(|share| f64::from_bits(share.load(Ordering::Relaxed))).sum();
+        progress(&words, done / n as f64);
+    };
+    let mut done = on_all_processors(n, &job, &mut meanwhile).into_iter();
+    let main = done.next().expect("the main run is the first");
+    let (_, mut main) = main?.expect("the main run is made whatever happens");
+    main.outcomes = evaluate_checks(loaded, None, &main, &[]);
+    let mut made: Vec<(Variant, CompletedRun)> = Vec::new();
+    for (variant, done) in variants.iter().zip(done) {
+        let Some((Some(own), mut done)) = done? else { break };
+        let before: Vec<(&str, &Table)> = std::iter::once(("main", &main.simulated.table))
+            .chain(made.iter().map(|(v, done)| (v.name.as_str(), &done.simulated.table)))
+            .collect();
+        done.outcomes = evaluate_checks(&own, Some(&variant.name), &done, &before);
+        made.push((variant.clone(), done));
+    }
+    Ok((main, made))
+}
 
-/// One run with error bars and checks; for a variant the checks that the file gives it, which may look at the runs
-/// `before` it.
+/// One variant of an experiment, and the experiment with its settings.
+fn variant_run(
+    (overrides, loaded): (&[Override], &Loaded),
+    variant: &Variant,
+    out_dir: Option<&Path>,
+    monitor: &mut RunMonitor<'_>,
+) -> Result<(Option<Loaded>, CompletedRun), RunError> {
+    let own = loaded.with_overrides(&settings_with(overrides, &variant.set))?;
+    let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
+    if let Some(dir) = &dir {
+        crate::file::prepare(dir)?;
+    }
+    let done = one_run(&own, Some(&variant.name), dir.as_deref(), monitor)?;
+    Ok((Some(own), done))
+}
+
+/// One run with error bars, whose checks are still to be evaluated; `signals.csv` goes into `dir`.
 fn one_run(
     loaded: &Loaded,
     variant: Option<&str>,
-    before: &[(&str, &Table)],
-    csv: Option<&Path>,
-    observer: Observer<'_, '_>,
+    dir: Option<&Path>,
+    monitor: &mut RunMonitor<'_>,
 ) -> Result<CompletedRun, RunError> {
-    let (scene, experiment) = (&loaded.scene, &loaded.experiment);
-    let (interrupt, words, progress) = observer;
-    let mut tell = |share: f64| progress(words, share);
-    let mut monitor = RunMonitor { interrupt, progress: &mut tell };
-    let simulated =
-        simulate(loaded, RunOptions { csv, variant, keyframes: true, ..RunOptions::default() }, &mut monitor)?;
+    let csv = dir.map(|dir| dir.join("signals.csv"));
+    let options = RunOptions { csv: csv.as_deref(), variant, keyframes: true, ..RunOptions::default() };
+    let simulated = simulate(loaded, options, monitor)?;
     let (columns, finer) = match simulated.status {
-        Status::Completed => refine::columns(loaded, &simulated, &mut monitor)?,
+        Status::Completed => refine::columns(loaded, &simulated, monitor)?,
         _ => (ColumnReport::of_table(&simulated.table), None),
     };
     let audit = audit(loaded, &simulated, finer.as_ref());
-    let stopped = simulated.status.stopped_at();
-    let outcomes = match variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name)) {
-        None => evaluate(&experiment.checks, &simulated.table, stopped),
-        Some(variant) => {
-            let table = simulated.table.with_columns_of(before);
-            let mut outcomes = evaluate(&variant.checks, &table, stopped);
-            if variant.inherit_checks {
-                outcomes.extend(evaluate(&experiment.checks, &table, stopped));
-            }
-            outcomes
-        }
-    };
-    let settings = settings(experiment, &simulated);
-    let model_hash = model_hash(&scene.model);
+    let settings = settings(&loaded.experiment, &simulated);
+    let model_hash = model_hash(&loaded.scene.model);
     let controller = loaded.controller.clone();
-    let view = SceneView::new(scene);
-    Ok(CompletedRun { simulated, columns, audit, outcomes, settings, model_hash, controller, view })
+    let view = SceneView::new(&loaded.scene);
+    Ok(CompletedRun { simulated, columns, audit, outcomes: Vec::new(), settings, model_hash, controller, view })
+}
+
+/// Outcomes of the checks of a run; for a variant of those that the file gives it, which may look at the runs `before`
+/// it.
+fn evaluate_checks(
+    loaded: &Loaded,
+    variant: Option<&str>,
+    run: &CompletedRun,
+    before: &[(&str, &Table)],
+) -> Vec<Outcome> {
+    let experiment = &loaded.experiment;
+    let stopped = run.simulated.status.stopped_at();
+    let Some(variant) = variant.and_then(|name| experiment.variants.iter().find(|v| v.name == name)) else {
+        return evaluate(&experiment.checks, &run.simulated.table, stopped);
+    };
+    let table = run.simulated.table.with_columns_of(before);
+    let mut outcomes = evaluate(&variant.checks, &table, stopped);
+    if variant.inherit_checks {
+        outcomes.extend(evaluate(&experiment.checks, &table, stopped));
+    }
+    outcomes
 }
 
 fn settings(experiment: &Experiment, run: &Simulated) -> Settings {
@@ -239,7 +292,6 @@ fn run_sweep(
     progress: Progress<'_>,
 ) -> Result<(Sweep, Vec<Outcome>), RunError> {
     let n = plan.values.len();
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
     let point = |value: f64| -> Result<(Simulated, AuditReport), RunError> {
         let settings: Vec<Override> = overrides.iter().cloned().chain(plan.settings(value)).collect();
         let at = loaded.with_overrides(&settings)?;
@@ -247,33 +299,14 @@ fn run_sweep(
         let audit = audit(&at, &run, None);
         Ok((run, audit))
     };
-    let next = std::sync::atomic::AtomicUsize::new(0);
-    let mut points: Vec<Option<Result<(Simulated, AuditReport), RunError>>> = (0..n).map(|_| None).collect();
-    std::thread::scope(|scope| {
-        let worker = || {
-            let take = || next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            let mut mine = Vec::new();
-            let mut k = take();
-            while k < n {
-                mine.push((k, point(plan.values[k])));
-                k = take();
-            }
-            mine
-        };
-        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
-        for handle in handles {
-            for (k, result) in handle.join().expect("a run does not panic") {
-                points[k] = Some(result);
-            }
-        }
-    });
+    let points = on_all_processors(n, &|k| point(plan.values[k]), &mut || ());
     progress("sweep", 1.0);
     let unit = parameter_unit(&loaded.scene, &plan.parameter.value);
     let signals: Vec<(&str, &str)> = Vec::new();
     let mut sweep = Sweep::new(&plan.parameter.value, unit, signals, n);
     let mut audits = Vec::with_capacity(n);
     for (k, result) in points.into_iter().enumerate() {
-        let (run, audit) = result.expect("every point was run")?;
+        let (run, audit) = result?;
         audits.push((format!("{} = {}", plan.parameter.value, plan.values[k]), audit));
         if k == 0 {
             let columns =

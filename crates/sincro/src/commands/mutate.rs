@@ -5,8 +5,6 @@
 //! made. Zeros cannot be changed by a factor; they are counted and left alone.
 
 use std::path::Path;
-use std::sync::Mutex;
-use std::sync::PoisonError;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use sincro::{Loaded, Override};
@@ -16,6 +14,7 @@ use sincro_sim::campaign::run_campaign;
 use sincro_sim::check::{Outcome, Verdict, evaluate};
 use sincro_sim::run::{RunError, RunMonitor, RunOptions, Simulated, simulate};
 use sincro_sim::table::Table;
+use sincro_sim::workers::on_all_processors;
 
 use super::console::{self, Bar};
 use crate::{Exit, diagnostics};
@@ -100,28 +99,20 @@ impl Judge<'_> {
     /// The answers to all changes, on all processors, in the order of the numbers.
     fn all(&self, quantities: &[Quantity], factor: f64) -> Vec<Answer> {
         let n = quantities.len();
-        let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let answers: Mutex<Vec<Option<Answer>>> = Mutex::new(vec![None; n]);
+        let done = AtomicUsize::new(0);
         let bar = Bar::new("mutate");
-        let threads = std::thread::available_parallelism().map_or(1, usize::from).min(n.max(1));
-        let worker = || {
-            loop {
-                let k = next.fetch_add(1, Ordering::Relaxed);
-                let Some(quantity) = quantities.get(k) else { return };
-                let answer = self.answer(Some(quantity.scaled(factor)));
-                answers.lock().unwrap_or_else(PoisonError::into_inner)[k] = Some(answer);
-                let so_far = done.fetch_add(1, Ordering::Relaxed) + 1;
-                bar.show(&format!("{so_far} of {n} numbers"), so_far as f64 / n as f64);
-            }
+        let job = |k: usize| {
+            let answer = self.answer(Some(quantities[k].scaled(factor)));
+            done.fetch_add(1, Ordering::Relaxed);
+            answer
         };
-        std::thread::scope(|scope| {
-            for _ in 0..threads {
-                scope.spawn(worker);
-            }
-        });
+        let mut meanwhile = || {
+            let so_far = done.load(Ordering::Relaxed);
+            bar.show(&format!("{so_far} of {n} numbers"), so_far as f64 / n as f64);
+        };
+        let answers = on_all_processors(n, &job, &mut meanwhile);
         bar.finish();
-        let answers = answers.into_inner().unwrap_or_else(PoisonError::into_inner);
-        answers.into_iter().map(|answer| answer.expect("every number was taken")).collect()
+        answers
     }
 
     /// Runs all checks with a change.

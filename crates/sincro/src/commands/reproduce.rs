@@ -1,6 +1,7 @@
 //! `sincro reproduce`: every experiment, one page.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use clap::Args;
@@ -9,6 +10,7 @@ use sincro::{RunRequest, Verdict, load, scene_name};
 use sincro_figures::plot::number::significant;
 use sincro_figures::report::{Card, IndexPage, index_html};
 use sincro_sim::result_folder::ResultFolder;
+use sincro_sim::workers::on_all_processors;
 
 use super::console::verdict_line;
 use super::gallery::Place;
@@ -33,10 +35,28 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
         Ok(scenes) => scenes,
         Err(message) => return diagnostics::refuse(&message, Some("name the folder with --scenes DIR")),
     };
+    let lines: Vec<OnceLock<Option<String>>> = scenes.iter().map(|_| OnceLock::new()).collect();
+    let job = |k: usize| {
+        let done = one(&scenes[k], &arguments.out);
+        let _ = lines[k].set(done.as_ref().ok().map(|done| done.line.clone()));
+        done
+    };
+    // in the order of the page, whatever ends first
+    let mut said = 0;
+    let mut say_next = || {
+        while let Some(line) = lines.get(said).and_then(OnceLock::get) {
+            if let Some(line) = line {
+                say!("{line}");
+            }
+            said += 1;
+        }
+    };
+    let all = on_all_processors(scenes.len(), &job, &mut say_next);
+    say_next();
     let (mut cards, mut worst) = (Vec::new(), Exit::Holds);
-    for scene in &scenes {
-        match one(scene, &arguments.out) {
-            Ok((card, exit)) => {
+    for done in all {
+        match done {
+            Ok(Reproduced { card, exit, .. }) => {
                 cards.push(card);
                 worst = if worst == Exit::Holds { exit } else { worst };
             }
@@ -67,21 +87,30 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     worst
 }
 
-/// Runs one scene into its folder below `out`; its card for the index.
-fn one(scene: &Path, out: &Path) -> Result<(Card, Exit), Exit> {
+/// One scene that was run.
+struct Reproduced {
+    card: Card,
+    exit: Exit,
+    /// Name, verdict and trace hash, for the console.
+    line: String,
+}
+
+/// Runs one scene into its folder below `out`.
+fn one(scene: &Path, out: &Path) -> Result<Reproduced, Exit> {
     let loaded = load(scene, &[]).map_err(|diagnostics| diagnostics::refuse_diagnostics(&diagnostics))?;
     let name = scene_name(scene);
     let folder = out.join(&name);
     let index = Some(Link { label: "all experiments", href: "../index.html" });
     let output = ResultFolder::replace(&folder).map_err(|error| diagnostics::refuse_folder(&error))?;
     let request = RunRequest { scene, overrides: &[], loaded: &loaded, index };
-    let campaign = run_with_progress(&request, output.path(), false)?;
+    let campaign = run_with_progress(&request, output.path(), true)?;
     output.publish().map_err(|error| diagnostics::refuse_file(&error))?;
     let exit = Verdict::of(&campaign).into();
-    say!("{:<25} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
+    let line = format!("{:<25} {:<28} {}", name, verdict_line(&campaign.report), campaign.report.trace_hash);
     let place = Place::of(scene);
     let card = card(&loaded, &campaign, &format!("{name}/report.html"));
-    Ok((Card { group: place.group.into(), source: place.source(&name), ..card }, exit))
+    let card = Card { group: place.group.into(), source: place.source(&name), ..card };
+    Ok(Reproduced { card, exit, line })
 }
 
 /// The scene folders, chapter by chapter in the order of the thesis.
