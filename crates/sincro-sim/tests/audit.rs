@@ -167,3 +167,45 @@ fn signals_of_scripts_have_error_bars_where_the_step_of_scripts_can_be_halved() 
     assert!(report.columns.iter().skip(1).all(|column| column.error_bar.is_some()));
     assert!(report.columns[1].error_bar_method.contains("step of scripts halved"));
 }
+
+/// An attraction without limit, −1/x², beside a limited motor that has nothing to do with it: no step passes x = 0.
+#[test]
+fn a_force_without_limit_is_a_finding_beside_a_limited_motor() {
+    let folder = SceneFolder::new();
+    folder.write(
+        "scene.toml",
+        r#"
+[[joint]]
+name = "x"
+kind = "prismatic"
+axis = [1.0, 0.0, 0.0]
+initial = { position = 1.0, velocity = -1.0 }
+spring = { rest = 0.0, law = "-1/(x*x)" }
+
+[[body]]
+name = "b"
+parent = "/x"
+mass = 1.0
+inertia = { xx = 1e-2, yy = 1e-2, zz = 2e-3 }
+
+[[joint]]
+name = "m"
+kind = "revolute"
+axis = [0.0, 0.0, 1.0]
+motor = { mode = "velocity", max_torque = 1.0, command = 1.0 }
+
+[[body]]
+name = "c"
+parent = "/m"
+mass = 1.0
+inertia = { xx = 1e-2, yy = 1e-2, zz = 2e-3 }
+"#,
+    );
+    folder.write(
+        "experiment.toml",
+        "title = \"S\"\nscene = \"scene.toml\"\nduration = 2.0\nstep = 0.005\nerror_bar = \"none\"\nrecord = [\"/x.position\"]\n",
+    );
+    let done = campaign(&folder, &[], Extensions::default());
+    assert_eq!(done.main.simulated.warnings, Vec::<String>::new());
+    assert!(!done.report.audit.ok, "{:?}", done.report.audit);
+}

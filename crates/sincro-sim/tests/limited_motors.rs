@@ -340,7 +340,8 @@ fn draws() -> usize {
     std::env::var("SINCRO_DRAWS").ok().and_then(|n| n.parse().ok()).unwrap_or(16)
 }
 
-/// Runs a scene and returns what it misses of all laws kept without a step at velocity level, with the scene.
+/// Runs a scene and returns what it misses of all laws kept without a step at velocity level but those that end a jam,
+/// whose error the audit measures, with the scene.
 fn missed_laws(scene: &str, duration: f64) -> Option<String> {
     let done = campaign(scene, duration).main;
     let statistics = done.simulated.statistics;

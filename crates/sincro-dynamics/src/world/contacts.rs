@@ -36,6 +36,13 @@ impl World {
         self.mechanism.constraints.is_some()
     }
 
+    /// Returns true if friction hangs on the forces of contacts or bearings: only then can there be no finite forces
+    /// that keep all laws (Painlevé).
+    pub(super) fn has_friction_by_load(&self) -> bool {
+        let model = self.model();
+        !model.constraints().pairs.is_empty() || model.drives().iter().any(|drive| model.load_coefficient(drive) > 0.0)
+    }
+
     /// Detects contacts and applies impacts until none is due.
     pub(super) fn resolve_impacts(&mut self) {
         if !self.is_constrained() {

@@ -527,6 +527,7 @@ impl World {
             let h = h / f64::from(self.substeps);
             (0..self.substeps).try_for_each(|k| self.velocity_level_step(t + f64::from(k) * h, h, system))
         } else {
+            self.mechanism.set_time_since_event(f64::INFINITY);
             self.start_tick(t, h, system);
             self.mode_changes = 0;
             let reached = self.sub_steps(t, h, system);

@@ -44,12 +44,28 @@ const MAX_REPEATED_STEPS: usize = 1000;
 const IDLE_STEP: f64 = 1e-3;
 
 /// Length of the first step at velocity level where bodies jam, relative to the tick: finite forces make no difference
-/// over it; and the growth from one to the next within a tick.
+/// over it.
 const JAM_STEP: f64 = 1e-9;
+
+/// Growth from one of them to the next.
 const JAM_GROWTH: f64 = 8.0;
+
+/// Time after which bodies jam anew, relative to the tick.
+const JAM_PAUSE: f64 = 1e-3;
 
 /// Maximum number of constraint problems without convergence in a run.
 const MAX_UNSOLVED: u64 = 100_000;
+
+/// Lengths of the next steps at velocity level in a tick, relative to it.
+#[derive(Clone, Copy)]
+struct VelocityLevelSteps {
+    /// After events without progress.
+    idle: f64,
+    /// After a jam.
+    jam: f64,
+    /// Time at the end of the last jam `[s]`.
+    jam_end: f64,
+}
 
 impl World {
     /// Makes sub-steps over `span` from `start`, ending at time events and at events of drives and contacts.
@@ -64,7 +80,8 @@ impl World {
             return self.smooth_sub_steps(start, span, system);
         }
         let (mut t, end, mut events, mut idle, mut close) = (start, start + span, 0, 0, 0);
-        let (mut share, mut jam, mut after_event, mut crawling) = (IDLE_STEP, JAM_STEP, false, 0);
+        let (mut after_event, mut crawling) = (false, 0);
+        let mut steps = VelocityLevelSteps { idle: IDLE_STEP, jam: JAM_STEP, jam_end: start };
         let zeno_fallback = self.zeno_fallback();
         if zeno_fallback.left > 0 {
             self.set_zeno_fallback(ZenoFallback { left: zeno_fallback.left - 1, ..zeno_fallback });
@@ -72,7 +89,6 @@ impl World {
         }
         let is_first = zeno_fallback == ZenoFallback::default();
         let most_events = if is_first { MAX_CONTACT_EVENTS } else { MAX_EVENTS_AGAIN };
-        self.mechanism.set_time_since_event(f64::INFINITY);
         while t < end {
             let corner = self.next_corner(t, end, system);
             if self.is_constrained() && end - t < 1e-13 * span {
@@ -84,7 +100,8 @@ impl World {
                 self.may_graze = idle <= MAX_GRAZING_EVENTS && close <= MAX_CLOSE_GRAZING_EVENTS;
                 if !self.resolve_modes(t, (h_max, after_event), system) {
                     // no finite forces keep the laws here (Painlevé): impulses do
-                    t = self.end_jam(t, (&mut jam, span), end, system)?;
+                    t = self.end_jam(t, (&mut steps, span), end, system)?;
+                    after_event = false;
                     continue;
                 }
                 if let Some(report) = self.solver_report().filter(|r| r.not_converged > MAX_UNSOLVED) {
@@ -103,7 +120,8 @@ impl World {
                     // laws without a continuous solution here: no step is small enough
                     self.restore();
                     control.into_iter().for_each(|control| self.set_control(control));
-                    t = self.end_jam(t, (&mut jam, span), end, system)?;
+                    t = self.end_jam(t, (&mut steps, span), end, system)?;
+                    after_event = false;
                     continue;
                 }
                 Err((t, Stop::Integration(Failure::NotFinite { .. }))) if !self.y.iter().all(|x| x.is_finite()) => {
@@ -133,10 +151,8 @@ impl World {
             t = reached;
             if idle > MAX_IDLE_EVENTS || close > MAX_CLOSE_EVENTS || crawling > MAX_CRAWLING_STEPS {
                 // whatever alternates here is decided over a short step as a whole
-                self.statistics.fallback_steps += 1;
-                t = self.fallback_step(t, (share * span, end), system)?;
-                share *= 2.0;
-                (idle, close, crawling) = (0, 0, 0);
+                t = self.end_storm(t, (&mut steps, span), end, system)?;
+                (idle, close, crawling, after_event) = (0, 0, 0, false);
             }
         }
         self.set_zeno_fallback(ZenoFallback::default());
@@ -225,18 +241,40 @@ impl World {
         Ok((reached, false))
     }
 
-    /// Lets impulses act at `t`, where no finite forces keep the laws: over a `share` of the tick of length `span`,
-    /// which grows each time.
+    /// Lets impulses act at `t`, where no finite forces keep the laws: over a billionth of the tick of length `span`,
+    /// and longer from one to the next. Where no friction hangs on a load it is not that: a longer step goes on, and
+    /// the audit names it.
     fn end_jam(
         &mut self,
         t: f64,
-        (share, span): (&mut f64, f64),
+        (steps, span): (&mut VelocityLevelSteps, f64),
         end: f64,
         system: &mut dyn CoupledSystem<f64>,
     ) -> Result<f64, (f64, Stop)> {
+        if !self.has_friction_by_load() {
+            return self.end_storm(t, (steps, span), end, system);
+        }
         self.jams.note(t);
-        let h = *share * span;
-        *share *= JAM_GROWTH;
+        if t - steps.jam_end > JAM_PAUSE * span {
+            steps.jam = JAM_STEP;
+        }
+        steps.jam_end = self.fallback_step(t, (steps.jam * span, end), system)?;
+        steps.jam *= JAM_GROWTH;
+        Ok(steps.jam_end)
+    }
+
+    /// Makes a step at velocity level from `t`, twice as long from one to the next, after events or steps without
+    /// progress.
+    fn end_storm(
+        &mut self,
+        t: f64,
+        (steps, span): (&mut VelocityLevelSteps, f64),
+        end: f64,
+        system: &mut dyn CoupledSystem<f64>,
+    ) -> Result<f64, (f64, Stop)> {
+        self.statistics.fallback_steps += 1;
+        let h = steps.idle * span;
+        steps.idle *= 2.0;
         self.fallback_step(t, (h, end), system)
     }
 
@@ -249,6 +287,7 @@ impl World {
     ) -> Result<f64, (f64, Stop)> {
         let h = h.min(end - t);
         self.statistics.fallback_square += h * h;
+        self.mechanism.set_time_since_event(f64::INFINITY);
         self.velocity_level_step(t, h, &mut &mut *system)?;
         let reached = if h < end - t { t + h } else { end };
         if !self.is_constrained() {

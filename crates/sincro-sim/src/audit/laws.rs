@@ -127,7 +127,7 @@ impl LawAudit {
         let square = done.fallback_square + undecided;
         Finding {
             law: "velocity-level-step".to_owned(),
-            element: format!("{} of {} steps", self.fallback.0, world.state.tick),
+            element: format!("{} in {} steps", self.fallback.0, world.state.tick),
             time: self.fallback.1,
             value: 0.5 * square * self.acceleration,
             limit: limits.local_error(),

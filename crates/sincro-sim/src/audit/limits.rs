@@ -74,8 +74,11 @@ impl Limits {
 /// Largest energy balance `[J]` that an error bar allows: of the balance itself, between the run and the finer one;
 /// `scale` is the largest energy that entered, and `finer_accuracy` the share of it that a step of the finer run may
 /// miss the energies by: an error below that need not differ between the two. Beyond a third of that energy no digit of
-/// the energies is known, whatever the bar.
+/// the energies is known, whatever the bar. Of energies without limit none is allowed.
 pub(crate) fn energy_limit(bar: f64, scale: f64, finer_accuracy: f64, statistics: &StepStatistics) -> f64 {
+    if !scale.is_finite() {
+        return 0.0;
+    }
     let bar = bar.max(finer_accuracy * scale);
     let uncertain = (BARS * (bar + statistics.event_work)).min(scale / 3.0);
     uncertain + ROUNDING * scale * (statistics.steps.max(1) as f64).sqrt()
