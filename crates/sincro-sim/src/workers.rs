@@ -4,14 +4,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// Time between two calls of `meanwhile` of [`on_all_processors`].
-const PATIENCE: Duration = Duration::from_millis(20);
+/// Time between two calls of `between` of [`on_all_processors`].
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Stack of a thread, as large as that of the first thread of a program.
 const STACK_BYTES: usize = 8 << 20;
 
 /// Results of `job(0)` to `job(n − 1)`, made on as many threads as there are processors. Until the last is done
-/// `meanwhile` is called from time to time, on the calling thread.
+/// `between` is called from time to time, on the calling thread.
 ///
 /// ```
 /// use sincro_sim::workers::on_all_processors;
@@ -22,7 +22,7 @@ const STACK_BYTES: usize = 8 << 20;
 /// # Panics
 ///
 /// If a job panics, or no thread can be made.
-pub fn on_all_processors<T: Send>(n: usize, job: &(dyn Fn(usize) -> T + Sync), meanwhile: &mut dyn FnMut()) -> Vec<T> {
+pub fn on_all_processors<T: Send>(n: usize, job: &(dyn Fn(usize) -> T + Sync), between: &mut dyn FnMut()) -> Vec<T> {
     let n_threads = thread::available_parallelism().map_or(1, usize::from).min(n);
     let (next, caller) = (AtomicUsize::new(0), thread::current());
     let worker = || {
@@ -40,8 +40,8 @@ pub fn on_all_processors<T: Send>(n: usize, job: &(dyn Fn(usize) -> T + Sync), m
         let start = |_| thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, worker);
         let threads: Vec<_> = (0..n_threads).map(start).map(|thread| thread.expect("a thread can be made")).collect();
         while !threads.iter().all(thread::ScopedJoinHandle::is_finished) {
-            meanwhile();
-            thread::park_timeout(PATIENCE);
+            between();
+            thread::park_timeout(POLL_INTERVAL);
         }
         threads.into_iter().flat_map(|thread| thread.join().expect("a job does not panic")).collect()
     });

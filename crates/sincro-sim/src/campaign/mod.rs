@@ -88,8 +88,9 @@ pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
 
 /// Runs a loaded experiment with its variants and its sweep on all processors, and judges them by their checks.
 /// `folder` and `overrides` are those that it was loaded with; `out_dir`, if given, receives `signals.csv`,
-/// `sweep.csv`, `run.json` and a folder for each variant. Once `interrupt` is true the present runs end and no others
-/// begin.
+/// `sweep.csv`, `run.json` and a folder for each variant. Once `interrupt` is true each run ends after its present
+/// tick, those that are still to come after their first. With controllers of a program ([`Loaded::controllers`]) one
+/// run is made after the other.
 ///
 /// # Errors
 ///
@@ -178,7 +179,7 @@ fn run_with_variants(
     let is_refused = AtomicBool::new(false);
     let job = |k: usize| -> Result<Option<(Option<Loaded>, CompletedRun)>, RunError> {
         let variant = k.checked_sub(1).map(|k| &variants[k]);
-        if variant.is_some() && (interrupt.load(Ordering::Relaxed) || is_refused.load(Ordering::Relaxed)) {
+        if is_refused.load(Ordering::Relaxed) {
             return Ok(None);
         }
         let mut tell = |share: f64| shares[k].store(share.to_bits(), Ordering::Relaxed);
@@ -196,13 +197,14 @@ fn run_with_variants(
         let done: f64 = shares.iter().map(|share| f64::from_bits(share.load(Ordering::Relaxed))).sum();
         progress(&words, done / n as f64);
     };
-    let mut done = on_all_processors(n, &job, &mut meanwhile).into_iter();
-    let main = done.next().expect("the main run is the first");
-    let (_, mut main) = main?.expect("the main run is made whatever happens");
+    let done: Vec<_> = on_processors(loaded, n, &job, &mut meanwhile).into_iter().collect::<Result<_, _>>()?;
+    // none is left out where none is refused
+    let mut done = done.into_iter().flatten();
+    let (_, mut main) = done.next().expect("the main run is the first");
     main.outcomes = evaluate_checks(loaded, None, &main, &[]);
     let mut made: Vec<(Variant, CompletedRun)> = Vec::new();
     for (variant, done) in variants.iter().zip(done) {
-        let Some((Some(own), mut done)) = done? else { break };
+        let (Some(own), mut done) = done else { unreachable!("a variant has settings of its own") };
         let before: Vec<(&str, &Table)> = std::iter::once(("main", &main.simulated.table))
             .chain(made.iter().map(|(v, done)| (v.name.as_str(), &done.simulated.table)))
             .collect();
@@ -210,6 +212,24 @@ fn run_with_variants(
         made.push((variant.clone(), done));
     }
     Ok((main, made))
+}
+
+/// Results of `n` jobs on all processors; one after the other with controllers of a program, which may have a memory
+/// that all runs share.
+fn on_processors<T: Send>(
+    loaded: &Loaded,
+    n: usize,
+    job: &(dyn Fn(usize) -> T + Sync),
+    between: &mut dyn FnMut(),
+) -> Vec<T> {
+    if loaded.controllers.is_empty() {
+        return on_all_processors(n, job, between);
+    }
+    let one = |k| {
+        between();
+        job(k)
+    };
+    (0..n).map(one).collect()
 }
 
 /// One variant of an experiment, and the experiment with its settings.
@@ -299,7 +319,7 @@ fn run_sweep(
         let audit = audit(&at, &run, None);
         Ok((run, audit))
     };
-    let points = on_all_processors(n, &|k| point(plan.values[k]), &mut || ());
+    let points = on_processors(loaded, n, &|k| point(plan.values[k]), &mut || ());
     progress("sweep", 1.0);
     let unit = parameter_unit(&loaded.scene, &plan.parameter.value);
     let signals: Vec<(&str, &str)> = Vec::new();
