@@ -327,7 +327,31 @@ fn seeded(lua: &Lua, math: &Table, seed: u64) -> mlua::Result<()> {
         }
         own.call::<()>(given.into_iter().map(whole).collect::<MultiValue>())
     };
-    math.set("randomseed", lua.create_function(again)?)
+    let again = lua.create_function(again)?;
+    math.set("randomseed2", again.clone())?;
+    math.set("randomseed", again)?;
+    let random: Function = math.get("random")?;
+    let from_range = move |_: &Lua, (lower, upper): (Option<Value>, Option<Value>)| in_range(&random, lower, upper);
+    math.set("random2", lua.create_function(from_range)?)
+}
+
+/// `math.random2` of the simulator: a number from 0 to 1, a whole number from 1 to the first, or from the first to the
+/// second, which need not be whole themselves.
+fn in_range(random: &Function, lower: Option<Value>, upper: Option<Value>) -> mlua::Result<Value> {
+    let r: f64 = random.call(())?;
+    let Some(first) = lower else { return Ok(Value::Number(r)) };
+    let number = |value: &Value| match value {
+        Value::Integer(n) => Ok(*n as f64),
+        Value::Number(x) => Ok(*x),
+        other => Err(mlua::Error::runtime(format!("number expected, got {}", other.type_name()))),
+    };
+    let (start, end) = match &upper {
+        Some(end) => (number(&first)?, number(end)?),
+        None => (1.0, number(&first)?),
+    };
+    let sum = start + (r * (end - start + 1.0)).floor();
+    let is_whole = upper.is_none() || first.is_integer();
+    Ok(if is_whole && sum.abs() < 2.0_f64.powi(53) { Value::Integer(sum as i64) } else { Value::Number(sum) })
 }
 
 fn printing(lua: &Lua, print: Box<dyn Fn(String) + Send>) -> mlua::Result<Function> {

@@ -232,8 +232,14 @@ impl ApiContext<'_> {
                 Ok(1)
             })?;
         }
-        let random: Function = self.lua.globals().get::<Table>("math")?.get("random")?;
-        self.add("getRandom", move |_, _: Option<i64>| random.call::<f64>(()))
+        let math: Table = self.lua.globals().get("math")?;
+        let (random, seeded): (Function, Function) = (math.get("random")?, math.get("randomseed")?);
+        self.add("getRandom", move |_, seed: Option<i64>| {
+            if let Some(seed) = seed {
+                seeded.call::<()>(seed)?;
+            }
+            random.call::<f64>(())
+        })
     }
 }
 

@@ -82,3 +82,27 @@ fn a_seed_with_a_fraction_is_taken_as_older_lua_does() {
         end";
     assert_eq!(said(code), ["true\tfalse"]);
 }
+
+#[test]
+fn the_generator_of_the_simulator_is_that_of_the_script() {
+    let code = "
+        function sysCall_init()
+            local seen, ok = {}, true
+            for _ = 1, 400 do
+                local a, b, c = math.random2(), math.random2(3), math.random2(-1, 1)
+                ok = ok and a >= 0 and a < 1 and b >= 1 and b <= 3 and c >= -1 and c <= 1
+                ok = ok and math.type(b) == 'integer' and math.type(c) == 'integer'
+                seen[b], seen[10 + c] = true, true
+            end
+            print(ok, seen[1] and seen[2] and seen[3] and seen[9] and seen[10] and seen[11])
+            math.randomseed2(7)
+            local a = math.random2(1, 1000000)
+            math.randomseed2(7)
+            print(a == math.random2(1, 1000000), math.random2(5, 5), math.random2(0.5, 0.5))
+            print(sim.getRandom(11) == sim.getRandom(11), sim.getRandom() ~= sim.getRandom())
+            print(pcall(math.random2, 'x'))
+        end";
+    let said = said(code);
+    assert_eq!(said[..3], ["true\ttrue", "true\t5\t0.5", "true\ttrue"]);
+    assert!(said[3].starts_with("false\t") && said[3].contains("number expected"), "{said:?}");
+}
