@@ -338,6 +338,53 @@ fn a_sensor_made_at_run_time_looks_at_every_step() {
 }
 
 #[test]
+fn shapes_are_scaled_along_each_axis() {
+    let mut s = session();
+    let make = |s: &mut Session, kind: i64, size: [f64; 3]| {
+        call(s, "sim.createPrimitiveShape", &[Value::Int(kind), Value::reals(size)]).remove(0)
+    };
+    let factors = |k: [f64; 3]| k.map(Value::Real);
+    let scaled = |s: &mut Session, shape: &Value, k: [f64; 3]| {
+        let arguments: Vec<Value> = std::iter::once(shape.clone()).chain(factors(k)).collect();
+        call(s, "sim.scaleObject", &arguments);
+    };
+    let top = |s: &mut Session, shape: &Value| {
+        let mark = object(s, "/mark");
+        3.0 - call(s, "sim.checkDistance", &[mark, shape.clone()])[1].as_reals().unwrap()[6]
+    };
+    // kind, lengths, kind afterwards (0: a hull), its top
+    let cases = [
+        (3, [0.2, 0.2, 0.4], 3, 0.6),
+        (4, [0.2; 3], 0, 0.3),
+        (5, [0.2, 0.2, 0.4], 0, 0.6),
+        (6, [0.2, 0.2, 0.4], 0, 0.6),
+    ];
+    for (kind, size, after, expected) in cases {
+        let shape = make(&mut s, kind, size);
+        scaled(&mut s, &shape, [2.0, 0.5, 3.0]);
+        let info = call(&mut s, "sim.getShapeGeomInfo", std::slice::from_ref(&shape));
+        assert_eq!(info[1], Value::Int(after), "{kind}");
+        assert!((top(&mut s, &shape) - expected).abs() < 1e-9, "{kind}: {}", top(&mut s, &shape));
+        call(&mut s, "sim.removeObject", &[shape]);
+    }
+    // still round
+    let cylinder = make(&mut s, 5, [0.2, 0.2, 0.4]);
+    scaled(&mut s, &cylinder, [2.0, 2.0, 3.0]);
+    let info = call(&mut s, "sim.getShapeGeomInfo", std::slice::from_ref(&cylinder));
+    assert_eq!(info[1], Value::Int(5));
+    near(&info[2], &[0.4, 0.4, 1.2, 0.0]);
+    // places of parts are scaled as well, in the axes of the whole
+    let (one, two) = (make(&mut s, 3, [0.2; 3]), make(&mut s, 3, [0.2; 3]));
+    put(&mut s, &two, [0.0, 0.0, 0.5]);
+    let both = call(&mut s, "sim.groupShapes", &[Value::List(vec![one, two])]).remove(0);
+    scaled(&mut s, &both, [1.0, 1.0, 2.0]);
+    assert!((top(&mut s, &both) - 1.2).abs() < 1e-12);
+    let capsule = make(&mut s, 8, [0.2, 0.2, 0.4]);
+    let words = refused(&mut s, "sim.scaleObject", &[capsule, Value::Real(1.0), Value::Real(1.0), Value::Real(2.0)]);
+    assert!(words.contains("the same way in all directions"), "{words}");
+}
+
+#[test]
 fn what_cannot_be_made_is_refused_in_words() {
     let mut s = session();
     let sizes = |x: f64, y: f64, z: f64| Value::reals([x, y, z]);

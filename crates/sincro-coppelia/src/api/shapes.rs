@@ -237,25 +237,35 @@ impl SimApi<'_> {
         Ok(all)
     }
 
-    /// Scales a shape in all directions, about its own origin, by a dimensionless factor; a mass that it was given, by
-    /// its cube, as that of a body of the same density.
+    /// Scales a shape along its axes, about its own origin, by dimensionless factors; a mass that it was given, by
+    /// their product, as that of a body of the same density. Planes of the scene through the origin of their body that
+    /// are the same afterwards are left as they are.
     ///
     /// # Errors
     ///
-    /// It belongs to the scene, or the factor is not positive.
-    pub(crate) fn scale_shape(&mut self, shape: Handle, factor: f64) -> Result<(), ApiError> {
+    /// It belongs to the scene, a factor is not positive, or a part has no form that can be scaled so.
+    pub(crate) fn scale_shape(&mut self, shape: Handle, factors: [f64; 3]) -> Result<(), ApiError> {
+        for factor in factors {
+            length(factor)?;
+        }
+        if self.is_plane_at_any_scale(shape, factors)? {
+            return Ok(());
+        }
         self.runtime_shape(shape)?;
-        length(factor)?;
         let (parts, frame) = (self.registry.senses.parts_of(shape), self.registry.entry(shape)?.frame);
         let scaled = parts.iter().map(|(piece, place)| {
-            let geometry = Geometry::new(piece.geometry.surface().scaled(factor));
-            let geometry = geometry.ok_or_else(|| ApiError::new("it would have no extent"))?;
-            Ok((Arc::new(geometry), Pose { pos: place.pos.scale(factor), ..*place }, piece.color))
+            let surface = stretched_at(piece.geometry.surface(), place, factors).ok_or_else(|| {
+                let form = "capsules, and parts that stand askew and are no meshes";
+                ApiError(format!("{form}, are scaled the same way in all directions: make a new one"))
+            })?;
+            let geometry = Geometry::new(surface).ok_or_else(|| ApiError::new("it would have no extent"))?;
+            let pos = Vec3(std::array::from_fn(|k| factors[k] * place.pos.0[k]));
+            Ok((Arc::new(geometry), Pose { pos, ..*place }, piece.color))
         });
         let scaled = scaled.collect::<Result<Vec<_>, ApiError>>()?;
         self.finish_pictures();
         if let Some(mass) = self.registry.masses.get_mut(&shape) {
-            *mass *= factor * factor * factor;
+            *mass *= factors[0] * factors[1] * factors[2];
         }
         self.registry.senses.forget_parts(shape);
         for (geometry, place, color) in scaled {
@@ -263,6 +273,26 @@ impl SimApi<'_> {
             self.registry.senses.paint_last(color);
         }
         Ok(())
+    }
+
+    /// Returns true if an object is a body of the scene with planes alone, each through its origin and the same when it
+    /// is scaled.
+    fn is_plane_at_any_scale(&self, shape: Handle, factors: [f64; 3]) -> Result<bool, ApiError> {
+        let own = self.registry.entry(shape)?;
+        let x_ow = own.frame.pose.inverse();
+        let mut planes = self.registry.senses.pieces().filter(|piece| handle_of(piece) == own.handle).peekable();
+        let is_body = matches!(own.kind, Kind::Body(_)) && planes.peek().is_some();
+        Ok(is_body
+            && planes.all(|piece| {
+                let x_op = x_ow.compose(&piece.at.pose);
+                let normal: [f64; 3] = std::array::from_fn(|k| x_op.rot.0[k][2]);
+                let height: f64 = (0..3).map(|k| normal[k] * x_op.pos.0[k]).sum();
+                let mut along = (0..3).filter(|k| normal[*k].abs() > 1e-12).map(|k| factors[k].to_bits());
+                let first = along.next();
+                matches!(piece.geometry.surface(), Surface::HalfSpace)
+                    && height.abs() <= 1e-12
+                    && along.all(|factor| Some(factor) == first)
+            }))
     }
 
     /// Colour of the first part of an object's shape: red, green, blue from 0 to 1.
@@ -416,6 +446,65 @@ fn primitive(surface: &Surface) -> (i64, [f64; 3]) {
         // the API has no tori
         Surface::Hull(_) | Surface::Mesh(..) | Surface::Solid(Shape::Torus { .. }) => (0, [0.0; 3]),
     }
+}
+
+/// A part with its pose in its shape, scaled by factors along the axes of the shape: in its own axes. None where it has
+/// no such form.
+fn stretched_at(surface: &Surface, place: &Pose<f64>, k: [f64; 3]) -> Option<Surface> {
+    if k[0].to_bits() == k[1].to_bits() && k[0].to_bits() == k[2].to_bits() {
+        return Some(surface.scaled(k[0]));
+    }
+    let r = &place.rot.0;
+    let m: [[f64; 3]; 3] =
+        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|a| r[a][i] * k[a] * r[a][j]).sum()));
+    let is_straight = (0..3).all(|i| (0..3).all(|j| i == j || m[i][j].abs() <= 1e-12 * k[0].max(k[1]).max(k[2])));
+    if is_straight {
+        return stretched(surface, [m[0][0], m[1][1], m[2][2]]);
+    }
+    let points = |list: &[[f64; 3]]| {
+        list.iter().map(|p| std::array::from_fn(|i| (0..3).map(|j| m[i][j] * p[j]).sum())).collect()
+    };
+    match surface {
+        Surface::Hull(list) => Some(Surface::Hull(points(list))),
+        Surface::Mesh(list, triangles) => Some(Surface::Mesh(points(list), triangles.clone())),
+        _ => None,
+    }
+}
+
+/// A surface with its lengths along x, y and z times `k` (dimensionless), about the origin of its frame; none where
+/// there is no surface of that form. Balls, cylinders and cones that are not round any more are convex hulls.
+fn stretched(surface: &Surface, k: [f64; 3]) -> Option<Surface> {
+    let [x, y, z] = k;
+    let is_round = (x - y).abs() <= 1e-12 * x;
+    let points = |list: &[[f64; 3]]| list.iter().map(|p| std::array::from_fn(|i| k[i] * p[i])).collect();
+    let lengths = |radius: f64, length: f64| [2.0 * x * radius, 2.0 * y * radius, z * length];
+    let solid = Surface::Solid;
+    Some(match surface {
+        Surface::Solid(Shape::Cuboid { size }) => {
+            solid(Shape::Cuboid { size: std::array::from_fn(|i| k[i] * size[i]) })
+        }
+        Surface::Solid(Shape::Sphere { radius }) => Surface::ellipsoid(k.map(|k| 2.0 * k * radius)),
+        Surface::Solid(Shape::Cylinder { radius, length }) if is_round => {
+            solid(Shape::Cylinder { radius: x * radius, length: z * length })
+        }
+        Surface::Solid(Shape::Cylinder { radius, length }) => Surface::elliptic_cylinder(lengths(*radius, *length)),
+        Surface::Solid(Shape::Cone { radius, length }) if is_round => {
+            solid(Shape::Cone { radius: x * radius, length: z * length })
+        }
+        Surface::Solid(Shape::Cone { radius, length }) => {
+            // its frame is in the centre of mass, a quarter above the base
+            let Surface::Hull(list) = Surface::elliptic_cone(lengths(*radius, *length)) else { return None };
+            Surface::Hull(list.into_iter().map(|[px, py, pz]| [px, py, pz + 0.25 * z * length]).collect())
+        }
+        Surface::Hull(list) => Surface::Hull(points(list)),
+        Surface::Mesh(list, triangles) => Surface::Mesh(points(list), triangles.clone()),
+        Surface::HeightField { columns, heights, size } => Surface::HeightField {
+            columns: *columns,
+            heights: heights.iter().map(|h| z * h).collect(),
+            size: [x * size[0], y * size[1]],
+        },
+        Surface::Solid(Shape::Capsule { .. } | Shape::Torus { .. }) | Surface::HalfSpace => return None,
+    })
 }
 
 fn length(x: f64) -> Result<(), ApiError> {

@@ -346,11 +346,7 @@ fn appearance(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn scale(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    let (own, [x, y, z]) = (handle(sim, a, 0)?, [a.real(1)?, a.real(2)?, a.real(3)?]);
-    if x.to_bits() != y.to_bits() || x.to_bits() != z.to_bits() {
-        return Err(ApiError::new("shapes are scaled the same way in all directions: make a new one"));
-    }
-    sim.scale_shape(own, x)?;
+    sim.scale_shape(handle(sim, a, 0)?, [a.real(1)?, a.real(2)?, a.real(3)?])?;
     done()
 }
 
@@ -363,7 +359,7 @@ fn scale_all(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 /// Scales shapes by a factor, with true their positions too: about the world's origin.
 pub(super) fn scale_each(sim: &mut SimApi<'_>, shapes: &[Handle], (factor, too): (f64, bool)) -> Result<(), ApiError> {
     for own in shapes {
-        sim.scale_shape(*own, factor)?;
+        sim.scale_shape(*own, [factor; 3])?;
         if too {
             let pose = sim.pose(*own, Reference::World)?;
             let moved = Pose { pos: pose.pos.scale(factor), ..pose };
