@@ -56,7 +56,7 @@ pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, 
 pub use active_rows::{ActiveRow, ActiveSource};
 pub use sincro_complementarity::SolverReport;
 
-use crate::contact::{Detector, Pair, candidate_list::CandidateList};
+use crate::contact::{Detector, Pair, candidate::ContactCandidate, candidate_list::CandidateList};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
@@ -112,6 +112,14 @@ pub(crate) enum ModeRule {
     HeldAndChecked,
 }
 
+/// Two points of surfaces that part at the end of a sub-step, so close that they may have turned within it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Parting {
+    pub candidate: ContactCandidate,
+    /// Distance `[m]` and rate [m/s] at the end.
+    pub end: (f64, f64),
+}
+
 /// Contact point with its force, from [`Observation::contacts`](crate::world::Observation::contacts).
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPoint {
@@ -137,8 +145,12 @@ pub(crate) struct Constraints<R> {
     /// Warm start and classification of every slot.
     pub memory: WarmStart<R>,
     pub candidates: CandidateList,
+    /// Slots that are open beyond their surface or bound since the start of the sub-step.
+    pub open_inside: Vec<usize>,
     /// Candidates of a later instant, for the detection of new contacts.
     pub later_candidates: CandidateList,
+    /// Points of surfaces that may have touched and parted within the sub-step.
+    pub parting: Vec<Parting>,
     pub detector: Detector,
     pub motions: Motions<R>,
     inverse_mass: delassus::InverseMass<R>,
@@ -210,7 +222,9 @@ impl<R: Real> Constraints<R> {
         let mut new = Self {
             memory: WarmStart::new(set.n_slots()),
             candidates: CandidateList::default(),
+            open_inside: Vec::with_capacity(RESERVED),
             later_candidates: CandidateList::default(),
+            parting: Vec::with_capacity(RESERVED),
             detector: Detector::new(&set.colliders, &set.pairs),
             motions: Motions::new(model),
             inverse_mass: delassus::InverseMass::new(model),

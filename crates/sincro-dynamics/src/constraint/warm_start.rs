@@ -457,6 +457,13 @@ impl<R: Real> WarmStart<R> {
         self.entry(slot).is_some_and(|entry| entry.closed && code(&entry.start).saturating_sub(1) & 1 == 0)
     }
 
+    /// Returns true if one of `n` slots from `first` on was classified as closed.
+    pub fn is_any_closed(&self, first: usize, n: usize) -> bool {
+        let from = self.entries.partition_point(|entry| (entry.slot as usize) < first);
+        let of_range = self.entries[from..].iter().take_while(|entry| (entry.slot as usize) < first + n);
+        of_range.into_iter().any(|entry| entry.closed)
+    }
+
     /// Closed slot and group that slides fastest against its direction at the start of the sub-step.
     pub fn reversal(&self) -> Option<(usize, usize)> {
         let along = |(entry, g): &(&Entry<R>, usize)| entry.along_start[*g];

@@ -253,36 +253,42 @@ impl Mechanism<f64> {
         small * self.projection_scale
     }
 
-    /// Slot of the open contact or limit that has closed and still approaches, in the state last evaluated, or ended
-    /// its motion beyond what counts as closed; the deepest one.
+    /// Slot of the open contact or limit that has closed in the state last evaluated and approaches, or was outside at
+    /// the start of the sub-step and is beyond what counts as closed, whatever its rate is by now; the deepest one.
     fn find_closing(&mut self, v: &[f64]) -> Option<usize> {
         let c = self.constraints.as_deref_mut()?;
         let set = &*self.model.params.constraints;
-        let zero_speed = c.zero_speed;
-        // what did not touch and has come to rest there passed the surface before
-        let has_passed = |is_closed: bool, distance: f64, rate: f64| {
-            rate < if !is_closed && distance < -CLOSED_DISTANCE { zero_speed } else { -zero_speed }
+        c.detect_later(set, &self.scratch.poses, Margin::of(1e-6));
+        let (zero_speed, open_inside, memory) = (c.zero_speed, &c.open_inside, &c.memory);
+        let has_passed = |slot: usize, distance: f64, rate: f64, touched: bool| {
+            let is_inside = distance < -CLOSED_DISTANCE;
+            if is_inside && !touched && !open_inside.contains(&slot) {
+                return true;
+            }
+            // what did not touch and has come to rest there passed the surface before
+            rate < if !memory.is_closed(slot) && is_inside { zero_speed } else { -zero_speed }
         };
         let mut deepest: (Option<usize>, f64) = (None, 0.0);
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (self.q[limit.coordinate] - limit.bound);
-            if !c.memory.was_closed(slot)
+            if !memory.was_closed(slot)
                 && distance < deepest.1
-                && has_passed(c.memory.is_closed(slot), distance, limit.sign * v[limit.dof])
+                && has_passed(slot, distance, limit.sign * v[limit.dof], memory.is_closed(slot))
             {
                 deepest = (Some(slot), distance);
             }
         }
-        c.detect_later(set, &self.scratch.poses, Margin::of(1e-6));
         for SlotCandidate { slot, pair, candidate } in c.later_candidates.iter() {
             let (slot, pair) = (set.limits.len() + *slot as usize, &set.pairs[*pair as usize]);
-            if c.memory.was_closed(slot) {
+            if memory.was_closed(slot) {
                 continue;
             }
             let at = candidate.kinematics(&c.motions.at(&self.scratch));
+            // points of surfaces that touch come and go, with distances that jump
+            let touched = || memory.is_any_closed(set.limits.len() + pair.first, pair.slots);
             if at.distance < deepest.1
                 && (pair.material.stiffness.is_finite()
-                    || has_passed(c.memory.is_closed(slot), at.distance, normal_rate(&c.motions, candidate, &at)))
+                    || has_passed(slot, at.distance, normal_rate(&c.motions, candidate, &at), touched()))
             {
                 deepest = (Some(slot), at.distance);
             }
@@ -510,6 +516,7 @@ impl Constraints<f64> {
     ) -> ContactStatus {
         let mut touch = ContactStatus::default();
         let zero_speed = self.zero_speed;
+        self.open_inside.clear();
         let closes = |distance: f64, rate: f64| match closing {
             ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= zero_speed,
             ActivationRule::All => distance <= CLOSED_DISTANCE,
@@ -525,7 +532,9 @@ impl Constraints<f64> {
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (q[limit.coordinate] - limit.bound);
             let rate = limit.sign * v[limit.dof];
-            self.memory.classify(slot, closes(distance, rate), [false; 3]);
+            let closed = closes(distance, rate);
+            self.memory.classify(slot, closed, [false; 3]);
+            self.open_inside.extend((!closed && distance < -CLOSED_DISTANCE).then_some(slot));
             touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -zero_speed;
         }
         let candidates = core::mem::take(&mut self.candidates);
@@ -544,6 +553,7 @@ impl Constraints<f64> {
                 }
                 let closed = closes(at.distance, rate);
                 self.memory.classify(slot, closed, if closed { slides() } else { [false; 3] });
+                self.open_inside.extend((!closed && at.distance < -CLOSED_DISTANCE).then_some(slot));
                 touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -zero_speed;
             }
         }
@@ -584,15 +594,22 @@ impl Constraints<f64> {
         );
     }
 
+    /// Detects the contact candidates of a later instant at the motions last placed.
+    pub(super) fn detect_moving(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
+        core::mem::swap(&mut self.candidates, &mut self.later_candidates);
+        self.detect(set, poses, margin);
+        core::mem::swap(&mut self.candidates, &mut self.later_candidates);
+    }
+
     /// Detects the contact candidates of a later instant.
-    fn detect_later(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
+    pub(super) fn detect_later(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
         let at_rest = |_: &Collider, _| (Vec3::zero(), 0.0);
         let (later, none) = (&mut self.later_candidates, |_: &Collider| false);
         self.detector.detect((&set.colliders, &set.pairs), poses, margin, at_rest, |_| 0, none, later);
     }
 }
 
-fn normal_rate(motions: &Motions<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
+pub(super) fn normal_rate(motions: &Motions<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
     relative(motions, candidate, at.point).dot(at.normal)
 }
 

@@ -5,6 +5,7 @@
 use sincro_math::Real;
 
 use super::Mechanism;
+use super::hermite::Hermite;
 use crate::actuation::Drive;
 use crate::spatial::Vec3;
 
@@ -79,32 +80,6 @@ impl DriveMonitor {
     pub fn end(&mut self) -> f64 {
         self.is_active = false;
         self.violated
-    }
-}
-
-/// Cubic Hermite polynomial `v₀ + s (a₀ + s (c₂ + s c₃))` on [0, 1].
-struct Hermite {
-    v0: f64,
-    a0: f64,
-    c2: f64,
-    c3: f64,
-}
-
-impl Hermite {
-    /// Polynomial of the given values and slopes at 0 and at 1.
-    fn new((v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> Self {
-        Self { v0, a0, c2: 3.0 * (v1 - v0) - 2.0 * a0 - a1, c3: 2.0 * (v0 - v1) + a0 + a1 }
-    }
-
-    fn value(&self, s: f64) -> f64 {
-        self.v0 + s * (self.a0 + s * (self.c2 + s * self.c3))
-    }
-
-    /// Positions of the extrema within (0, 1), roots of `a₀ + 2 c₂ s + 3 c₃ s²` without cancellation; NaN for none.
-    fn extrema(&self) -> [f64; 2] {
-        let root = (self.c2 * self.c2 - 3.0 * self.c3 * self.a0).sqrt();
-        let q = -(self.c2 + root.copysign(self.c2));
-        [q / (3.0 * self.c3), self.a0 / q].map(|s| if s > 0.0 && s < 1.0 { s } else { f64::NAN })
     }
 }
 

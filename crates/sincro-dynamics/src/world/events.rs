@@ -159,8 +159,13 @@ impl World {
         if let Some(crossing) = self.find_crossings(reached, system) {
             return Ok(Some((h, crossing)));
         }
-        let violated = violated.min(self.find_passage(reached, h, system));
+        let violated = violated.min(self.find_passage(reached, h, system)).min(self.limit_passage(h));
+        let is_parting = self.is_constrained() && self.mechanism.find_parting(h);
+        let violated = if is_parting { violated.min(self.surface_passage(t, h, system)) } else { violated };
         if !(violated > 0.0 && violated < h) {
+            if is_parting {
+                self.repeat_step(t, h, control, system)?;
+            }
             return Ok(None);
         }
         // stage and cubic are estimates: what they told is looked at, and the rest of the step from there
@@ -174,6 +179,23 @@ impl World {
         }
         self.repeat_step(t, h, control, system)?;
         Ok(None)
+    }
+
+    /// Earliest time within the sub-step of length `h` at which an open limit seems to have been passed and left again
+    /// `[s]`, after an evaluation at its end.
+    fn limit_passage(&self, h: f64) -> f64 {
+        let velocities = self.layout().velocities();
+        let start = (&self.base_before[..], &self.before[velocities.clone()]);
+        self.mechanism.limit_passage(h, start, &self.y[velocities])
+    }
+
+    /// Earliest time within the sub-step of length `h` from `t` at which surfaces seem to have touched that part at its
+    /// end `[s]`; goes back to its start.
+    fn surface_passage(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) -> f64 {
+        self.restore();
+        self.mechanism.return_to_start();
+        self.evaluate_held(t, system);
+        self.mechanism.surface_passage(h)
     }
 
     /// Earliest time within the sub-step at which a saturated drive seems to be beyond its target velocity `[s]`.

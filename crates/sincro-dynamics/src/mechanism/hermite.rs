@@ -1,0 +1,27 @@
+//! Cubic through values and slopes at both ends of a step: what happens within it.
+
+/// Cubic Hermite polynomial `v₀ + s (a₀ + s (c₂ + s c₃))` on [0, 1].
+pub(super) struct Hermite {
+    v0: f64,
+    a0: f64,
+    c2: f64,
+    c3: f64,
+}
+
+impl Hermite {
+    /// Polynomial of the given values and slopes at 0 and at 1.
+    pub fn new((v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> Self {
+        Self { v0, a0, c2: 3.0 * (v1 - v0) - 2.0 * a0 - a1, c3: 2.0 * (v0 - v1) + a0 + a1 }
+    }
+
+    pub fn value(&self, s: f64) -> f64 {
+        self.v0 + s * (self.a0 + s * (self.c2 + s * self.c3))
+    }
+
+    /// Positions of the extrema within (0, 1), roots of `a₀ + 2 c₂ s + 3 c₃ s²` without cancellation; NaN for none.
+    pub fn extrema(&self) -> [f64; 2] {
+        let root = (self.c2 * self.c2 - 3.0 * self.c3 * self.a0).sqrt();
+        let q = -(self.c2 + root.copysign(self.c2));
+        [q / (3.0 * self.c3), self.a0 / q].map(|s| if s > 0.0 && s < 1.0 { s } else { f64::NAN })
+    }
+}

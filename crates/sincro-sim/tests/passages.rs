@@ -1,0 +1,120 @@
+//! Bounds and surfaces that are passed and left again within a step: an oscillator that just reaches a stop, against
+//! its closed form.
+
+use sincro_math::elementary::sin_cos;
+use sincro_testing::SceneFolder;
+use sincro_testing::random::uniform;
+
+/// Natural frequency [rad/s], restitution, radius of the ball `[m]`.
+const OMEGA: f64 = 10.0;
+const RESTITUTION: f64 = 0.5;
+const RADIUS: f64 = 0.1;
+
+/// Duration of a run `[s]`: less than half a period after the impact.
+const DURATION: f64 = 0.3;
+
+/// Oscillator of amplitude 1 m that meets a stop just before it turns back.
+#[derive(Clone, Copy, Debug)]
+struct Draw {
+    /// Phase before the turning point at which it starts `[rad]`.
+    start: f64,
+    /// That at which it meets the stop `[rad]`.
+    meets: f64,
+}
+
+impl Draw {
+    /// Position of the stop `[m]`.
+    fn bound(self) -> f64 {
+        sin_cos(self.meets).1
+    }
+
+    /// Position at the end of the run `[m]`.
+    fn end(self) -> f64 {
+        let (sin, cos) = sin_cos(OMEGA * DURATION - (self.start - self.meets));
+        self.bound() * cos - RESTITUTION * sin_cos(self.meets).0 * sin
+    }
+
+    fn scene(self, is_contact: bool) -> String {
+        let (stop, wall) = if is_contact {
+            let wall = format!(
+                "[[body]]\nname = \"wall\"\nposition = [{:?}, 0.0, 0.0]\nrotation_deg = [0.0, -90.0, 0.0]\nshape = [{{ plane = {{}} }}]\n\
+                 contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n",
+                self.bound() + RADIUS
+            );
+            (String::new(), wall)
+        } else {
+            let upper = self.bound();
+            (format!("limits = {{ lower = -2.0, upper = {upper:?}, restitution = {RESTITUTION:?} }}\n"), String::new())
+        };
+        format!(
+            "[[joint]]\nname = \"slide\"\nkind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\nspring = {{ stiffness = {:?}, rest = 0.0 }}\n{stop}\
+             initial = {{ position = {:?}, velocity = {:?} }}\n\n\
+             [[body]]\nname = \"ball\"\nparent = \"/slide\"\nmass = 1.0\nshape = [{{ sphere = {{ radius = {RADIUS:?} }} }}]\n\
+             contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n\n{wall}",
+            OMEGA * OMEGA,
+            sin_cos(self.start).1,
+            OMEGA * sin_cos(self.start).0,
+        )
+    }
+
+    /// Deviation of a run from the closed form, at its end `[m]`.
+    fn deviation(self, is_contact: bool, integrator: &str) -> f64 {
+        let experiment = format!(
+            "title = \"Stop\"\nduration = {DURATION:?}\nstep = 0.005\nintegrator = \"{integrator}\"\naccuracy = 1e-12\n\
+             error_bar = \"none\"\nrecord = [\"/slide.position\"]\n"
+        );
+        let folder =
+            SceneFolder::new().with("scene.toml", &self.scene(is_contact)).with("experiment.toml", &experiment);
+        let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
+        (run.table.column("/slide.position").unwrap().values.last().unwrap() - self.end()).abs()
+    }
+}
+
+/// An impact of whatever is deeper than a nanometre, however short it lasts.
+#[test]
+fn stops_passed_and_left_within_a_step_are_impacts() {
+    let mut random = uniform(71);
+    for k in 0..120 {
+        let (start, share) = (0.3 + 0.9 * random(), random());
+        let draw = Draw { start, meets: 3e-4 + 0.06 * share * share * share };
+        for is_contact in [false, true] {
+            for integrator in ["auto", "stiff"] {
+                let deviation = draw.deviation(is_contact, integrator);
+                let what = if is_contact { "surface" } else { "limit" };
+                assert!(deviation < 1e-6, "draw {k}, {what}, {integrator}: {deviation:e} m off, {draw:?}");
+            }
+        }
+    }
+}
+
+/// A rod that turns freely about z at 5 rad/s touches a wall with its tip while that passes by, and turns back.
+#[test]
+fn tips_that_graze_a_wall_within_a_step_bounce() {
+    const RATE: f64 = 5.0;
+    let mut random = uniform(72);
+    for k in 0..60 {
+        let (start, share) = (0.3 + 0.3 * random(), random());
+        let meets = 3e-4 + 0.03 * share * share;
+        let scene = format!(
+            "[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\naxis = [0.0, 0.0, 1.0]\n\
+             initial = {{ position = {:?}, velocity = {RATE:?} }}\n\n\
+             [[body]]\nname = \"rod\"\nparent = \"/hinge\"\nmass = 1.0\ncenter_of_mass = [0.5, 0.0, 0.0]\n\
+             inertia = {{ xx = 0.01, yy = 0.1, zz = 0.1 }}\n\
+             shape = [{{ position = [1.0, 0.0, 0.0], sphere = {{ radius = {RADIUS:?} }} }}]\n\
+             contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n\n\
+             [[body]]\nname = \"wall\"\nposition = [{:?}, 0.0, 0.0]\nrotation_deg = [0.0, -90.0, 0.0]\nshape = [{{ plane = {{}} }}]\n\
+             contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n",
+            -start,
+            sin_cos(meets).1 + RADIUS
+        );
+        let experiment = format!(
+            "title = \"Tip\"\nduration = {DURATION:?}\nstep = 0.005\naccuracy = 1e-12\nerror_bar = \"none\"\n\
+             record = [\"/hinge.position\"]\n"
+        );
+        let folder = SceneFolder::new().with("scene.toml", &scene).with("experiment.toml", &experiment);
+        let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
+        let expected = -meets - RESTITUTION * (RATE * DURATION - (start - meets));
+        let deviation = (sincro_testing::last(&run, "/hinge.position") - expected).abs();
+        assert!(deviation < 1e-6, "draw {k}: {deviation:e} rad off, from {start} rad, wall at {meets} rad");
+    }
+}
