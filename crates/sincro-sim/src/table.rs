@@ -68,6 +68,11 @@ impl Table {
         Self { columns }
     }
 
+    /// Frees the room for rows that have not come.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.columns.iter_mut().for_each(|column| column.values.shrink_to_fit());
+    }
+
     /// Appends a row: one value per column, in the order and units of the columns.
     ///
     /// # Panics

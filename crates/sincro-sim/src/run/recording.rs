@@ -208,7 +208,8 @@ impl Recording {
     ) -> Result<Simulated, FileError> {
         // what scripts have changed as they ended
         self.follow(lockstep);
-        let Self { mut table, csv, streams, trajectory, validity, ledger, audit, experiment, trace, clock, .. } = self;
+        let Self { mut table, csv, streams, trajectory, validity, mut ledger, audit, experiment, trace, clock, .. } =
+            self;
         csv.map_or(Ok(()), CsvWriter::finish)?;
         let n_streams = streams.finish(lockstep.controllers_mut(), &mut table)?;
         let wall_time = clock.elapsed().as_secs_f64();
@@ -231,6 +232,9 @@ impl Recording {
             warnings.push(format!("scripts and clients said {n_more} more things than are kept"));
         }
         let (changes, images) = (lockstep.changes(), lockstep.take_images());
+        // many short runs of a long experiment may wait to be written
+        table.shrink_to_fit();
+        ledger.balances.shrink_to_fit();
         Ok(Simulated {
             table,
             status,
