@@ -118,3 +118,72 @@ fn tips_that_graze_a_wall_within_a_step_bounce() {
         assert!(deviation < 1e-6, "draw {k}: {deviation:e} rad off, from {start} rad, wall at {meets} rad");
     }
 }
+
+/// A body that would be through another one within a step hits it.
+#[test]
+fn bullets_bounce_from_what_is_thinner_than_a_step() {
+    const SHAPES: [&str; 5] = [
+        "sphere = { radius = 0.006 }",
+        "cuboid = { size = [0.012, 0.3, 0.2] }",
+        "capsule = { radius = 0.006, length = 0.2 }",
+        "cylinder = { radius = 0.006, length = 0.2 }",
+        "cuboid = { size = [0.012, 0.01, 0.02] }",
+    ];
+    // half of the thickness along x of all of them [m]
+    const HALF: f64 = 0.006;
+    let mut random = uniform(73);
+    for k in 0..10 {
+        let (gap, speed) = (0.1 + 0.5 * random(), 5.0 + 30.0 * random());
+        for (bullet, target) in SHAPES.iter().flat_map(|bullet| SHAPES.iter().map(move |target| (bullet, target))) {
+            let scene = format!(
+                "[[joint]]\nname = \"barrel\"\nkind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\n\
+                 initial = {{ position = {:?}, velocity = {speed:?} }}\n\n\
+                 [[body]]\nname = \"bullet\"\nparent = \"/barrel\"\nmass = 0.01\nshape = [{{ {bullet} }}]\n\
+                 contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n\n\
+                 [[body]]\nname = \"target\"\nshape = [{{ {target} }}]\n\
+                 contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n",
+                -gap - 2.0 * HALF
+            );
+            let experiment = format!(
+                "title = \"Bullet\"\nduration = {DURATION:?}\nstep = 0.005\naccuracy = 1e-12\nerror_bar = \"none\"\n\
+                 record = [\"/barrel.position\"]\n"
+            );
+            let folder = SceneFolder::new().with("scene.toml", &scene).with("experiment.toml", &experiment);
+            let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
+            let expected = -2.0 * HALF - RESTITUTION * (speed * DURATION - gap);
+            let deviation = (sincro_testing::last(&run, "/barrel.position") - expected).abs();
+            assert!(deviation < 1e-8, "draw {k}, {bullet} on {target}: {deviation:e} m off, {gap} m at {speed} m/s");
+        }
+    }
+}
+
+/// A sphere on a rail that grazes another one, 1 µm to 10 mm deep, bounces from it.
+#[test]
+fn spheres_that_graze_each_other_within_a_step_bounce() {
+    let mut random = uniform(74);
+    for k in 0..100 {
+        let (start, speed, share) = (0.5 + 0.4 * random(), 2.0 + 18.0 * random(), random());
+        let offset = 2.0 * RADIUS - 1e-6 - 0.01 * share * share * share;
+        let scene = format!(
+            "[[joint]]\nname = \"rail\"\nkind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\nposition = [0.0, 0.0, {offset:?}]\n\
+             initial = {{ position = {:?}, velocity = {speed:?} }}\n\n\
+             [[body]]\nname = \"ball\"\nparent = \"/rail\"\nmass = 1.0\nshape = [{{ sphere = {{ radius = {RADIUS:?} }} }}]\n\
+             contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n\n\
+             [[body]]\nname = \"other\"\nshape = [{{ sphere = {{ radius = {RADIUS:?} }} }}]\n\
+             contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n",
+            -start
+        );
+        let experiment = format!(
+            "title = \"Spheres\"\nduration = {DURATION:?}\nstep = 0.02\naccuracy = 1e-12\nerror_bar = \"none\"\n\
+             record = [\"/rail.position\"]\n"
+        );
+        let folder = SceneFolder::new().with("scene.toml", &scene).with("experiment.toml", &experiment);
+        let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
+        let meets = -(4.0 * RADIUS * RADIUS - offset * offset).sqrt();
+        let time = (meets + start) / speed;
+        let expected =
+            if time < DURATION { meets - RESTITUTION * speed * (DURATION - time) } else { speed * DURATION - start };
+        let deviation = (sincro_testing::last(&run, "/rail.position") - expected).abs();
+        assert!(deviation < 1e-6, "draw {k}: {deviation:e} m off, {offset} m aside at {speed} m/s from {start} m");
+    }
+}

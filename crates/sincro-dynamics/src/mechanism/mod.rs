@@ -20,7 +20,7 @@ mod kinks;
 pub mod layout;
 mod lines;
 mod loop_rank;
-mod passages;
+pub(crate) mod passages;
 mod reaction;
 mod rotating_axes;
 mod singular;

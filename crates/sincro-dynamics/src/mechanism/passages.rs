@@ -1,16 +1,33 @@
-//! Open limits and surfaces that are passed and left again within a sub-step, whose end shows nothing of it: found by
-//! the cubic through distances and rates at both ends.
+//! Open limits and surfaces that are passed and left again within a sub-step, whose end shows nothing of it: found from
+//! distances and rates at both ends.
 
 use crate::constraint::{CLOSED_DISTANCE, Constraints, Parting};
 use crate::contact::Margin;
+use crate::contact::candidate::Feature;
 use crate::contact::candidate_list::SlotCandidate;
 use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::normal_rate;
 use crate::mechanism::hermite::Hermite;
 
-/// Share of the time that two points that part may have needed for their distance, at their rate: half of it, where the
-/// acceleration is constant, and what it may change by.
-const TURNED_WITHIN: f64 = 0.75;
+/// Interval at which a sub-step is looked at where a body may have passed right through another one, relative to its
+/// length.
+const THROUGH_STEP: f64 = 1.0 / 16.0;
+
+/// Instants of a sub-step to look at, from `first` on, `interval` apart `[s]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Looks {
+    /// First instant after the start; infinite for none.
+    pub first: f64,
+    /// Interval.
+    pub interval: f64,
+}
+
+impl Looks {
+    /// Instants of both.
+    pub fn and(self, other: Self) -> Self {
+        Self { first: self.first.min(other.first), interval: self.interval.min(other.interval) }
+    }
+}
 
 /// Time of the first instant, within a sub-step of length `h` `[s]`, at which a distance is below what counts as
 /// closed, by its value and rate at the start and at the end; infinite for none.
@@ -20,6 +37,20 @@ fn passage(h: f64, (distance, rate): (f64, f64), (distance_end, rate_end): (f64,
     }
     let cubic = Hermite::new((distance, h * rate), (distance_end, h * rate_end));
     let passed = cubic.extrema().into_iter().filter(|s| cubic.value(*s) < -CLOSED_DISTANCE);
+    passed.map(|s| s * h).fold(f64::INFINITY, f64::min)
+}
+
+/// Time of the instant, within a sub-step of length `h` `[s]`, at which two points are closest, if that is closer
+/// than `radius` `[m]`, by the distance beyond it and its rate at start and end; infinite if it is not. Where they
+/// move straight on, the square of their distance is a polynomial.
+fn passage_of_points(h: f64, radius: f64, start: (f64, f64), end: (f64, f64)) -> f64 {
+    let square = |(distance, rate): (f64, f64)| {
+        let whole = distance + radius;
+        (whole * whole, 2.0 * whole * h * rate)
+    };
+    let cubic = Hermite::new(square(start), square(end));
+    let closest = (radius - CLOSED_DISTANCE).max(0.0);
+    let passed = cubic.extrema().into_iter().filter(|s| cubic.value(*s) < closest * closest);
     passed.map(|s| s * h).fold(f64::INFINITY, f64::min)
 }
 
@@ -47,12 +78,13 @@ impl Mechanism<f64> {
         if set.pairs.is_empty() {
             return false;
         }
-        c.detect_moving(set, &self.scratch.poses, Margin { base: 1e-6, time: TURNED_WITHIN * h });
+        c.detect_moving(set, &self.scratch.poses, Margin { base: 1e-6, time: h });
         let Constraints { later_candidates, memory, open_inside, motions, parting, .. } = c;
         for SlotCandidate { slot, pair, candidate } in later_candidates.iter() {
             let at = candidate.kinematics(&motions.at(&self.scratch));
             let rate = normal_rate(motions, candidate, &at);
-            if !(rate > 0.0 && at.distance - TURNED_WITHIN * h * rate < -CLOSED_DISTANCE) {
+            // a body that came from behind the other one was there by more than an interval
+            if !(rate > 0.0 && at.distance - (1.0 - THROUGH_STEP) * h * rate < -CLOSED_DISTANCE) {
                 continue;
             }
             let (slot, pair) = (set.limits.len() + *slot as usize, &set.pairs[*pair as usize]);
@@ -63,14 +95,24 @@ impl Mechanism<f64> {
         !parting.is_empty()
     }
 
-    /// Earliest time within a sub-step of length `h` at which surfaces that part at its end had touched `[s]`, in the
-    /// state at its start, last evaluated; infinite for none.
-    pub(crate) fn surface_passage(&mut self, h: f64) -> f64 {
-        let Some(c) = self.constraints.as_deref() else { return f64::INFINITY };
-        let of_point = c.parting.iter().map(|Parting { candidate, end }| {
+    /// Instants at which surfaces that part at the end of a sub-step of length `h` seem to have touched in it, in the
+    /// state at its start, last evaluated.
+    pub(crate) fn surface_passages(&self, h: f64, mut looks: Looks) -> Looks {
+        let Some(c) = self.constraints.as_deref() else { return looks };
+        for Parting { candidate, end } in &c.parting {
             let at = candidate.kinematics(&c.motions.at(&self.scratch));
-            passage(h, (at.distance, normal_rate(&c.motions, candidate, &at)), *end)
-        });
-        of_point.fold(f64::INFINITY, f64::min)
+            let start = (at.distance, normal_rate(&c.motions, candidate, &at));
+            match candidate.feature {
+                // at its end it has left by the other side
+                Feature::Plane { .. } if start.0 < -CLOSED_DISTANCE => {
+                    looks = looks.and(Looks { first: THROUGH_STEP * h, interval: THROUGH_STEP * h });
+                }
+                Feature::Plane { .. } => looks.first = looks.first.min(passage(h, start, *end)),
+                Feature::Point { .. } | Feature::Line { .. } => {
+                    looks.first = looks.first.min(passage_of_points(h, candidate.radius, start, *end));
+                }
+            }
+        }
+        looks
     }
 }

@@ -9,6 +9,7 @@ use crate::constraint::ModeRule;
 use crate::coupled::CoupledSystem;
 use crate::integrate::{Bracket, Control, System};
 use crate::mechanism::constraints::ContactEvent;
+use crate::mechanism::passages::Looks;
 
 /// Width to which the instant of an event is located, relative to the step.
 const EVENT_RESOLUTION: f64 = 1e-13;
@@ -160,24 +161,27 @@ impl World {
             return Ok(Some((h, crossing)));
         }
         let violated = violated.min(self.find_passage(reached, h, system)).min(self.limit_passage(h));
+        let mut looks = Looks { first: violated, interval: INTERIOR_STEP * h };
         let is_parting = self.is_constrained() && self.mechanism.find_parting(h);
-        let violated = if is_parting { violated.min(self.surface_passage(t, h, system)) } else { violated };
-        if !(violated > 0.0 && violated < h) {
-            if is_parting {
-                self.repeat_step(t, h, control, system)?;
-            }
-            return Ok(None);
+        if is_parting {
+            self.restore();
+            self.mechanism.return_to_start();
+            self.evaluate_held(t, system);
+            looks = self.mechanism.surface_passages(h, looks);
         }
         // stage and cubic are estimates: what they told is looked at, and the rest of the step from there
-        let mut at = violated;
+        let has_looks = looks.first > 0.0 && looks.first < h;
+        let mut at = if has_looks { looks.first } else { h };
         while at < h * (1.0 - 1e-6) {
             self.repeat_step(t, at, control, system)?;
             if let Some(crossing) = self.find_crossings(t + at, system) {
                 return Ok(Some((at, crossing)));
             }
-            at += INTERIOR_STEP * h;
+            at += looks.interval;
         }
-        self.repeat_step(t, h, control, system)?;
+        if has_looks || is_parting {
+            self.repeat_step(t, h, control, system)?;
+        }
         Ok(None)
     }
 
@@ -187,15 +191,6 @@ impl World {
         let velocities = self.layout().velocities();
         let start = (&self.base_before[..], &self.before[velocities.clone()]);
         self.mechanism.limit_passage(h, start, &self.y[velocities])
-    }
-
-    /// Earliest time within the sub-step of length `h` from `t` at which surfaces seem to have touched that part at its
-    /// end `[s]`; goes back to its start.
-    fn surface_passage(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) -> f64 {
-        self.restore();
-        self.mechanism.return_to_start();
-        self.evaluate_held(t, system);
-        self.mechanism.surface_passage(h)
     }
 
     /// Earliest time within the sub-step at which a saturated drive seems to be beyond its target velocity `[s]`.
