@@ -140,6 +140,19 @@ fn a_static_body_below_a_joint_stays_and_falls_when_it_is_not() {
 }
 
 #[test]
+fn a_joint_on_the_world_is_dynamic_until_it_is_kinematic() {
+    let mut s = open();
+    let [hinge, elbow] = ["/hinge", "/elbow"].map(|path| object(&mut s, path));
+    let enabled = |s: &mut OpenSession, own: &Value| call(s, "sim.isDynamicallyEnabled", std::slice::from_ref(own));
+    assert_eq!(enabled(&mut s, &hinge), [Value::Bool(true)]);
+    assert_eq!(enabled(&mut s, &elbow), [Value::Bool(true)]);
+    call(&mut s, "sim.setJointMode", &[hinge.clone(), 0_i64.into(), 0_i64.into()]);
+    assert_eq!(enabled(&mut s, &hinge), [Value::Bool(false)]);
+    call(&mut s, "sim.setJointMode", &[hinge.clone(), 5_i64.into(), 0_i64.into()]);
+    assert_eq!(enabled(&mut s, &hinge), [Value::Bool(true)]);
+}
+
+#[test]
 fn a_static_body_goes_with_a_gripper_and_stays_where_it_is_let_go() {
     let mut s = open();
     let [hand, ball] = ["/hand", "/ball"].map(|path| object(&mut s, path));

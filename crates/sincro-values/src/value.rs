@@ -266,15 +266,17 @@ impl<'a> Arguments<'a> {
         self.get(k).as_bytes().ok_or_else(|| self.wrong(k, "bytes or text"))
     }
 
-    /// Reads argument `k`, counted from 0, as a list of exactly `N` numbers, in its order.
+    /// Reads argument `k`, counted from 0, as a list of `N` numbers, in its order; further ones are left out, as
+    /// CoppeliaSim does: programs give a pose where a position is expected.
     ///
     /// # Errors
     ///
-    /// It was not given, is no list of numbers, or has another length than `N`.
+    /// It was not given, is no list of numbers, or has fewer than `N`.
     pub fn reals<const N: usize>(&self, k: usize) -> Result<[f64; N], ApiError> {
         let list = self.get(k).as_reals().ok_or_else(|| self.wrong(k, &format!("a list of {N} numbers")))?;
         let n = list.len();
-        list.try_into().map_err(|_| ApiError(format!("argument {} has {n} numbers, expected {N}", k + 1)))
+        let first = list.get(..N).and_then(|first| first.try_into().ok());
+        first.ok_or_else(|| ApiError(format!("argument {} has {n} numbers, expected {N}", k + 1)))
     }
 
     /// Reads argument `k`, counted from 0, as the number of a handle, with the flags that clients may add to it

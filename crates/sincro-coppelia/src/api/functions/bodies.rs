@@ -186,7 +186,12 @@ fn compute(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 
 fn is_dynamic(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     let own = body(sim, a)?;
-    one(sim.is_running() && !sim.is_fixed(own)?)
+    // a joint acts on what it carries, whatever carries it
+    let is_held = match sim.registry.entry(own)?.kind {
+        Kind::Joint(_) => sim.registry.joint_modes.contains_key(&own),
+        _ => sim.is_fixed(own)?,
+    };
+    one(sim.is_running() && !is_held)
 }
 
 /// The initial velocity that was set for a body takes effect.
