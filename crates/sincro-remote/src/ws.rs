@@ -17,7 +17,7 @@ use crate::cbor;
 use crate::hub::Hub;
 use crate::limits;
 use crate::listen::Connection;
-use crate::zmq::{CallOutcome, Endpoint, info};
+use crate::zmq::{Endpoint, info};
 
 /// Serves one connection until it ends.
 pub(crate) fn serve(connection: Connection, hub: &Arc<Hub>, guard: &Guard) {
@@ -143,10 +143,7 @@ fn call(endpoint: &Endpoint, request: &Value) -> Result<Vec<Value>, ApiError> {
         }
         _ => {}
     }
-    match endpoint.call(name, arguments)? {
-        CallOutcome::Done(results) => Ok(results),
-        CallOutcome::Callback { after, .. } => Err(endpoint.decline(after, "there are no callbacks over WebSocket")),
-    }
+    endpoint.call_without_callbacks(name, arguments, "there are no callbacks over WebSocket")
 }
 
 fn of_json(json: Json) -> Value {

@@ -13,6 +13,16 @@ const RADIUS: f64 = 0.1;
 /// Duration of a run `[s]`: less than half a period after the impact.
 const DURATION: f64 = 0.3;
 
+/// Last value of a signal of a scene, run at accuracy 1e-12 by an integrator, with a step `[s]`.
+fn last_of(scene: &str, (integrator, step): (&str, f64), signal: &str) -> f64 {
+    let experiment = format!(
+        "title = \"Passage\"\nduration = {DURATION:?}\nstep = {step:?}\nintegrator = \"{integrator}\"\naccuracy = 1e-12\n\
+         error_bar = \"none\"\nrecord = [\"{signal}\"]\n"
+    );
+    let folder = SceneFolder::new().with("scene.toml", scene).with("experiment.toml", &experiment);
+    sincro_testing::last(&sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}"))), signal)
+}
+
 /// Oscillator of amplitude 1 m that meets a stop just before it turns back.
 #[derive(Clone, Copy, Debug)]
 struct Draw {
@@ -59,14 +69,7 @@ impl Draw {
 
     /// Deviation of a run from the closed form, at its end `[m]`.
     fn deviation(self, is_contact: bool, integrator: &str) -> f64 {
-        let experiment = format!(
-            "title = \"Stop\"\nduration = {DURATION:?}\nstep = 0.005\nintegrator = \"{integrator}\"\naccuracy = 1e-12\n\
-             error_bar = \"none\"\nrecord = [\"/slide.position\"]\n"
-        );
-        let folder =
-            SceneFolder::new().with("scene.toml", &self.scene(is_contact)).with("experiment.toml", &experiment);
-        let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
-        (run.table.column("/slide.position").unwrap().values.last().unwrap() - self.end()).abs()
+        (last_of(&self.scene(is_contact), (integrator, 0.005), "/slide.position") - self.end()).abs()
     }
 }
 
@@ -107,14 +110,8 @@ fn tips_that_graze_a_wall_within_a_step_bounce() {
             -start,
             sin_cos(meets).1 + RADIUS
         );
-        let experiment = format!(
-            "title = \"Tip\"\nduration = {DURATION:?}\nstep = 0.005\naccuracy = 1e-12\nerror_bar = \"none\"\n\
-             record = [\"/hinge.position\"]\n"
-        );
-        let folder = SceneFolder::new().with("scene.toml", &scene).with("experiment.toml", &experiment);
-        let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
         let expected = -meets - RESTITUTION * (RATE * DURATION - (start - meets));
-        let deviation = (sincro_testing::last(&run, "/hinge.position") - expected).abs();
+        let deviation = (last_of(&scene, ("auto", 0.005), "/hinge.position") - expected).abs();
         assert!(deviation < 1e-6, "draw {k}: {deviation:e} rad off, from {start} rad, wall at {meets} rad");
     }
 }
@@ -144,14 +141,8 @@ fn bullets_bounce_from_what_is_thinner_than_a_step() {
                  contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n",
                 -gap - 2.0 * HALF
             );
-            let experiment = format!(
-                "title = \"Bullet\"\nduration = {DURATION:?}\nstep = 0.005\naccuracy = 1e-12\nerror_bar = \"none\"\n\
-                 record = [\"/barrel.position\"]\n"
-            );
-            let folder = SceneFolder::new().with("scene.toml", &scene).with("experiment.toml", &experiment);
-            let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
             let expected = -2.0 * HALF - RESTITUTION * (speed * DURATION - gap);
-            let deviation = (sincro_testing::last(&run, "/barrel.position") - expected).abs();
+            let deviation = (last_of(&scene, ("auto", 0.005), "/barrel.position") - expected).abs();
             assert!(deviation < 1e-8, "draw {k}, {bullet} on {target}: {deviation:e} m off, {gap} m at {speed} m/s");
         }
     }
@@ -173,17 +164,11 @@ fn spheres_that_graze_each_other_within_a_step_bounce() {
              contact = {{ friction = 0.0, restitution = {RESTITUTION:?} }}\n",
             -start
         );
-        let experiment = format!(
-            "title = \"Spheres\"\nduration = {DURATION:?}\nstep = 0.02\naccuracy = 1e-12\nerror_bar = \"none\"\n\
-             record = [\"/rail.position\"]\n"
-        );
-        let folder = SceneFolder::new().with("scene.toml", &scene).with("experiment.toml", &experiment);
-        let run = sincro_testing::run(&folder.load(&[]).unwrap_or_else(|e| panic!("{e}")));
         let meets = -(4.0 * RADIUS * RADIUS - offset * offset).sqrt();
         let time = (meets + start) / speed;
         let expected =
             if time < DURATION { meets - RESTITUTION * speed * (DURATION - time) } else { speed * DURATION - start };
-        let deviation = (sincro_testing::last(&run, "/rail.position") - expected).abs();
+        let deviation = (last_of(&scene, ("auto", 0.02), "/rail.position") - expected).abs();
         assert!(deviation < 1e-6, "draw {k}: {deviation:e} m off, {offset} m aside at {speed} m/s from {start} m");
     }
 }

@@ -68,8 +68,8 @@ pub struct Session {
     run: Option<Run>,
     finished: Vec<Finished>,
     steps: u64,
-    /// Folders that may be loaded by clients, besides the first one's own.
-    root: PathBuf,
+    /// Folder that it was opened with: clients may load it, and those beside it.
+    served: PathBuf,
     grants: Grants,
     /// Ports of the legacy API; none if clients are not served.
     legacy_ports: Option<LegacyPorts>,
@@ -142,7 +142,6 @@ impl Session {
             registry.set_sample_time(dt).map_err(refused)?;
         }
         let lockstep = fresh(&loaded, None, method, registry);
-        let root = folder.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         Ok(Self {
             folder: folder.to_path_buf(),
             overrides: overrides.to_vec(),
@@ -153,7 +152,7 @@ impl Session {
             run: None,
             finished: Vec::new(),
             steps: 0,
-            root,
+            served: folder.to_path_buf(),
             grants: Grants::default(),
             legacy_ports: None,
             structure: None,
@@ -373,6 +372,8 @@ impl Session {
                 Request::Start => self.start(),
                 Request::Pause => self.pause(),
                 Request::Stop => self.stop(),
+                // the new scene of the regular API
+                Request::Load(path) if path.is_empty() => self.replace(&path, &self.served.clone(), None),
                 Request::Load(path) => self.load(&path),
                 Request::Close => self.stop(),
                 Request::Save(name, text) => self.save(&name, &text),
@@ -632,6 +633,11 @@ impl Session {
         let allowed = self.allowed(path);
         let sent = if allowed.is_ok() { None } else { self.sent(path) };
         let folder = sent.clone().map_or(allowed, Ok)?;
+        self.replace(path, &folder, sent)
+    }
+
+    /// Loads the scene of a folder that a client has named `path`, or of a file that a client has sent.
+    fn replace(&mut self, path: &str, folder: &Path, sent: Option<PathBuf>) -> Result<(), ApiError> {
         let mut extensions = self.loaded.extensions;
         if sent.is_some() {
             // before anything of it is opened: what is wrong with a file must not tell what is in it
@@ -640,7 +646,7 @@ impl Session {
                 extensions.scripts = None;
             }
         }
-        let loaded = load(&folder, &[], extensions).map_err(|problems| {
+        let loaded = load(folder, &[], extensions).map_err(|problems| {
             let first = problems.0.first().map(|p| p.message.clone()).unwrap_or_default();
             ApiError(format!("the scene `{path}` cannot be loaded: {first}"))
         })?;
@@ -654,9 +660,9 @@ impl Session {
         }
         self.close()?;
         let mut other =
-            Self::new(&folder, &[], loaded, None).map_err(|_| ApiError::new("the scene cannot be loaded"))?;
+            Self::new(folder, &[], loaded, None).map_err(|_| ApiError::new("the scene cannot be loaded"))?;
         other.finished = std::mem::take(&mut self.finished);
-        other.root.clone_from(&self.root);
+        other.served.clone_from(&self.served);
         other.grant(self.grants.clone());
         other.loaded.extensions = self.loaded.extensions;
         *self = other;
@@ -685,7 +691,8 @@ impl Session {
         let stem = path.strip_suffix(".ttt").or_else(|| path.strip_suffix(".simscene.xml")).unwrap_or(path);
         let stem = EXAMPLES.iter().find(|(known, _)| stem.ends_with(known)).map_or(stem, |(_, here)| here);
         let name = Path::new(stem);
-        let root = self.root.canonicalize().map_err(|_| refused("cannot be found"))?;
+        let above = self.served.parent().filter(|above| !above.as_os_str().is_empty());
+        let root = above.unwrap_or(Path::new(".")).canonicalize().map_err(|_| refused("cannot be found"))?;
         let whole = root.join(name).canonicalize();
         let whole = whole.or_else(|_| root.join(name.file_name().unwrap_or_default()).canonicalize());
         let whole = whole.map_err(|_| refused("does not exist"))?;

@@ -2,7 +2,7 @@
 //! WebSocket endpoint share them.
 
 use std::sync::{Arc, OnceLock};
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 use sincro_coppelia::api::functions::Move;
 use sincro_coppelia::api::{ApiError, Arguments, Handle, Search, Value, constants, functions, paths};
@@ -14,8 +14,18 @@ use crate::limits;
 
 /// Modules of the official program that are asked for and not offered.
 const MODULES: &str = "the modules sim, simIK, simOMPL, simUI and simVision are offered";
-/// Longest real wait of one call.
+/// Longest wait of one call `[s]`.
 const MAX_WAIT: f64 = 3_600.0;
+/// Longest real time for which a client that waits is not answered: less than the time-outs of clients.
+const WAIT_PART: Duration = Duration::from_secs(1);
+
+/// Name of the callback that tells a client to go on waiting.
+const GO_ON_WAITING: &str = "_*wait*_";
+
+/// `sim.scripttype_sandbox`.
+const SANDBOX_TYPE: i64 = 8;
+/// `sim.handle_sandbox`.
+const SANDBOX: i64 = -17;
 
 /// Functions of the endpoint, with their signatures.
 const FUNCTIONS: &[(&str, &str)] = &[
@@ -33,7 +43,8 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("readCustomDataBlock", "buffer data=sim.readCustomDataBlock(int objectHandle,string tagName)"),
     ("callScriptFunction", "...=sim.callScriptFunction(string functionName,int scriptHandle,...)"),
     ("executeScriptString", "any result=sim.executeScriptString(string stringToExecute,int scriptHandle)"),
-    ("getScript", "int scriptHandle=sim.getScript(int scriptType,int objectHandle)"),
+    ("getScript", "int scriptHandle=sim.getScript(int scriptType,int objectHandle=-1)"),
+    ("copyTable", "any[] copy=sim.copyTable(any[] original)"),
     ("testCB", "any result=sim.testCB(any a,func cb,any b,int iterations=99)"),
     ("getApiFunc", "string[] functions=sim.getApiFunc(int scriptHandle,string apiWord)"),
     ("getApiInfo", "string info=sim.getApiInfo(int scriptHandle,string apiWord)"),
@@ -58,6 +69,17 @@ pub(crate) enum After {
     Again(i64),
     /// The next step of a motion.
     Move(Box<ClientMotion>),
+    /// The rest of a wait.
+    Wait(Wait),
+}
+
+/// End of a wait.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Wait {
+    /// Instant of the wall clock.
+    Until(Instant),
+    /// Simulation time `[s]`.
+    Simulated(f64),
 }
 
 /// Endpoint of one client.
@@ -67,6 +89,22 @@ pub(crate) struct Endpoint {
 }
 
 impl Endpoint {
+    /// Calls a function for a client that runs no callbacks, for the reason `why`: waits are not answered in parts.
+    ///
+    /// # Errors
+    ///
+    /// There is none of that name, it refused, or it wants a callback.
+    pub fn call_without_callbacks(&self, name: &str, arguments: &[Value], why: &str) -> Result<Vec<Value>, ApiError> {
+        let mut outcome = self.call(name, arguments)?;
+        loop {
+            outcome = match outcome {
+                CallOutcome::Done(results) => return Ok(results),
+                CallOutcome::Callback { after: After::Wait(wait), .. } => self.wait(wait)?,
+                CallOutcome::Callback { after, .. } => return Err(self.decline(after, why)),
+            };
+        }
+    }
+
     /// Calls a function.
     ///
     /// # Errors
@@ -83,7 +121,8 @@ impl Endpoint {
                 vec![Value::Int(before.into())]
             }
             "step" | "switchThread" | "yield" => self.steps(a)?,
-            "wait" => self.wait(a)?,
+            "wait" => return self.begin_wait(a),
+            "copyTable" => vec![a.get(0).clone()],
             "acquireLock" | "releaseLock" => {
                 self.hub.enter().lock(self.id, bare == "acquireLock");
                 self.hub.wake();
@@ -134,6 +173,7 @@ impl Endpoint {
             }
             After::Again(_) => Ok(CallOutcome::Done(results.to_vec())),
             After::Move(motion) => self.answer_move(*motion, results),
+            After::Wait(wait) => self.wait(wait),
         }
     }
 
@@ -141,7 +181,7 @@ impl Endpoint {
     pub fn decline(&self, after: After, why: &str) -> ApiError {
         let error = ApiError::new(why);
         match after {
-            After::Again(_) => error,
+            After::Again(_) | After::Wait(_) => error,
             After::Move(motion) => self.give_up(&motion, error),
         }
     }
@@ -197,8 +237,11 @@ impl Endpoint {
         results.map_err(|ApiError(e)| ApiError(format!("{e} (in function 'sim.executeScriptString')")))
     }
 
-    /// The script of an object: it has the object's handle.
+    /// The script of an object: it has the object's handle. The sandbox has none.
     fn script_of(&self, a: Arguments<'_>) -> Result<Vec<Value>, ApiError> {
+        if a.get(0).as_int() == Some(SANDBOX_TYPE) && !a.has(1) {
+            return Ok(vec![Value::Int(SANDBOX)]);
+        }
         let mut guard = self.hub.enter();
         let registry = guard.session.registry();
         let object = match a.get(1) {
@@ -237,27 +280,52 @@ impl Endpoint {
         Ok(Vec::new())
     }
 
-    fn wait(&self, a: Arguments<'_>) -> Result<Vec<Value>, ApiError> {
+    fn begin_wait(&self, a: Arguments<'_>) -> Result<CallOutcome, ApiError> {
         let dt = a.real(0)?;
         if !(0.0..=MAX_WAIT).contains(&dt) {
             return Err(ApiError(format!("a wait of {dt} s, expected 0 to {MAX_WAIT} s")));
         }
-        if !a.bool_or(1, true)? {
-            std::thread::sleep(Duration::from_secs_f64(dt));
-            return Ok(vec![Value::Real(0.0)]);
-        }
-        let now = || {
-            let mut guard = self.hub.enter();
-            (guard.session.t(), guard.session.phase() == sincro_coppelia::api::Phase::Running)
-        };
-        let end = now().0 + dt;
-        loop {
-            let (t, runs) = now();
-            if t >= end - 1e-9 || !runs {
-                return Ok(vec![Value::Real((end - t).min(0.0))]);
+        self.wait(if a.bool_or(1, true)? {
+            Wait::Simulated(self.time().0 + dt)
+        } else {
+            Wait::Until(Instant::now() + Duration::from_secs_f64(dt))
+        })
+    }
+
+    /// Waits on, and tells the client to come back where that takes long.
+    fn wait(&self, wait: Wait) -> Result<CallOutcome, ApiError> {
+        let begin = Instant::now();
+        let time_left = match wait {
+            Wait::Until(end) => {
+                std::thread::sleep(end.saturating_duration_since(begin).min(WAIT_PART));
+                (Instant::now() >= end).then_some(0.0)
             }
-            self.hub.step(self.id)?;
-        }
+            Wait::Simulated(end) => loop {
+                let (t, runs) = self.time();
+                if t >= end - 1e-9 || !runs {
+                    break Some((end - t).min(0.0));
+                }
+                if begin.elapsed() >= WAIT_PART {
+                    break None;
+                }
+                self.hub.step(self.id)?;
+            },
+        };
+        self.hub.enter().seen(self.id);
+        Ok(match time_left {
+            Some(time_left) => CallOutcome::Done(vec![Value::Real(time_left)]),
+            None => CallOutcome::Callback {
+                name: GO_ON_WAITING.to_owned(),
+                arguments: Vec::new(),
+                after: After::Wait(wait),
+            },
+        })
+    }
+
+    /// Simulation time `[s]`, and whether a run is on.
+    fn time(&self) -> (f64, bool) {
+        let mut guard = self.hub.enter();
+        (guard.session.t(), guard.session.phase() == sincro_coppelia::api::Phase::Running)
     }
 }
 

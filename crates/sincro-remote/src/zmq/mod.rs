@@ -20,7 +20,7 @@ use std::sync::Arc;
 use crate::hub::Hub;
 use crate::listen::Connection;
 pub use functions::present_names;
-pub(crate) use functions::{CallOutcome, Endpoint, info, kind_of};
+pub(crate) use functions::{Endpoint, info, kind_of};
 pub(crate) use steps::Publisher;
 
 /// Serves one connection until it ends.

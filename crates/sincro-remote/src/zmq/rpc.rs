@@ -165,12 +165,8 @@ impl Conversation {
                     Some((_, endpoint)) => endpoint,
                     None => self.endpoint(key(usize::MAX)),
                 };
-                match endpoint.call(name, given)? {
-                    CallOutcome::Done(results) => Ok(as_text(name, results)),
-                    CallOutcome::Callback { after, .. } => {
-                        Err(endpoint.decline(after, "version 1 of the client has no callbacks"))
-                    }
-                }
+                let why = "version 1 of the client has no callbacks";
+                endpoint.call_without_callbacks(name, given, why).map(|results| as_text(name, results))
             }
         }
     }

@@ -141,6 +141,40 @@ fn locks_hold_the_simulation_and_waits_are_in_simulation_time() {
 }
 
 #[test]
+fn a_client_that_waits_for_long_is_told_to_go_on_waiting() {
+    let server = serve();
+    let mut client = client(&server, "a");
+    let answer = client.exchange("sim.wait", &[Value::Real(1.2), Value::Bool(false)]);
+    assert_eq!(field(&answer, "func"), Some(&Value::from("_*wait*_")));
+    let mut answer = client.exchange("_*executed*_", &[]);
+    while field(&answer, "func").is_some() {
+        answer = client.exchange("_*executed*_", &[]);
+    }
+    assert_eq!(answer, map(&[("ret", Value::List(vec![Value::Real(0.0)]))]));
+    // the first version knows no such answer
+    assert_eq!(
+        version_1(&server).call("sim.wait", &[Value::Real(1.2), Value::Bool(false)]),
+        Ok(vec![Value::Real(0.0)])
+    );
+}
+
+#[test]
+fn what_clients_of_several_versions_leave_to_the_server_is_there() {
+    let server = serve();
+    let mut client = client(&server, "a");
+    let table = map(&[("maxVel", Value::List(vec![Value::Real(0.5); 4]))]);
+    assert_eq!(client.call("sim.copyTable", std::slice::from_ref(&table)), Ok(vec![table]));
+    assert_eq!(client.call("sim.getScript", &[Value::Int(8)]), Ok(vec![Value::Int(-17)]), "the sandbox");
+    // nil would be one result
+    for name in ["sim.getStringSignal", "sim.getInt32Signal", "sim.getFloatSignal", "sim.getBufferSignal"] {
+        assert_eq!(client.call(name, &[Value::from("never set")]), Ok(vec![]), "{name}");
+    }
+    client.call("sim.startSimulation", &[]).unwrap();
+    client.call("sim.loadScene", &[Value::from("")]).unwrap();
+    assert_eq!(client.call("sim.getSimulationState", &[]), Ok(vec![Value::Int(0)]));
+}
+
+#[test]
 fn clients_of_version_1_wait_for_the_counter() {
     let server = serve();
     let mut client = version_1(&server);

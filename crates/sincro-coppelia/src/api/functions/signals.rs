@@ -47,13 +47,18 @@ fn text<'a>(a: Arguments<'a>) -> Result<&'a str, crate::api::ApiError> {
     if a.has(0) { a.text(0) } else { Ok("") }
 }
 
+/// The value of a signal; none of one that is not set, which clients tell from nil by the number of results.
+fn if_set(value: Option<Value>) -> Outcome {
+    Ok(value.into_iter().collect())
+}
+
 fn set_int(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
     sim.registry.integers.set(a.text(0)?, a.int(1)?, sim.registry.phase.is_on())?;
     done()
 }
 
 fn int(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    one(sim.registry.integers.get(a.text(0)?).map_or(Value::Nil, |x| Value::Int(*x)))
+    if_set(sim.registry.integers.get(a.text(0)?).map(|x| Value::Int(*x)))
 }
 
 fn set_float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
@@ -62,7 +67,7 @@ fn set_float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn float(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    one(sim.registry.floats.get(a.text(0)?).map_or(Value::Nil, |x| Value::Real(*x)))
+    if_set(sim.registry.floats.get(a.text(0)?).map(|x| Value::Real(*x)))
 }
 
 /// Sets a text, or a buffer: bytes that a client gives as such.
@@ -76,7 +81,7 @@ fn set_string(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn string(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    one(sim.registry.strings.value(a.text(0)?).unwrap_or(Value::Nil))
+    if_set(sim.registry.strings.value(a.text(0)?))
 }
 
 fn set_buffer(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
@@ -86,7 +91,7 @@ fn set_buffer(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
 }
 
 fn buffer(sim: &mut SimApi<'_>, a: Arguments<'_>) -> Outcome {
-    one(sim.registry.strings.get(a.text(0)?).map_or(Value::Nil, |x| Value::Bytes(x.clone())))
+    if_set(sim.registry.strings.get(a.text(0)?).map(|x| Value::Bytes(x.clone())))
 }
 
 /// Signals by number: 0 whole numbers, 1 numbers, 2 texts.
