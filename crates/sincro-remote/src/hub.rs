@@ -73,6 +73,16 @@ pub struct SessionGuard {
     is_told_of_pace: bool,
     /// Ports of the legacy API that a script started without a trigger: their clients do not step.
     untriggered: BTreeSet<u16>,
+    /// Progress that waiting threads were last woken for.
+    told: Progress,
+}
+
+/// Progress that threads wait for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Progress {
+    step: u64,
+    phase: Phase,
+    runs_free: bool,
 }
 
 /// Opens a port that a script asked for; gives the line for the terminal.
@@ -94,7 +104,10 @@ struct Client {
 /// [`Server::hub`](crate::Server::hub).
 pub struct Hub {
     guard: Mutex<SessionGuard>,
+    /// Wakes the clients that wait for a step.
     moved: Condvar,
+    /// Wakes the thread of the free run.
+    freed: Condvar,
     /// Threads that wait for the lock: the free run yields to them between steps.
     waiting: AtomicUsize,
     closing: AtomicBool,
@@ -119,10 +132,12 @@ impl Hub {
             busy: Duration::ZERO,
             is_told_of_pace: false,
             untriggered: BTreeSet::new(),
+            told: Progress { step: 0, phase: Phase::Stopped, runs_free: false },
         };
         Arc::new(Self {
             guard: Mutex::new(guard),
             moved: Condvar::new(),
+            freed: Condvar::new(),
             waiting: AtomicUsize::new(0),
             closing: AtomicBool::new(false),
             connections: Connections::new(ConnectionLimits {
@@ -161,9 +176,31 @@ impl Hub {
         guard
     }
 
-    /// Wakes the threads that wait for a step; to be called after anything that may allow the simulation to advance.
+    /// Wakes the threads that wait for what has come since the last call; to be called after anything that may allow
+    /// the simulation to advance. Most requests of clients change nothing of that, and a thread that wakes for nothing
+    /// delays their answers.
     pub(crate) fn wake(&self) {
+        match self.guard.try_lock() {
+            Ok(mut guard) => self.wake_for_news(&mut guard),
+            // whoever holds it may have looked already
+            Err(_) => self.wake_all(),
+        }
+    }
+
+    fn wake_for_news(&self, guard: &mut SessionGuard) {
+        let now = Progress { step: guard.step, phase: guard.session.phase(), runs_free: guard.runs_free() };
+        let before = std::mem::replace(&mut guard.told, now);
+        if now != before {
+            self.moved.notify_all();
+        }
+        if (now.phase, now.runs_free) != (before.phase, before.runs_free) {
+            self.freed.notify_all();
+        }
+    }
+
+    fn wake_all(&self) {
         self.moved.notify_all();
+        self.freed.notify_all();
     }
 
     /// Returns true if the server is being closed.
@@ -175,7 +212,7 @@ impl Hub {
     /// Ends the free run and every wait.
     pub(crate) fn close(&self) {
         self.closing.store(true, Ordering::SeqCst);
-        self.wake();
+        self.wake_all();
     }
 
     /// Open connections of all ports of the server together.
@@ -213,7 +250,7 @@ impl Hub {
         let mut guard = self.enter();
         let Some(target) = guard.ask_step(id) else { return Ok(()) };
         let advanced = guard.advance_if_ready();
-        self.wake();
+        self.wake_for_news(&mut guard);
         advanced?;
         while guard.step < target && guard.session.phase() == Phase::Running && !self.is_closing() {
             guard = self.moved.wait_timeout(guard, POLL_INTERVAL).unwrap_or_else(PoisonError::into_inner).0;
@@ -246,14 +283,14 @@ impl Hub {
                     // the session's log has the reason if the run stops
                     let _ = guard.act(Session::idle);
                 }
-                drop(self.moved.wait_timeout(guard, POLL_INTERVAL).unwrap_or_else(PoisonError::into_inner));
+                drop(self.freed.wait_timeout(guard, POLL_INTERVAL).unwrap_or_else(PoisonError::into_inner));
                 due = Instant::now();
                 continue;
             }
             let now = Instant::now();
             if self.options.real_time && due > now {
                 let wait = (due - now).min(POLL_INTERVAL);
-                drop(self.moved.wait_timeout(guard, wait).unwrap_or_else(PoisonError::into_inner));
+                drop(self.freed.wait_timeout(guard, wait).unwrap_or_else(PoisonError::into_inner));
                 continue;
             }
             due = due.max(now - POLL_INTERVAL) + Duration::from_secs_f64(guard.session.registry().sample_time());
@@ -286,7 +323,7 @@ impl Hub {
             guard.log(300, format!("client {key} has held the simulation without a word for {seconds} s: let go"));
         }
         guard.try_advance();
-        self.wake();
+        self.wake_for_news(guard);
     }
 }
 
