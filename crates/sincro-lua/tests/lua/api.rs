@@ -78,7 +78,7 @@ fn scripts_share_signals_and_call_each_other() {
     let loaded =
         open(&[("scene.toml", &scene), ("experiment.toml", &experiment), ("arm.lua", arm), ("hinge.lua", hinge)]);
     let said: Vec<String> = run(&loaded.unwrap()).messages.into_iter().map(|m| m.text).collect();
-    assert_eq!(said[..3], ["1.5\tnil", "8\t6", "1.0\t6"]);
+    assert_eq!(said[..3], ["1.5", "8\t6", "1.0\t6"]);
     assert!(said[3].contains("the script of `/hinge/arm` has no function `thrice`"), "{said:?}");
     assert_eq!(said[4..6], ["0", "8\t-1.5"]);
     assert!(said[6].contains("there is no script 12345"), "{said:?}");
