@@ -202,6 +202,41 @@ impl<R: Real> ActiveSet<R> {
         out.extend(self.unknowns.iter().map(|unknown| self.test(*unknown, blocks, rates)));
     }
 
+    /// Changes of the multipliers by changes of the unknowns, of `n` lists at once: row `i` of `deltas` has those of
+    /// unknown `i`, row `k` of `out` those of multiplier `k`.
+    #[inline(always)]
+    pub fn changes(&self, blocks: &[UnilateralConstraint<R>], deltas: &[R], n: usize, out: &mut [R]) {
+        out.fill(R::zero());
+        for (unknown, deltas) in self.unknowns.iter().zip(deltas.chunks_exact(n)) {
+            let mut terms = [(0, R::zero()); MAX_TERMS];
+            for (row, c) in moved(*unknown, blocks, &mut terms) {
+                for (x, delta) in out[row * n..(row + 1) * n].iter_mut().zip(deltas) {
+                    *x += *c * *delta;
+                }
+            }
+        }
+    }
+
+    /// Rates that the conditions of the unknowns test, of `n` lists over rows at once, laid out as in
+    /// [`ActiveSet::changes`].
+    #[inline(always)]
+    pub fn test_all(&self, blocks: &[UnilateralConstraint<R>], rates: &[R], n: usize, out: &mut [R]) {
+        let row = |k: usize| &rates[k * n..(k + 1) * n];
+        for (unknown, out) in self.unknowns.iter().zip(out.chunks_exact_mut(n)) {
+            match *unknown {
+                Unknown::Row(k) => out.copy_from_slice(row(k)),
+                Unknown::Normal(k) => out.copy_from_slice(row(blocks[k].row)),
+                Unknown::Across(k, g) => {
+                    let group = group(blocks, k, g);
+                    let ([d0, d1], one, two) = (group.direction, row(group.row), row(group.row + 1));
+                    for (out, (x, y)) in out.iter_mut().zip(one.iter().zip(two)) {
+                        *out = if group.is_sliding { d0 * *y } else { d0 * *y - d1 * *x };
+                    }
+                }
+            }
+        }
+    }
+
     /// Derivatives of all rates by one unknown.
     fn answer(
         &self,

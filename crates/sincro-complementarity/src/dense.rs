@@ -89,38 +89,52 @@ impl<R: Real> Dense<R> {
         R::run_hot(Elimination { dense: self, rank, out });
     }
 
-    /// Combination of unknowns that the last [`Dense::solve`] found to have no effect, number `k` of `n − rank`.
-    pub fn kernel(&self, k: usize, out: &mut [R]) {
-        let (n, free) = (self.n, self.rank + k);
-        out[..n].fill(R::zero());
-        out[self.columns[free]] = R::one();
-        for i in (0..self.rank).rev() {
-            let mut sum = -self.a[i * n + free];
-            for j in i + 1..self.rank {
-                sum -= self.a[i * n + j] * out[self.columns[j]];
-            }
-            out[self.columns[i]] = sum / self.a[i * n + i];
-        }
-        for (x, scale) in out.iter_mut().zip(&self.scale) {
-            *x *= R::splat(*scale);
-        }
+    /// [`Dense::solve`] as a part of another task.
+    #[inline(always)]
+    pub fn solve_part(&mut self, rank: f64, out: &mut [R]) {
+        self.find(rank, out);
     }
 
-    /// Combination of rows that the last [`Dense::solve`] found to vanish, number `k` of `n − rank`.
-    pub fn left_kernel(&self, k: usize, out: &mut [R]) {
-        let (n, free) = (self.n, self.rank + k);
-        out[..n].fill(R::zero());
-        out[self.rows[free]] = R::one();
-        for i in (0..self.rank).rev() {
-            // elimination leaves the multiples of its pivots below them
-            let mut sum = -self.a[free * n + i];
-            for j in i + 1..self.rank {
-                sum -= self.a[j * n + i] * out[self.rows[j]];
-            }
-            out[self.rows[i]] = sum / self.a[i * n + i];
+    /// Combinations of unknowns that the last [`Dense::solve`] found to have no effect, `n − rank` of them: row `i` of
+    /// `out` has the shares of unknown `i` in each.
+    #[inline(always)]
+    pub fn kernel(&self, out: &mut [R], sums: &mut Vec<R>) {
+        self.substitute(&self.columns, |i, j| self.a[i * self.n + j], out, sums);
+    }
+
+    /// Combinations of rows that the last [`Dense::solve`] found to vanish, as [`Dense::kernel`].
+    #[inline(always)]
+    pub fn left_kernel(&self, out: &mut [R], sums: &mut Vec<R>) {
+        // elimination leaves the multiples of its pivots below them
+        self.substitute(&self.rows, |i, j| self.a[j * self.n + i], out, sums);
+    }
+
+    /// Solves U x = −u for the columns u beyond the rank, all at once.
+    #[inline(always)]
+    fn substitute(&self, order: &[usize], entry: impl Fn(usize, usize) -> R, out: &mut [R], sums: &mut Vec<R>) {
+        let (rank, redundant) = (self.rank, self.n - self.rank);
+        out.fill(R::zero());
+        for k in 0..redundant {
+            out[order[rank + k] * redundant + k] = R::one();
         }
-        for (x, scale) in out.iter_mut().zip(&self.scale) {
-            *x *= R::splat(*scale);
+        for i in (0..rank).rev() {
+            sums.clear();
+            sums.extend((0..redundant).map(|k| -entry(i, rank + k)));
+            for j in i + 1..rank {
+                let (factor, known) = (entry(i, j), order[j] * redundant);
+                for (sum, x) in sums.iter_mut().zip(&out[known..known + redundant]) {
+                    *sum -= factor * *x;
+                }
+            }
+            let at = order[i] * redundant;
+            for (x, sum) in out[at..at + redundant].iter_mut().zip(&*sums) {
+                *x = *sum / entry(i, i);
+            }
+        }
+        for (row, scale) in out.chunks_exact_mut(redundant).zip(&self.scale) {
+            for x in row {
+                *x *= R::splat(*scale);
+            }
         }
     }
 

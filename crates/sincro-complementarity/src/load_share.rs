@@ -13,7 +13,7 @@
 //! load shifts instead: of all shares with friction at its limit, the one taken is nearest to that of equal stiffness,
 //! by Σ gᵢ Δλᵢ². So friction that some share can keep within its limit does not slip.
 
-use sincro_math::{Real, dot};
+use sincro_math::{Real, Task};
 
 use super::active_set::{ActiveSet, ContactProblem};
 use super::cone::{ContactMode, UnilateralConstraint};
@@ -25,6 +25,10 @@ const MAX_CREEPING: usize = 12;
 
 /// Maximum number of shifts of the load: directions of friction at its limit change with each.
 const MAX_SHIFTS: usize = 60;
+
+/// Number of shifts in a row that may come no nearer, by half, to friction within its limits: what converges within
+/// [`MAX_SHIFTS`] comes nearer.
+const PATIENCE: usize = 8;
 
 /// Square of the effect of shares on friction at its limit, relative to that of their terms, that is none.
 const NO_EFFECT: f64 = 1e-20;
@@ -45,17 +49,17 @@ struct Creeping<R> {
 }
 
 impl<R: Real> Creeping<R> {
-    /// Force along the direction beyond the limit.
-    fn beyond(&self, lambda: &[R]) -> R {
-        let mut sum = -self.limit(lambda);
+    /// Force along the direction beyond the limit, by the multiplier of each row.
+    fn beyond(&self, lambda: impl Fn(usize) -> R) -> R {
+        let mut sum = -self.limit(&lambda);
         for k in 0..self.dim {
-            sum += self.direction[k] * lambda[self.row + k];
+            sum += self.direction[k] * lambda(self.row + k);
         }
         sum
     }
 
-    fn limit(&self, lambda: &[R]) -> R {
-        lambda[self.normal] * R::splat(self.coefficient)
+    fn limit(&self, lambda: impl Fn(usize) -> R) -> R {
+        lambda(self.normal) * R::splat(self.coefficient)
     }
 }
 
@@ -66,11 +70,21 @@ pub(crate) struct LoadShare<R> {
     compliances: Vec<R>,
     deformation: Vec<R>,
     tests: Vec<R>,
-    /// Changes of the unknowns or of the tests, and of the multipliers.
+    sums: Vec<R>,
+    /// Unknowns without effect, vanishing combinations of rows, and multipliers without effect: a row for each unknown,
+    /// row or multiplier, with its share in each combination.
     unknowns: Vec<R>,
-    /// Vanishing combinations of rows, and multipliers without effect, one after the other.
     vanishing: Vec<R>,
     kernel: Vec<R>,
+    /// Deformations by the multipliers without effect, and their tests, laid out alike.
+    deformations: Vec<R>,
+    all_tests: Vec<R>,
+    /// Deformation incompatible with the motion of the bodies, by each of the multipliers without effect and by those
+    /// before anything is added: row by row of the vanishing combinations.
+    incompatible: Vec<R>,
+    of_elastic: Vec<R>,
+    /// Metric of the multipliers without effect, row by row.
+    metric: Vec<R>,
     system: Dense<R>,
     parts: Vec<R>,
     creeping: Vec<Creeping<R>>,
@@ -91,19 +105,31 @@ impl<R: Real> LoadShare<R> {
         blocks: &[UnilateralConstraint<R>],
         lambda: &mut [R],
     ) {
+        R::run_hot(Sharing { share: self, problem, dense, active_set, blocks, lambda });
+    }
+
+    #[inline(always)]
+    fn find(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        (dense, active_set): (&Dense<R>, &ActiveSet<R>),
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) {
         let (m, n, redundant) = (problem.m(), dense.n, dense.n - dense.rank);
         self.find_compliances(problem, blocks);
         self.find_kernels((m, n, redundant), (dense, active_set), blocks);
         self.creeping.clear();
         self.elastic.clear();
         self.elastic.extend_from_slice(lambda);
+        self.find_incompatible((m, n, redundant), active_set, blocks);
         for updates in 0..MAX_CREEPING {
-            self.assemble((m, n, redundant), active_set, blocks);
+            self.assemble((m, redundant), active_set, blocks);
             self.solve_parts(redundant);
             lambda.copy_from_slice(&self.elastic);
-            self.add_parts(m, lambda);
+            self.add_parts(redundant, lambda);
             if self.system.rank < self.parts.len() {
-                if updates > 0 && self.find_creeping(blocks, lambda) {
+                if updates > 0 && self.find_creeping(blocks, lambda).is_some() {
                     self.shift_load((m, redundant), blocks, lambda);
                 }
                 return;
@@ -112,23 +138,25 @@ impl<R: Real> LoadShare<R> {
                 self.equal.clear();
                 self.equal.extend_from_slice(lambda);
             }
-            if !self.find_creeping(blocks, lambda) {
+            if self.find_creeping(blocks, lambda).is_none() {
                 return;
             }
         }
     }
 
     /// Solves the system for the parts of the multipliers without effect, and for one unknown of each creeping group.
+    #[inline(always)]
     fn solve_parts(&mut self, redundant: usize) {
         self.parts.clear();
         self.parts.resize(redundant + self.creeping.len(), R::zero());
-        self.system.solve(RANK, &mut self.parts);
+        self.system.solve_part(RANK, &mut self.parts);
     }
 
     /// Adds the parts of the multipliers without effect.
-    fn add_parts(&self, m: usize, lambda: &mut [R]) {
-        for (combination, part) in self.kernel.chunks_exact(m).zip(&self.parts) {
-            for (lambda, x) in lambda.iter_mut().zip(combination) {
+    #[inline(always)]
+    fn add_parts(&self, redundant: usize, lambda: &mut [R]) {
+        for (lambda, shares) in lambda.iter_mut().zip(self.kernel.chunks_exact(redundant)) {
+            for (x, part) in shares.iter().zip(&self.parts) {
                 *lambda += *part * *x;
             }
         }
@@ -136,10 +164,13 @@ impl<R: Real> LoadShare<R> {
 
     /// Shifts the load to the share nearest to that of equal stiffness in which the friction that is listed as creeping
     /// is at its limit; where there is none, λ stays as it is.
+    #[inline(always)]
     fn shift_load(&mut self, (m, redundant): (usize, usize), blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
+        self.find_metric((m, redundant));
         let mut shifted = core::mem::take(&mut self.shifted);
+        let (mut least, mut since) = (f64::INFINITY, 0);
         for _ in 0..MAX_SHIFTS {
-            if !self.assemble_shift((m, redundant)) {
+            if !self.assemble_shift(redundant) {
                 break;
             }
             self.solve_parts(redundant);
@@ -148,30 +179,53 @@ impl<R: Real> LoadShare<R> {
             }
             shifted.clear();
             shifted.extend_from_slice(&self.equal);
-            self.add_parts(m, &mut shifted);
-            if !self.find_creeping(blocks, &shifted) {
+            self.add_parts(redundant, &mut shifted);
+            let Some(excess) = self.find_creeping(blocks, &shifted) else {
                 lambda.copy_from_slice(&shifted);
+                break;
+            };
+            // shares that are none come no nearer
+            since += 1;
+            if excess < 0.5 * least {
+                (least, since) = (excess, 0);
+            } else if since > PATIENCE {
                 break;
             }
         }
         self.shifted = shifted;
     }
 
+    /// Metric Σ gᵢ Δλᵢ² of the multipliers without effect.
+    #[inline(always)]
+    fn find_metric(&mut self, (m, redundant): (usize, usize)) {
+        self.metric.clear();
+        self.metric.resize(redundant * redundant, R::zero());
+        for (shares, compliance) in self.kernel.chunks_exact(redundant).zip(&self.compliances[..m]) {
+            for (row, x) in self.metric.chunks_exact_mut(redundant).zip(shares) {
+                for (sum, y) in row.iter_mut().zip(shares) {
+                    *sum += *x * *y * *compliance;
+                }
+            }
+        }
+    }
+
     /// Fills the linear system of the least shift, with one multiplier of each friction at its limit; returns false if
     /// shares have no effect on one of them.
-    fn assemble_shift(&mut self, (m, redundant): (usize, usize)) -> bool {
+    #[inline(always)]
+    fn assemble_shift(&mut self, redundant: usize) -> bool {
         self.system.reset(redundant + self.creeping.len());
-        let kernel = |k: usize| &self.kernel[k * m..(k + 1) * m];
-        for (i, j) in (0..redundant).flat_map(|i| (0..redundant).map(move |j| (i, j))) {
-            let products = kernel(i).iter().zip(kernel(j)).zip(&self.compliances);
-            let metric = products.fold(R::zero(), |sum, ((x, y), compliance)| sum + *x * *y * *compliance);
-            self.system.set(i, j, metric);
+        for (i, row) in self.metric.chunks_exact(redundant).enumerate() {
+            for (j, x) in row.iter().enumerate() {
+                self.system.set(i, j, *x);
+            }
         }
+        let shares = &self.kernel;
+        let kernel = |j: usize| move |row: usize| shares[row * redundant + j];
         for (k, creeping) in self.creeping.iter().enumerate() {
             let row = redundant + k;
             let (mut effect, mut terms) = (0.0, 0.0);
             for j in 0..redundant {
-                let size = self.system.get(j, j).lane(0).max(f64::MIN_POSITIVE);
+                let size = self.metric[j * redundant + j].lane(0).max(f64::MIN_POSITIVE);
                 let (beyond, limit) = (creeping.beyond(kernel(j)).lane(0), creeping.limit(kernel(j)).lane(0));
                 effect += beyond * beyond / size;
                 let of_terms = (beyond + limit).abs() + limit.abs();
@@ -187,60 +241,92 @@ impl<R: Real> LoadShare<R> {
                 self.system.set(row, j, scaled);
                 self.system.set(j, row, scaled);
             }
-            self.system.rhs[row] = -(creeping.beyond(&self.equal) * scale);
+            self.system.rhs[row] = -(creeping.beyond(|row| self.equal[row]) * scale);
         }
         true
     }
 
-    /// Fills the linear system: compatible deformations, and friction at its limit where it creeps.
-    fn assemble(
+    /// Finds the incompatible deformations, which are the same wherever friction creeps.
+    #[inline(always)]
+    fn find_incompatible(
         &mut self,
         (m, n, redundant): (usize, usize, usize),
         active_set: &ActiveSet<R>,
         blocks: &[UnilateralConstraint<R>],
     ) {
-        let size = redundant + self.creeping.len();
-        self.system.reset(size);
-        for j in 0..=size {
-            // the last column is the right-hand side
-            self.deformation.clear();
-            let multipliers = if j < redundant { &self.kernel[j * m..(j + 1) * m] } else { &self.elastic[..] };
-            if j < redundant || j == size {
-                let products = multipliers.iter().zip(&self.compliances).map(|(x, compliance)| *x * *compliance);
-                self.deformation.extend(products);
-            } else {
-                self.deformation.resize(m, R::zero());
-                let Creeping { row, dim, direction, .. } = self.creeping[j - redundant];
-                self.deformation[row..row + dim].copy_from_slice(&direction[..dim]);
+        for (list, len) in [
+            (&mut self.deformations, m * redundant),
+            (&mut self.all_tests, n * redundant),
+            (&mut self.incompatible, redundant * redundant),
+        ] {
+            list.clear();
+            list.resize(len, R::zero());
+        }
+        let deformations = self.deformations.chunks_exact_mut(redundant).zip(self.kernel.chunks_exact(redundant));
+        for ((deformations, shares), compliance) in deformations.zip(&self.compliances) {
+            for (deformation, x) in deformations.iter_mut().zip(shares) {
+                *deformation = *x * *compliance;
             }
-            active_set.tests(blocks, &self.deformation, &mut self.tests);
-            for (i, y) in self.vanishing.chunks_exact(n).enumerate() {
-                let sum = dot(y, &self.tests);
-                if j < size { self.system.set(i, j, sum) } else { self.system.rhs[i] = -sum }
-            }
-            for (i, creeping) in self.creeping.iter().enumerate().filter(|_| j < redundant || j == size) {
-                let beyond = creeping.beyond(multipliers);
-                if j < size {
-                    self.system.set(redundant + i, j, beyond);
-                } else {
-                    self.system.rhs[redundant + i] = -beyond;
+        }
+        active_set.test_all(blocks, &self.deformations, redundant, &mut self.all_tests);
+        for (y, tests) in self.vanishing.chunks_exact(redundant).zip(self.all_tests.chunks_exact(redundant)) {
+            for (sums, y) in self.incompatible.chunks_exact_mut(redundant).zip(y) {
+                for (sum, test) in sums.iter_mut().zip(tests) {
+                    *sum += *y * *test;
                 }
             }
+        }
+        self.deformation.clear();
+        self.deformation.extend(self.elastic.iter().zip(&self.compliances).map(|(x, compliance)| *x * *compliance));
+        active_set.tests(blocks, &self.deformation, &mut self.tests);
+        combine(&self.vanishing, redundant, &self.tests, &mut self.of_elastic);
+    }
+
+    /// Fills the linear system: compatible deformations, and friction at its limit where it creeps.
+    #[inline(always)]
+    fn assemble(
+        &mut self,
+        (m, redundant): (usize, usize),
+        active_set: &ActiveSet<R>,
+        blocks: &[UnilateralConstraint<R>],
+    ) {
+        self.system.reset(redundant + self.creeping.len());
+        for (i, sums) in self.incompatible.chunks_exact(redundant).enumerate() {
+            for (j, sum) in sums.iter().enumerate() {
+                self.system.set(i, j, *sum);
+            }
+            self.system.rhs[i] = -self.of_elastic[i];
+        }
+        for (k, creeping) in self.creeping.iter().enumerate() {
+            let (at, dim) = (redundant + k, creeping.dim);
+            self.deformation.clear();
+            self.deformation.resize(m, R::zero());
+            self.deformation[creeping.row..creeping.row + dim].copy_from_slice(&creeping.direction[..dim]);
+            active_set.tests(blocks, &self.deformation, &mut self.tests);
+            combine(&self.vanishing, redundant, &self.tests, &mut self.sums);
+            for (i, sum) in self.sums.iter().enumerate() {
+                self.system.set(i, at, *sum);
+            }
+            for j in 0..redundant {
+                self.system.set(at, j, creeping.beyond(|row| self.kernel[row * redundant + j]));
+            }
+            self.system.rhs[at] = -creeping.beyond(|row| self.elastic[row]);
         }
     }
 
     /// Lists the sticking friction that is beyond its limit, which creeps as far as the compliances of the others let
-    /// it; returns true if there is any that was not listed so yet.
-    fn find_creeping(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R]) -> bool {
+    /// it; returns the largest excess, relative to the largest force, none if all is within its limits.
+    fn find_creeping(&mut self, blocks: &[UnilateralConstraint<R>], lambda: &[R]) -> Option<f64> {
         let force = lambda.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
-        let mut found = false;
+        let mut largest: Option<f64> = None;
         for block in blocks.iter().filter(|block| !block.open) {
             for group in block.groups.iter().flatten().filter(|group| group.mode == ContactMode::Stick) {
                 let size = norm(pair(group, lambda));
-                if size - group.coefficient * lambda[block.row].lane(0).max(0.0) <= CREEPS * force {
+                let excess = size - group.coefficient * lambda[block.row].lane(0).max(0.0);
+                if excess <= CREEPS * force {
                     continue;
                 }
-                found = true;
+                largest = Some(largest.unwrap_or(0.0).max(excess / force));
                 let direction = std::array::from_fn(|k| {
                     if k < group.dim { lambda[group.row + k] * R::splat(1.0 / size) } else { R::zero() }
                 });
@@ -257,7 +343,7 @@ impl<R: Real> LoadShare<R> {
                 }
             }
         }
-        found
+        largest
     }
 
     fn find_kernels(
@@ -266,19 +352,17 @@ impl<R: Real> LoadShare<R> {
         (dense, active_set): (&Dense<R>, &ActiveSet<R>),
         blocks: &[UnilateralConstraint<R>],
     ) {
-        for (list, len) in
-            [(&mut self.unknowns, n), (&mut self.vanishing, redundant * n), (&mut self.kernel, redundant * m)]
-        {
+        for (list, len) in [
+            (&mut self.unknowns, n * redundant),
+            (&mut self.vanishing, n * redundant),
+            (&mut self.kernel, m * redundant),
+        ] {
             list.clear();
             list.resize(len, R::zero());
         }
-        for (k, combination) in self.vanishing.chunks_exact_mut(n).enumerate() {
-            dense.left_kernel(k, combination);
-        }
-        for (k, combination) in self.kernel.chunks_exact_mut(m).enumerate() {
-            dense.kernel(k, &mut self.unknowns);
-            active_set.change(blocks, &self.unknowns, combination);
-        }
+        dense.left_kernel(&mut self.vanishing, &mut self.sums);
+        dense.kernel(&mut self.unknowns, &mut self.sums);
+        active_set.changes(blocks, &self.unknowns, redundant, &mut self.kernel);
     }
 
     fn find_compliances(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>]) {
@@ -289,5 +373,36 @@ impl<R: Real> LoadShare<R> {
             let mean = (self.compliances[group.row] + self.compliances[group.row + 1]) * R::splat(0.5);
             self.compliances[group.row..group.row + 2].fill(mean);
         }
+    }
+}
+
+/// Sums of a list over the rows, weighted by each of `n` combinations.
+#[inline(always)]
+fn combine<R: Real>(combinations: &[R], n: usize, list: &[R], sums: &mut Vec<R>) {
+    sums.clear();
+    sums.resize(n, R::zero());
+    for (shares, x) in combinations.chunks_exact(n).zip(list) {
+        for (sum, share) in sums.iter_mut().zip(shares) {
+            *sum += *share * *x;
+        }
+    }
+}
+
+struct Sharing<'a, R> {
+    share: &'a mut LoadShare<R>,
+    problem: &'a ContactProblem<'a, R>,
+    dense: &'a Dense<R>,
+    active_set: &'a ActiveSet<R>,
+    blocks: &'a [UnilateralConstraint<R>],
+    lambda: &'a mut [R],
+}
+
+impl<R: Real> Task for Sharing<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { share, problem, dense, active_set, blocks, lambda } = self;
+        share.find(problem, (dense, active_set), blocks, lambda);
     }
 }
