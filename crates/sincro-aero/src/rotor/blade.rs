@@ -281,7 +281,9 @@ impl Rotor {
     fn flow<R: Real>(&self, speed: R, velocity: Vec3<R>) -> Flow<R> {
         let mirror = speed.if_less(R::zero(), R::splat(-1.0), R::one());
         let tip = limited(speed).abs() * R::splat(self.spec.radius);
-        let [x, y, z] = velocity.0.map(limited);
+        let [x, y, z] = velocity.0;
+        // no closure: it would not be compiled for lanes
+        let (x, y, z) = (limited(x), limited(y), limited(z));
         let square = x * x + y * y;
         // a square that underflows has no slope either: its root would make one of 1/0
         let in_plane_squared = square.if_less(R::splat(f64::MIN_POSITIVE), R::zero(), square);

@@ -246,7 +246,10 @@ impl<R: Real> MountedRotor<R> {
             RotorLaw::Constant(law) => law.evaluate(speed),
             RotorLaw::Table(law) => law.evaluate(self.density, speed, hub.velocity),
             RotorLaw::Stock(law) => {
-                let flow = self.speed.state().map_or(R::zero(), |state| rotors[state]);
+                let flow = match self.speed.state() {
+                    Some(state) => rotors[state],
+                    None => R::zero(),
+                };
                 Load { thrust: flow * speed, torque: law.torque(speed), ..Load::default() }
             }
             RotorLaw::Printed(script) => {

@@ -18,6 +18,12 @@ use crate::joint::{Link, StageKind, WORLD};
 use crate::model::{LoopJointKind, Model};
 use crate::spatial::{Quat, RigidInertia, Sym3, Vec3};
 
+/// Mask of a rate `k`: 1 where no drive prescribes it (1 in `locked`) and its joint has no inertia of its own, else 0.
+#[inline(always)]
+fn is_alone<R: Real>(model: &Model<R>, locked: &[R], k: usize) -> R {
+    R::zero().if_less(model.dofs[k].armature, R::zero(), R::one() - locked[k])
+}
+
 /// Link whose axes rotate with a free or ball joint on the world.
 #[derive(Clone, Copy, Debug)]
 struct RotatingLink {
@@ -33,7 +39,11 @@ impl RotatingLink {
     /// Point whose velocity keeps its direction `[m]`, link axes.
     #[inline(always)]
     fn point<R: Real>(&self, inertia: &RigidInertia<R>) -> Vec3<R> {
-        self.pivot.map_or_else(|| inertia.center_of_mass(), |pivot| Vec3(pivot.0.map(R::splat)))
+        // no closures: they would not be compiled for lanes
+        match self.pivot {
+            None => inertia.center_of_mass(),
+            Some(Vec3([x, y, z])) => Vec3([R::splat(x), R::splat(y), R::splat(z)]),
+        }
     }
 
     /// Rotational inertia about that point.
@@ -114,8 +124,8 @@ impl RotatingLinks {
             let omega = vector(v, k);
             let inertia = if link.is_free() { rotating.inertia(inertia) } else { inertia.rotational };
             let correction = omega.cross(inertia.mul_vec(omega)) - inertia.mean_gyroscopic_torque(omega, h);
-            let is_alone = |c: usize| R::zero().if_less(model.dofs[c].armature, R::zero(), R::one() - locked[c]);
-            let turns_freely = is_alone(k) * is_alone(k + 1) * is_alone(k + 2);
+            let [x, y, z] = [k, k + 1, k + 2];
+            let turns_freely = is_alone(model, locked, x) * is_alone(model, locked, y) * is_alone(model, locked, z);
             for c in 0..3 {
                 torque[k + c] += turns_freely * correction[c];
             }

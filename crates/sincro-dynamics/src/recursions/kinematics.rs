@@ -11,6 +11,7 @@ use crate::scratch::{LinkScratch, Scratch};
 use crate::spatial::{Mat3, Motion, Pose, Vec3};
 
 /// Configures every joint at `q`.
+#[inline(always)]
 pub(crate) fn place<R: Real>(model: &Model<R>, q: &[R], scratch: &mut Scratch<R>) {
     for (link, out) in model.links.iter().zip(&mut scratch.links) {
         link.kind.dispatch(Place { link, q: &q[link.q_idx as usize..], at: &mut out.at });
@@ -142,12 +143,17 @@ impl<R: Real> StageVisitor for Outward<'_, R> {
 }
 
 /// Pose of a frame in the world `[m]`; `scratch` must hold [`poses`] or [`motions`].
+#[inline(always)]
 pub fn frame_pose<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Pose<R> {
-    frame.link.map_or(frame.pose, |link| scratch.poses[link].compose(&frame.pose))
+    match frame.link {
+        Some(link) => scratch.poses[link].compose(&frame.pose),
+        None => frame.pose,
+    }
 }
 
 /// Velocity of a frame: angular `[rad/s]` and that of its origin `[m/s]`, in world axes; zero in the world. `scratch`
 /// must hold [`motions`].
+#[inline(always)]
 pub fn frame_velocity<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
     let Some(link) = frame.link else { return Motion::zero() };
     let (v, rot) = (scratch.links[link].v, &scratch.poses[link].rot);
@@ -156,6 +162,7 @@ pub fn frame_velocity<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Mot
 
 /// Acceleration of a frame: angular `[rad/s²]` and that of its origin `[m/s²]` (the second derivative of the position),
 /// in world axes, gravity not included: zero at rest. `scratch` must hold [`motions`].
+#[inline(always)]
 pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) -> Motion<R> {
     let Some(link) = frame.link else { return Motion::zero() };
     let (v, a, rot) = (scratch.links[link].v, scratch.links[link].a, &scratch.poses[link].rot);
@@ -190,9 +197,32 @@ pub fn frame_acceleration<R: Real>(scratch: &Scratch<R>, frame: &Attached<R>) ->
 /// # Ok::<(), BuildError>(())
 /// ```
 pub fn jacobian<R: Real>(model: &Model<R>, q: &[R], frame: &Attached<R>, scratch: &mut Scratch<R>, out: &mut [R]) {
+    poses(model, q, scratch);
+    let columns = Columns { model, frame, scratch, out };
+    if R::IS_SCALAR { columns.run() } else { R::run_hot(columns) }
+}
+
+/// Columns of a Jacobian, of the joints that carry the frame.
+struct Columns<'a, R> {
+    model: &'a Model<R>,
+    frame: &'a Attached<R>,
+    scratch: &'a Scratch<R>,
+    out: &'a mut [R],
+}
+
+impl<R: Real> Task for Columns<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Self { model, frame, scratch, out } = self;
+        jacobian_columns(model, frame, scratch, out);
+    }
+}
+
+#[inline(always)]
+fn jacobian_columns<R: Real>(model: &Model<R>, frame: &Attached<R>, scratch: &Scratch<R>, out: &mut [R]) {
     let n = model.n_v();
     out.fill(R::zero());
-    poses(model, q, scratch);
     let tip = frame_pose(scratch, frame).pos;
     let mut at = frame.link;
     while let Some(i) = at {
@@ -219,6 +249,7 @@ struct UnitColumn<'a, R> {
 impl<R: Real> StageVisitor for UnitColumn<'_, R> {
     type Number = R;
     type Output = Motion<R>;
+    #[inline(always)]
     fn visit<S: Stage>(self) -> Motion<R> {
         S::column(self.link, self.j, self.link.signed::<S>(R::one()))
     }
@@ -227,9 +258,10 @@ impl<R: Real> StageVisitor for UnitColumn<'_, R> {
 /// Roll, pitch and yaw, in this order `[rad]`, of the rotation `rot` = Rz(yaw)·Ry(pitch)·Rx(roll); pitch in [−π/2,
 /// π/2]. At ±π/2 roll and yaw are not unique.
 #[must_use]
+#[inline(always)]
 pub fn roll_pitch_yaw<R: Real>(rot: &Mat3<R>) -> Vec3<R> {
     let m = &rot.0;
     let pitch = (-m[2][0]).clamp_abs(R::one()).unary(Unary::Asin);
-    let atan2 = |y: R, x: R| y.binary(Binary::Atan2, x);
-    Vec3([atan2(m[2][1], m[2][2]), pitch, atan2(m[1][0], m[0][0])])
+    let (roll, yaw) = (m[2][1].binary(Binary::Atan2, m[2][2]), m[1][0].binary(Binary::Atan2, m[0][0]));
+    Vec3([roll, pitch, yaw])
 }

@@ -35,8 +35,10 @@ impl<R: Real> Mat3<R> {
     }
 
     /// Matrix of the constants `m`, given by rows, in numbers of type `R`; the units stay.
+    #[inline(always)]
     pub fn splat(m: [[f64; 3]; 3]) -> Self {
-        Self(m.map(|row| row.map(R::splat)))
+        let [x, y, z] = m;
+        Self([Vec3::splat(x).0, Vec3::splat(y).0, Vec3::splat(z).0])
     }
 
     /// Rotation about coordinate axis `A` (0 is x, 1 y, 2 z) by the angle with this sine and cosine (dimensionless):

@@ -153,7 +153,8 @@ impl<R: Real> Quat<R> {
         }
         let q = Self::from_slice(&q).normalized();
         let of_sign = |x: R| q.w.if_less(R::zero(), -x, x);
-        Self { w: of_sign(q.w), xyz: Vec3(q.xyz.0.map(of_sign)) }
+        let [x, y, z] = q.xyz.0;
+        Self { w: of_sign(q.w), xyz: Vec3([of_sign(x), of_sign(y), of_sign(z)]) }
     }
 }
 

@@ -62,7 +62,8 @@ impl<R: Real> Vec3<R> {
     /// Vector of the constants `v` (x, y, z) in numbers of type `R`; the units stay.
     #[inline(always)]
     pub fn splat(v: [f64; 3]) -> Self {
-        Self(v.map(R::splat))
+        let [x, y, z] = v;
+        Self([R::splat(x), R::splat(y), R::splat(z)])
     }
 
     /// Dot product with `b`; the units multiply.

@@ -5,7 +5,7 @@
 //! or an `if` decided by a NaN is NaN, so that a failure reaches the caller instead of becoming a plausible branch.
 
 use super::function::Function;
-use crate::{Real, elementary};
+use crate::{Real, Task, elementary};
 
 /// One step of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ impl Op {
     }
 
     /// The result, given the operands and the values of the names.
-    #[inline]
+    #[inline(always)]
     fn apply<R: Real>(self, operands: &[R], values: &[R]) -> R {
         match self {
             Self::Constant(x) => R::splat(x),
@@ -74,7 +74,7 @@ impl Op {
 }
 
 impl Binary {
-    #[inline]
+    #[inline(always)]
     fn apply<R: Real>(self, a: R, b: R) -> R {
         match self {
             Self::Add => a + b,
@@ -94,7 +94,24 @@ impl Binary {
     }
 }
 
+/// Evaluation in lanes, compiled for them as a whole.
+pub(super) struct Run<'a, R> {
+    pub program: &'a [Op],
+    pub values: &'a [R],
+    pub stack: &'a mut Vec<R>,
+}
+
+impl<R: Real> Task for Run<'_, R> {
+    type Output = R;
+
+    #[inline(always)]
+    fn run(self) -> R {
+        run(self.program, self.values, self.stack)
+    }
+}
+
 /// Runs a program. `stack` is emptied first; it does not grow if its capacity is the depth of the program.
+#[inline(always)]
 pub(super) fn run<R: Real>(program: &[Op], values: &[R], stack: &mut Vec<R>) -> R {
     stack.clear();
     for op in program {

@@ -102,6 +102,7 @@ impl Function {
     }
 
     /// The value at `x`, whose length the parser has checked.
+    #[inline(always)]
     pub(super) fn apply<R: Real>(self, x: &[R]) -> R {
         match self {
             Self::Sin => x[0].sin_cos().0,

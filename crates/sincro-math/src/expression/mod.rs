@@ -131,7 +131,10 @@ impl Expression {
     /// If there are fewer values than names.
     pub fn eval<R: Real>(&self, values: &[R], stack: &mut Vec<R>) -> R {
         assert!(values.len() >= self.n_names, "{} values for {} names", values.len(), self.n_names);
-        eval::run(&self.program, values, stack)
+        if R::IS_SCALAR {
+            return eval::run(&self.program, values, stack);
+        }
+        R::run_hot(eval::Run { program: &self.program, values, stack })
     }
 
     /// Value of the formula, as of [`Expression::eval`], with a stack of fixed length and any content.

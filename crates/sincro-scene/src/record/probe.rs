@@ -162,10 +162,8 @@ fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
         RotorQuantity::Torque => load.torque,
         RotorQuantity::Inflow => load.inflow,
         RotorQuantity::Power => load.power,
-        RotorQuantity::Valid => match at.model.rotors()[k].validity(speed, &hub, &load) {
-            Validity::Valid => R::one(),
-            _ => R::zero(),
-        },
+        RotorQuantity::Valid if at.model.rotors()[k].validity(speed, &hub, &load) == Validity::Valid => R::one(),
+        RotorQuantity::Valid => R::zero(),
     }
 }
 
@@ -256,10 +254,10 @@ fn of_bushing<R: Real>(at: &View<'_, R>, quantity: BushingQuantity, k: usize, co
 /// # Panics
 ///
 /// If there is no such frame.
+#[inline(always)]
 pub fn attached<R: Real>(model: &Model<R>, frame: usize) -> Attached<R> {
     let info = &model.names().frames[frame];
-    let rot = Mat3(info.pose.rot.0.map(|row| row.map(R::splat)));
-    Attached { link: info.link, pose: Pose { rot, pos: Vec3(info.pose.pos.0.map(R::splat)) } }
+    Attached { link: info.link, pose: Pose { rot: Mat3::splat(info.pose.rot.0), pos: Vec3::splat(info.pose.pos.0) } }
 }
 
 fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, component: usize) -> R {
@@ -276,8 +274,7 @@ fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, co
         FrameQuantity::AngularVelocity => kinematics::frame_velocity(at.scratch, &fixed).ang[component],
         FrameQuantity::Acceleration => kinematics::frame_acceleration(at.scratch, &fixed).lin[component],
         FrameQuantity::Wind => {
-            let place = pose().pos;
-            at.model.wind().map_or(R::zero(), |wind| wind.at(at.t).velocity_at(place)[component])
+            at.model.wind().map_or(R::zero(), |wind| wind.at(at.t).velocity_at(pose().pos)[component])
         }
         FrameQuantity::CenterOfMass => {
             let com = at.model.mass_properties(BodyId::new(frame)).map_or([0.0; 3], |mass| mass.center_of_mass);
