@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sincro_math::{Real, Task};
 
 use super::{BatchSettings, BatchWorld, CompiledStep};
-use crate::coupled::StateView;
+use crate::coupled::{Coupled, CoupledSystem, StateView};
 use crate::integrate::{Control, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::kinematics;
 use crate::mechanism::Mechanism;
@@ -41,10 +41,15 @@ use crate::world::{MethodKind, Stop};
 #[derive(Clone, Debug)]
 pub struct LaneWorlds<R> {
     pub(super) mechanism: Mechanism<R>,
+    /// Unknowns of the mechanism, then the states of the coupled system.
     pub(super) y: Vec<R>,
     pub(super) reach_target_velocities: Vec<R>,
     /// Time derivative of `y`, as last computed for a view with accelerations.
     slope: Vec<R>,
+    /// Diagonal of −∂f/∂z of the coupled system; its length is the number of its states.
+    negated_jacobian_diagonal: Vec<R>,
+    /// Target velocities of the drives in a step with a coupled system.
+    target_velocities: Vec<R>,
     method: FixedMethod<R>,
     compiled: Option<Arc<dyn CompiledStep>>,
     /// State and commands as the compiled step has them.
@@ -57,6 +62,17 @@ enum FixedMethod<R> {
     Euler(SemiImplicitEuler<R>),
     Rk4(Rk4<R>),
     Implicit(Extrapolated<R>),
+}
+
+impl<R: Real> FixedMethod<R> {
+    #[inline(always)]
+    fn step<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &mut [R]) {
+        match self {
+            Self::Euler(method) => method.step(system, t, h, y),
+            Self::Rk4(method) => method.step(system, t, h, y),
+            Self::Implicit(method) => method.step(system, t, h, y),
+        }
+    }
 }
 
 /// One step from time `t` `[s]` of length `h` `[s]`.
@@ -77,14 +93,47 @@ impl<R: Real> Task for Step<'_, R> {
             worlds.drive(h);
         }
         let LaneWorlds { mechanism, y, method, .. } = worlds;
-        match method {
-            FixedMethod::Euler(method) => method.step(mechanism, t, h, y),
-            FixedMethod::Rk4(method) => method.step(mechanism, t, h, y),
-            FixedMethod::Implicit(method) => method.step(mechanism, t, h, y),
-        }
+        method.step(mechanism, t, h, y);
         if is_driven && worlds.is_euler() {
             worlds.set_driven_velocities();
         }
+    }
+}
+
+/// One step together with a coupled system.
+struct StepWith<'a, R> {
+    worlds: &'a mut LaneWorlds<R>,
+    system: &'a mut dyn CoupledSystem<R>,
+    t: f64,
+    h: f64,
+}
+
+impl<R: Real> Task for StepWith<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { worlds, system, t, h } = self;
+        let own = worlds.mechanism.dim();
+        worlds.y[own..].copy_from_slice(system.states());
+        let n_drives = worlds.mechanism.drives.len();
+        if n_drives > 0 {
+            for i in 0..n_drives {
+                worlds.target_velocities[i] = worlds.target_velocity(i);
+            }
+            worlds.drive(h);
+        }
+        let LaneWorlds { mechanism, y, method, negated_jacobian_diagonal, .. } = worlds;
+        method.step(&mut Coupled { mechanism, system: &mut *system, negated_jacobian_diagonal }, t, h, y);
+        if worlds.is_euler() {
+            // those that were latched: the system may have changed the commands since
+            let layout = worlds.mechanism.layout();
+            for i in 0..n_drives {
+                let dof = worlds.mechanism.model.params.drives[i].dof;
+                worlds.y[layout.velocity(dof)] = worlds.target_velocities[i];
+            }
+        }
+        system.states().copy_from_slice(&worlds.y[own..]);
     }
 }
 
@@ -99,8 +148,9 @@ impl<R: Real> Task for FindSlope<'_, R> {
     #[inline(always)]
     fn run(self) {
         let LaneWorlds { mechanism, y, slope, .. } = self.worlds;
+        let own = mechanism.dim();
         mechanism.mark_locked();
-        mechanism.slope(0.0, y, slope);
+        mechanism.slope(0.0, &y[..own], slope);
     }
 }
 
@@ -115,8 +165,23 @@ impl<R: Real> LaneWorlds<R> {
     ///
     /// If the method has error control, or if there is no model.
     pub fn new(models: &[&Model<f64>], method: MethodKind) -> Result<Self, PackError> {
+        Self::with_coupled_states(models, method, 0)
+    }
+
+    /// As [`LaneWorlds::new`], with room for a coupled system with `n_states` continuous states: for
+    /// [`LaneWorlds::step_with`].
+    ///
+    /// # Errors
+    ///
+    /// As [`LaneWorlds::new`].
+    ///
+    /// # Panics
+    ///
+    /// As [`LaneWorlds::new`].
+    pub fn with_coupled_states(models: &[&Model<f64>], method: MethodKind, n_states: usize) -> Result<Self, PackError> {
         let mechanism = Mechanism::new(Model::<R>::pack(models)?, false);
-        let dim = mechanism.dim();
+        let own = mechanism.dim();
+        let dim = own + n_states;
         let method = match method {
             MethodKind::SemiImplicitEuler => FixedMethod::Euler(SemiImplicitEuler::new(dim)),
             MethodKind::Rk4 => FixedMethod::Rk4(Rk4::new(dim)),
@@ -125,8 +190,18 @@ impl<R: Real> LaneWorlds<R> {
         };
         let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
         let (compiled, rows) = (None, Vec::new());
-        let zeros = || vec![R::zero(); dim];
-        Ok(Self { y: zeros(), slope: zeros(), reach_target_velocities, mechanism, method, compiled, rows })
+        let zeros = |n: usize| vec![R::zero(); n];
+        Ok(Self {
+            y: zeros(dim),
+            slope: zeros(own),
+            negated_jacobian_diagonal: zeros(n_states),
+            target_velocities: zeros(mechanism.drives.len()),
+            reach_target_velocities,
+            mechanism,
+            method,
+            compiled,
+            rows,
+        })
     }
 
     /// Lets a compiled step make the steps from now on, wherever it can.
@@ -182,7 +257,7 @@ impl<R: Real> LaneWorlds<R> {
         let layout = self.mechanism.layout();
         let mut slope = vec![R::zero(); layout.dim()];
         self.mechanism.mark_locked();
-        self.mechanism.slope(t, &self.y, &mut slope);
+        self.mechanism.slope(t, &self.y[..layout.dim()], &mut slope);
         let states = layout.rotor_states();
         self.mechanism.model.stop_activations(&self.y[states.clone()], &mut slope[states]);
         [&slope[layout.velocities()], &slope[layout.rotor_states()]].concat()
@@ -289,6 +364,19 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
+    /// As [`LaneWorlds::step`], together with a coupled system that commands all lanes and whose states are integrated
+    /// with them, as [`World::advance_with`](crate::world::World::advance_with) does for one world without events. It
+    /// sees times from `t` on, which are the same in all lanes.
+    ///
+    /// # Panics
+    ///
+    /// If the system has another number of states than the worlds were made for.
+    pub fn step_with(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<R>) {
+        if !R::IS_SCALAR {
+            R::run_hot(StepWith { worlds: self, system, t, h });
+        }
+    }
+
     /// Makes a step by the compiled program; false if there is none, or it does not know this state.
     #[inline(always)]
     fn compiled_step(&mut self) -> bool {
@@ -335,7 +423,7 @@ impl<R: Real> LaneWorlds<R> {
         self.mechanism.mark_locked();
         for i in 0..self.mechanism.drives.len() {
             let dof = self.mechanism.model.params.drives[i].dof;
-            let missing = self.target_velocities(i) - self.y[layout.velocity(dof)];
+            let missing = self.target_velocity(i) - self.y[layout.velocity(dof)];
             let scale = if is_euler { R::splat(h) } else { R::one() };
             self.mechanism.prescribed_acceleration[dof] = missing / scale;
         }
@@ -351,7 +439,7 @@ impl<R: Real> LaneWorlds<R> {
     }
 
     #[inline(always)]
-    fn target_velocities(&self, i: usize) -> R {
+    fn target_velocity(&self, i: usize) -> R {
         let drive = &self.mechanism.model.params.drives[i];
         self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands)
     }
@@ -360,7 +448,7 @@ impl<R: Real> LaneWorlds<R> {
     fn set_driven_velocities(&mut self) {
         let layout = self.mechanism.layout();
         for i in 0..self.mechanism.drives.len() {
-            self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocities(i);
+            self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocity(i);
         }
     }
 

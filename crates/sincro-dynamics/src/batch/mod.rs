@@ -24,7 +24,7 @@ use crate::signal::Signal;
 use crate::state::State;
 use crate::world::{MethodKind, Stop, World};
 pub use lane_worlds::LaneWorlds;
-pub use stepped::{LaneObserver, SteppedLanes};
+pub use stepped::{CoupledLanes, LaneObserver, LaneSystem, SteppedLanes};
 
 /// World of a batch: model, state, commands, and what a run of [`advance`] leaves in it.
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 
 use super::lane_worlds::LaneWorlds;
 use super::{CompiledStep, obstacle_to_lanes};
-use crate::coupled::StateView;
+use crate::coupled::{CoupledSystem, StateView};
 use crate::model::{Model, PackError};
 use crate::state::State;
 use crate::world::MethodKind;
@@ -25,6 +25,46 @@ pub struct SteppedLanes {
 impl fmt::Debug for SteppedLanes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("SteppedLanes")
+    }
+}
+
+/// Coupled system of all lanes, made for the lanes of this processor.
+pub trait CoupledLanes<R: Real>: CoupledSystem<R> + Any + Send {}
+
+/// Coupled system of the worlds of [`SteppedLanes`], whose type of lanes is not named: argument of
+/// [`SteppedLanes::advance_with`].
+pub struct LaneSystem {
+    /// A `Box<dyn CoupledLanes<R>>`.
+    system: Box<dyn Any + Send>,
+}
+
+impl fmt::Debug for LaneSystem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("LaneSystem")
+    }
+}
+
+impl LaneSystem {
+    /// Wraps a system that was made within a dispatch to the lanes `R` of this processor
+    /// ([`dispatch_lanes`]).
+    #[must_use]
+    pub fn new<R: Real>(system: impl CoupledLanes<R>) -> Self {
+        let system: Box<dyn CoupledLanes<R>> = Box::new(system);
+        Self { system: Box::new(system) }
+    }
+
+    /// The system, within a dispatch to the lanes `R` of this processor.
+    ///
+    /// # Panics
+    ///
+    /// If it was made with other types.
+    pub fn get<R: Real, S: CoupledLanes<R>>(&mut self) -> &mut S {
+        let system: &mut dyn Any = &mut **self.coupled::<R>();
+        system.downcast_mut().expect("the system that it was made of")
+    }
+
+    fn coupled<R: Real>(&mut self) -> &mut Box<dyn CoupledLanes<R>> {
+        self.system.downcast_mut().expect("the dispatch takes the same lanes each time")
     }
 }
 
@@ -51,9 +91,23 @@ impl SteppedLanes {
     /// If the method `kind` has error control, if there is no model, if lanes cannot take one ([`obstacle_to_lanes`]),
     /// or if this processor has one lane only: one world alone is a [`World`](crate::world::World).
     pub fn new(models: &[&Model<f64>], kind: MethodKind) -> Result<Self, PackError> {
+        Self::with_coupled_states(models, kind, 0)
+    }
+
+    /// As [`SteppedLanes::new`], with room for a coupled system with `n_states` continuous states: for
+    /// [`SteppedLanes::advance_with`].
+    ///
+    /// # Errors
+    ///
+    /// As [`SteppedLanes::new`].
+    ///
+    /// # Panics
+    ///
+    /// As [`SteppedLanes::new`].
+    pub fn with_coupled_states(models: &[&Model<f64>], kind: MethodKind, n_states: usize) -> Result<Self, PackError> {
         assert!(sincro_math::lanes::width() > 1, "one world alone is a `World`");
         assert!(models.iter().all(|model| obstacle_to_lanes(model, kind).is_none()), "lanes advance these models");
-        Ok(Self { worlds: dispatch_lanes(New { models, kind })? })
+        Ok(Self { worlds: dispatch_lanes(New { models, kind, n_states })? })
     }
 
     /// Lets a compiled step, made for the same models, method and length of step, make the steps from now on.
@@ -83,6 +137,16 @@ impl SteppedLanes {
         dispatch_lanes(Advance { lanes: self, h, n_steps });
     }
 
+    /// Makes one step of length `h` `[s]` in all lanes, together with a coupled system. It sees the time since the
+    /// start of the step, since each lane has a clock of its own.
+    ///
+    /// # Panics
+    ///
+    /// If the system has another number of states than the worlds were made for.
+    pub fn advance_with(&mut self, h: f64, system: &mut LaneSystem) {
+        dispatch_lanes(AdvanceWith { lanes: self, h, system });
+    }
+
     /// Returns what `observer` makes of the state of all lanes; with `with_kinematics` the poses `[m]` and twists
     /// `[rad/s]`, `[m/s]` of links in its scratch are those of the state, else they are outdated.
     pub fn observe<O: LaneObserver>(&mut self, with_kinematics: bool, observer: O) -> O::Output {
@@ -107,6 +171,7 @@ impl SteppedLanes {
 struct New<'a> {
     models: &'a [&'a Model<f64>],
     kind: MethodKind,
+    n_states: usize,
 }
 
 impl LaneVisitor for New<'_> {
@@ -114,7 +179,8 @@ impl LaneVisitor for New<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) -> Self::Output {
-        Ok(Box::new(LaneWorlds::<R>::new(self.models, self.kind)?))
+        let Self { models, kind, n_states } = self;
+        Ok(Box::new(LaneWorlds::<R>::with_coupled_states(models, kind, n_states)?))
     }
 }
 
@@ -194,6 +260,22 @@ impl LaneVisitor for Advance<'_> {
         for _ in 0..self.n_steps {
             worlds.step(0.0, self.h);
         }
+    }
+}
+
+struct AdvanceWith<'a> {
+    lanes: &'a mut SteppedLanes,
+    h: f64,
+    system: &'a mut LaneSystem,
+}
+
+impl LaneVisitor for AdvanceWith<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        let Self { lanes, h, system } = self;
+        lanes.worlds::<R>().step_with(0.0, h, &mut **system.coupled::<R>());
     }
 }
 
