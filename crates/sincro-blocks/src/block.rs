@@ -109,6 +109,16 @@ pub trait Block: Described + Clone + Debug + Send + Sync + 'static {
     /// True if all inputs have one unit and the outputs have it too: for blocks that pass a signal on, add or compare.
     const KEEPS_UNIT: bool = false;
 
+    /// True if the block computes lanes of worlds together ([`LaneRunner`](crate::lanes::LaneRunner)): it does the same
+    /// operations whatever its numbers, and looks neither at one lane ([`Real::lane`]) nor at time or tick. By default
+    /// it computes one world after the other.
+    const IN_LANES: bool = false;
+
+    /// Returns false if the parameters of a block with [`Block::IN_LANES`] do not let it compute lanes together.
+    fn runs_in_lanes(&self) -> bool {
+        true
+    }
+
     /// Checks parameters against each other after they were read, notes errors in the reader ([`Reader::fault`]), and
     /// computes what is derived from them; by default nothing.
     fn validate(&mut self, _parameters: &mut Reader<'_>) {}

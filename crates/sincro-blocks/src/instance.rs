@@ -1,6 +1,7 @@
 //! Blocks without their types: what a diagram holds and what a run calls. Who writes a block implements [`Block`]; the
 //! rest follows.
 
+use core::any::Any;
 use core::fmt::Debug;
 
 use sincro_math::record::Recorded;
@@ -89,6 +90,9 @@ pub trait DynBlock: Debug + Send + Sync {
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>>;
     /// Creates an instance that runs on recorded numbers, to be compiled.
     fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>>;
+    /// Creates an instance that runs on the lanes `R` of this processor, a `Box<dyn RunningBlock<R>>`; `None` if the
+    /// block computes them one after the other: [`Block::IN_LANES`].
+    fn on_lanes(&self) -> Option<Box<dyn Any>>;
     /// Copy of the block with the same parameters.
     fn boxed_clone(&self) -> Box<dyn DynBlock>;
 }
@@ -153,6 +157,9 @@ impl<B: Block> DynBlock for B {
     }
     fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>> {
         Box::new(Running { block: self.clone(), work: self.work() })
+    }
+    fn on_lanes(&self) -> Option<Box<dyn Any>> {
+        crate::lanes::on_lanes(self)
     }
     fn boxed_clone(&self) -> Box<dyn DynBlock> {
         Box::new(self.clone())

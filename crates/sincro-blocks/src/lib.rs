@@ -8,6 +8,7 @@ pub mod diagram;
 pub mod endpoint;
 pub mod instance;
 pub mod kind;
+pub mod lanes;
 pub mod library;
 pub mod parameter;
 pub mod prelude;

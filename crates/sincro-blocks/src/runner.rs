@@ -134,6 +134,11 @@ impl<R: Number> Runner<R> {
         runner
     }
 
+    /// State and instances of the blocks.
+    pub(crate) fn into_parts(self) -> (State<R>, Vec<Box<dyn RunningBlock<R>>>) {
+        (self.state, self.instances)
+    }
+
     /// Compiled diagram that is run.
     #[must_use]
     pub fn program(&self) -> &Arc<Program> {

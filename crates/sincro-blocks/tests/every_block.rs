@@ -1,8 +1,11 @@
-//! Properties of every block of the library: its description, its parameters, its values on dual numbers.
+//! Properties of every block of the library: its description, its parameters, its values on dual numbers and in lanes.
+
+mod common;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use common::assert_same_bits_in_lanes;
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::{Content, Diagram};
 use sincro_blocks::instance::DynBlock;
@@ -178,5 +181,16 @@ fn values_on_dual_numbers_have_the_bits_of_plain_ones() {
             plain.update(tick, t);
             dual.update(tick, t);
         }
+    }
+}
+
+#[test]
+fn lanes_have_the_bits_of_each_run_alone() {
+    for item in all().filter(|item| is_own(item.kind)) {
+        let (block, _) = read(item, &required(item.kind));
+        let n_inputs = block.ports().inputs.len();
+        let width = [1, 3].into_iter().find(|width| block.widths(&vec![Some(*width); n_inputs]).is_ok());
+        let width = width.unwrap_or_else(|| panic!("{} cannot be fed", item.kind.name));
+        assert_same_bits_in_lanes(item.kind.name, block, &vec![width; n_inputs]);
     }
 }

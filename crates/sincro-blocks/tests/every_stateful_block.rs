@@ -1,11 +1,11 @@
 //! Properties of every block of the categories matrices, nonlinear, continuous, discrete, adaptation and rotations,
-//! with all its parameters in use: values on dual numbers, the Jacobian's diagonal, refusals.
+//! with all its parameters in use: values on dual numbers and in lanes, the Jacobian's diagonal, refusals.
 
 mod common;
 
 use std::sync::Arc;
 
-use common::{add, block, list, made, rows, table};
+use common::{add, assert_same_bits_in_lanes, block, list, made, rows, table};
 use sincro_blocks::compile::{Interface, compile};
 use sincro_blocks::diagram::Diagram;
 use sincro_blocks::kind::Category;
@@ -169,6 +169,13 @@ fn values_on_dual_numbers_have_the_bits_of_plain_ones() {
                 dual.state.continuous[k] += Dual::constant(STEP) * dual_rates[k];
             }
         }
+    }
+}
+
+#[test]
+fn lanes_have_the_bits_of_each_run_alone() {
+    for (kind, parameters, inputs) in examples() {
+        assert_same_bits_in_lanes(kind, block(kind, &parameters), &inputs);
     }
 }
 

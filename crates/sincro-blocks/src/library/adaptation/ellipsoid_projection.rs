@@ -37,6 +37,7 @@ impl EllipsoidProjection {
     }
 
     /// h(μ) and −h'(μ)/2.
+    #[inline(always)]
     fn excess<R: Real>(&self, u: &[R], mu: R) -> (R, R) {
         let (mut excess, mut fall) = (-R::splat(self.bound), R::zero());
         for (i, u) in u.iter().enumerate() {
@@ -50,8 +51,15 @@ impl EllipsoidProjection {
     }
 }
 
+/// 1 in lanes where `a` is above `b`, else 0.
+#[inline(always)]
+fn is_above<R: Real>(a: R, b: R) -> R {
+    R::from_lanes(|k| f64::from(u8::from(a.lane(k) > b.lane(k))))
+}
+
 impl Block for EllipsoidProjection {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         let lists = [("weights", &self.weights), ("gain", &self.gain)];
@@ -66,19 +74,21 @@ impl Block for EllipsoidProjection {
         Ok(vec![inputs[0]])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let u = at.input(0);
         let mut mu = R::zero();
-        if self.excess(u, mu).0.lane(0) > 0.0 {
-            for _ in 0..MAX_STEPS {
-                let (excess, fall) = self.excess(u, mu);
-                let next = mu + excess / (fall + fall);
-                let has_risen = next.lane(0) > mu.lane(0);
-                mu = next;
-                if !has_risen {
-                    break;
-                }
+        // 1 in lanes that iterate
+        let mut goes_on = is_above(self.excess(u, mu).0, R::zero());
+        for _ in 0..MAX_STEPS {
+            if (0..R::LANES).all(|k| goes_on.lane(k) == 0.0) {
+                break;
             }
+            let (excess, fall) = self.excess(u, mu);
+            let next = mu + excess / (fall + fall);
+            let has_risen = is_above(next, mu);
+            mu = R::zero().if_less(goes_on, next, mu);
+            goes_on *= has_risen;
         }
         for (i, y) in y.iter_mut().enumerate() {
             *y = u[i] / (R::one() + mu * R::splat(of(&self.weights, i) * of(&self.gain, i)));

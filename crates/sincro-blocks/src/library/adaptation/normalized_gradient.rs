@@ -34,6 +34,7 @@ impl NormalizedGradient {
 
 impl Block for NormalizedGradient {
     type Work<R: Real> = Vec<R>;
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::new(&["regressor", "error"], &["y"])
@@ -51,6 +52,7 @@ impl Block for NormalizedGradient {
         Ok(vec![Some(n)])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, work: &mut Vec<R>, y: &mut [R]) {
         let (phi, error) = (at.input(0), at.input(1));
         let (m, n) = (error.len(), y.len());
@@ -59,17 +61,22 @@ impl Block for NormalizedGradient {
         // S = I + ΦΓΦᵀ, lower triangle
         for i in 0..m {
             for j in 0..=i {
-                let products = (0..n).map(|k| phi[i * n + k] * R::splat(of(&self.gain, k)) * phi[j * n + k]);
-                let unit = if i == j { R::one() } else { R::zero() };
-                s[i * m + j] = products.fold(unit, |sum, product| sum + product);
+                let mut sum = if i == j { R::one() } else { R::zero() };
+                for k in 0..n {
+                    sum += phi[i * n + k] * R::splat(of(&self.gain, k)) * phi[j * n + k];
+                }
+                s[i * m + j] = sum;
             }
         }
         x.copy_from_slice(error);
         solve(s, x);
         // y = ΓΦᵀx
         for (k, y) in y.iter_mut().enumerate() {
-            let products = (0..m).map(|i| phi[i * n + k] * x[i]);
-            *y = R::splat(of(&self.gain, k)) * products.fold(R::zero(), |sum, product| sum + product);
+            let mut sum = R::zero();
+            for i in 0..m {
+                sum += phi[i * n + k] * x[i];
+            }
+            *y = R::splat(of(&self.gain, k)) * sum;
         }
     }
 
@@ -79,18 +86,30 @@ impl Block for NormalizedGradient {
 }
 
 /// x ← S⁻¹·x by S = LLᵀ; S is overwritten.
+#[inline(always)]
 fn solve<R: Real>(s: &mut [R], x: &mut [R]) {
     let m = x.len();
     for i in 0..m {
         for j in 0..=i {
-            let sum = (0..j).fold(s[i * m + j], |sum, k| sum - s[i * m + k] * s[j * m + k]);
+            let mut sum = s[i * m + j];
+            for k in 0..j {
+                sum -= s[i * m + k] * s[j * m + k];
+            }
             s[i * m + j] = if i == j { sum.sqrt() } else { sum / s[j * m + j] };
         }
     }
     for i in 0..m {
-        x[i] = (0..i).fold(x[i], |sum, k| sum - s[i * m + k] * x[k]) / s[i * m + i];
+        let mut sum = x[i];
+        for k in 0..i {
+            sum -= s[i * m + k] * x[k];
+        }
+        x[i] = sum / s[i * m + i];
     }
     for i in (0..m).rev() {
-        x[i] = (i + 1..m).fold(x[i], |sum, k| sum - s[k * m + i] * x[k]) / s[i * m + i];
+        let mut sum = x[i];
+        for k in i + 1..m {
+            sum -= s[k * m + i] * x[k];
+        }
+        x[i] = sum / s[i * m + i];
     }
 }

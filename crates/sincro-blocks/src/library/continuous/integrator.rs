@@ -29,8 +29,13 @@ impl Integrator {
 
 impl Block for Integrator {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Continuous;
     const STATE: Memory = Memory::CONTINUOUS;
+
+    fn runs_in_lanes(&self) -> bool {
+        !self.reset
+    }
 
     fn validate(&mut self, p: &mut Reader<'_>) {
         if self.lower > self.upper {
@@ -60,12 +65,14 @@ impl Block for Integrator {
         UnitRule::TimesSeconds(vec![1])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, x) in y.iter_mut().zip(at.states) {
             *y = x.max(R::splat(self.lower)).min(R::splat(self.upper));
         }
     }
 
+    #[inline(always)]
     fn derivatives<R: Real>(&self, at: &At<'_, R>, (): &mut (), derivatives: &mut [R]) {
         let (lower, upper, zero) = (R::splat(self.lower), R::splat(self.upper), R::zero());
         for (i, rate) in derivatives.iter_mut().enumerate() {
@@ -76,6 +83,7 @@ impl Block for Integrator {
         }
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), _: &mut [R], states: &mut [R]) {
         if self.reset && at.scalar(1).lane(0) > 0.0 {
             self.start(at.node, states, &mut []);

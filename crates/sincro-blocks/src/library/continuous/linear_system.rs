@@ -109,6 +109,7 @@ impl LinearSystem {
     }
 
     /// `y = c x + d u`; `u` is read only with direct feedthrough.
+    #[inline(always)]
     pub(in crate::library) fn output<R: Real>(&self, at: &At<'_, R>, x: &[R], y: &mut [R]) {
         row_by_row(&self.c, x, y, false);
         if self.has_direct_feedthrough() {
@@ -117,6 +118,7 @@ impl LinearSystem {
     }
 
     /// `a x + b u`.
+    #[inline(always)]
     pub(in crate::library) fn next<R: Real>(&self, at: &At<'_, R>, x: &[R], next: &mut [R]) {
         row_by_row(&self.a, x, next, false);
         row_by_row(&self.b, at.input(0), next, true);
@@ -124,6 +126,7 @@ impl LinearSystem {
 }
 
 /// `out = m x`, or `out += m x`.
+#[inline(always)]
 fn row_by_row<R: Real>(m: &Matrix, x: &[R], out: &mut [R], is_added: bool) {
     for (i, out) in out.iter_mut().enumerate() {
         let mut sum = if is_added { *out } else { R::zero() };

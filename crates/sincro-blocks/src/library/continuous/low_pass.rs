@@ -26,6 +26,7 @@ impl LowPass {
 
 impl Block for LowPass {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Continuous;
     const STATE: Memory = Memory::CONTINUOUS;
 
@@ -46,10 +47,12 @@ impl Block for LowPass {
         if self.dc_gain.iter().all(|g| *g == 1.0) { UnitRule::Same(vec![0]) } else { UnitRule::Unknown }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         y.copy_from_slice(at.states);
     }
 
+    #[inline(always)]
     fn derivatives<R: Real>(&self, at: &At<'_, R>, (): &mut (), derivatives: &mut [R]) {
         for (i, rate) in derivatives.iter_mut().enumerate() {
             let target = R::splat(of(&self.dc_gain, i)) * at.component(0, i);
@@ -57,6 +60,7 @@ impl Block for LowPass {
         }
     }
 
+    #[inline(always)]
     fn neg_jacobian_diagonal<R: Real>(&self, _: &At<'_, R>, diagonal: &mut [R]) {
         for (i, entry) in diagonal.iter_mut().enumerate() {
             *entry = R::splat(1.0 / of(&self.time_constant, i));

@@ -41,6 +41,7 @@ impl Described for StateSpace {
 
 impl Block for StateSpace {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Continuous;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
@@ -59,14 +60,17 @@ impl Block for StateSpace {
         self.system.start(states);
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         self.system.output(at, at.states, y);
     }
 
+    #[inline(always)]
     fn derivatives<R: Real>(&self, at: &At<'_, R>, (): &mut (), derivatives: &mut [R]) {
         self.system.next(at, at.states, derivatives);
     }
 
+    #[inline(always)]
     fn neg_jacobian_diagonal<R: Real>(&self, _: &At<'_, R>, diagonal: &mut [R]) {
         for (i, entry) in diagonal.iter_mut().enumerate() {
             *entry = R::splat(-self.system.a.at(i, i));

@@ -57,6 +57,7 @@ impl CommandFilter {
 
 impl Block for CommandFilter {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
     fn validate(&mut self, p: &mut Reader<'_>) {
@@ -86,6 +87,7 @@ impl Block for CommandFilter {
         UnitRule::TimesSeconds(vec![0, -1, -2])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let n = at.node.outputs[0];
         for i in 0..n {
@@ -97,6 +99,7 @@ impl Block for CommandFilter {
         }
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
         let n = at.node.outputs[0];
         for i in 0..n {

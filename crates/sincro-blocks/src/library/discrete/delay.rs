@@ -29,8 +29,13 @@ impl Delay {
 
 impl Block for Delay {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
+
+    fn runs_in_lanes(&self) -> bool {
+        self.samples == 0
+    }
 
     fn has_direct_feedthrough(&self, _: usize) -> bool {
         self.samples == 0
@@ -48,6 +53,7 @@ impl Block for Delay {
         }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         if self.samples == 0 {
             for (i, y) in y.iter_mut().enumerate() {
@@ -59,6 +65,7 @@ impl Block for Delay {
         y.copy_from_slice(&at.memory[slot..slot + y.len()]);
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
         if self.samples == 0 {
             return;

@@ -23,6 +23,7 @@ impl DiscreteDerivative {
 
 impl Block for DiscreteDerivative {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
     const STATE: Memory = Memory::DISCRETE;
 
@@ -36,6 +37,7 @@ impl Block for DiscreteDerivative {
         if is_plain { UnitRule::TimesSeconds(vec![-1]) } else { UnitRule::Unknown }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let change = at.component(0, i) - at.memory[i];
@@ -43,6 +45,7 @@ impl Block for DiscreteDerivative {
         }
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
         at.copy_input(0, memory);
     }

@@ -61,8 +61,13 @@ impl DiscreteIntegrator {
 
 impl Block for DiscreteIntegrator {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
     const STATE: Memory = Memory::DISCRETE;
+
+    fn runs_in_lanes(&self) -> bool {
+        !self.reset
+    }
 
     fn validate(&mut self, p: &mut Reader<'_>) {
         crate::library::nonlinear::check_limits(p, &self.lower, &self.upper);
@@ -90,12 +95,14 @@ impl Block for DiscreteIntegrator {
         if is_plain { UnitRule::TimesSeconds(vec![1]) } else { UnitRule::Unknown }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = self.present(at, i);
         }
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
         if self.reset && at.scalar(1).lane(0) > 0.0 {
             self.start(at.node, &mut [], memory);

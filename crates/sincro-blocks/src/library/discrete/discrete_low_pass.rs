@@ -31,6 +31,7 @@ impl DiscreteLowPass {
 
 impl Block for DiscreteLowPass {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
     const STATE: Memory = Memory::DISCRETE;
 
@@ -44,6 +45,7 @@ impl Block for DiscreteLowPass {
         fill(memory, &self.initial);
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let rest = elementary::exp(-at.node.period() / of(&self.time_constant, i)).0;
@@ -52,6 +54,7 @@ impl Block for DiscreteLowPass {
         }
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
         self.output(at, &mut (), memory);
     }

@@ -20,6 +20,7 @@ impl UnitDelay {
 
 impl Block for UnitDelay {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
     const STATE: Memory = Memory::DISCRETE;
@@ -32,10 +33,12 @@ impl Block for UnitDelay {
         fill(memory, &self.initial);
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         y.copy_from_slice(at.memory);
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
         at.copy_input(0, memory);
     }

@@ -9,9 +9,11 @@ declare_block! {
 
 impl Block for ZeroOrderHold {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
     const SAMPLE_TIME: SampleTimeKind = SampleTimeKind::Discrete;
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         y.copy_from_slice(at.input(0));
     }

@@ -9,6 +9,7 @@ declare_block! {
 
 impl Block for Cross {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(2)
@@ -25,6 +26,7 @@ impl Block for Cross {
         UnitRule::SumOfProducts
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let (a, b) = (at.input(0), at.input(1));
         y[0] = a[1] * b[2] - a[2] * b[1];

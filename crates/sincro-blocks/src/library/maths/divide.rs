@@ -12,6 +12,7 @@ declare_block! {
 
 impl Block for Divide {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(2)
@@ -21,6 +22,7 @@ impl Block for Divide {
         UnitRule::Powers(vec![1, -1])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = at.component(0, i) / at.component(1, i);

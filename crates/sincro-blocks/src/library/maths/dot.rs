@@ -9,6 +9,7 @@ declare_block! {
 
 impl Block for Dot {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(2)
@@ -23,9 +24,13 @@ impl Block for Dot {
         UnitRule::SumOfProducts
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let n = at.input(0).len().max(at.input(1).len());
-        y[0] = (0..n).fold(R::zero(), |sum, i| sum + at.component(0, i) * at.component(1, i));
+        y[0] = R::zero();
+        for i in 0..n {
+            y[0] += at.component(0, i) * at.component(1, i);
+        }
     }
 
     fn label(&self) -> String {

@@ -142,6 +142,11 @@ impl Described for Expression {
 
 impl Block for Expression {
     type Work<R: Real> = Work<R>;
+    const IN_LANES: bool = true;
+
+    fn runs_in_lanes(&self) -> bool {
+        !self.uses_time()
+    }
 
     fn ports(&self) -> Ports {
         Ports { inputs: self.inputs.clone(), outputs: vec!["y".into()] }
@@ -177,6 +182,7 @@ impl Block for Expression {
         Work { values, stack: Vec::with_capacity(depth) }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, work: &mut Work<R>, y: &mut [R]) {
         work.values[self.inputs.len()] = R::splat(at.t);
         for (i, y) in y.iter_mut().enumerate() {

@@ -20,7 +20,9 @@ impl Gain {
 
 impl Block for Gain {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = R::splat(of(&self.gain, i)) * at.component(0, i);

@@ -24,6 +24,7 @@ impl MatrixGain {
 
 impl Block for MatrixGain {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn validate(&mut self, p: &mut Reader<'_>) {
         if self.gain.columns == 0 {
@@ -40,10 +41,13 @@ impl Block for MatrixGain {
         }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
-            let products = at.input(0).iter().enumerate().map(|(k, u)| R::splat(self.gain.at(i, k)) * *u);
-            *y = products.fold(R::zero(), |sum, product| sum + product);
+            *y = R::zero();
+            for (k, u) in at.input(0).iter().enumerate() {
+                *y += R::splat(self.gain.at(i, k)) * *u;
+            }
         }
     }
 

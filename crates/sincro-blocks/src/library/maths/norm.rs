@@ -11,6 +11,7 @@ declare_block! {
 
 impl Block for Norm {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
 
     fn widths(&self, _: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
@@ -21,8 +22,13 @@ impl Block for Norm {
         UnitRule::Uniform
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
-        y[0] = at.input(0).iter().fold(R::zero(), |sum, u| sum + *u * *u).sqrt();
+        let mut sum = R::zero();
+        for u in at.input(0) {
+            sum += *u * *u;
+        }
+        y[0] = sum.sqrt();
     }
 
     fn label(&self) -> String {

@@ -20,7 +20,9 @@ impl Polynomial {
 
 impl Block for Polynomial {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, u) in y.iter_mut().zip(at.input(0)) {
             // Horner's scheme; u·0 lets a NaN through where there is only a constant

@@ -22,6 +22,7 @@ impl Power {
 
 impl Block for Power {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(if self.exponent.is_some() { 1 } else { 2 })
@@ -35,6 +36,7 @@ impl Block for Power {
         exponent.map_or(UnitRule::Unknown, |e| UnitRule::Powers(vec![e]))
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let base = at.component(0, i);

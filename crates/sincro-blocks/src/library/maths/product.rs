@@ -20,6 +20,7 @@ impl Product {
 
 impl Block for Product {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(self.inputs)
@@ -33,13 +34,20 @@ impl Block for Product {
         if self.inputs == 1 { UnitRule::Unknown } else { UnitRule::Powers(vec![1; self.inputs]) }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         if self.inputs == 1 {
-            y[0] = at.input(0).iter().fold(R::one(), |product, u| product * *u);
+            y[0] = R::one();
+            for u in at.input(0) {
+                y[0] *= *u;
+            }
             return;
         }
         for (i, y) in y.iter_mut().enumerate() {
-            *y = (1..self.inputs).fold(at.component(0, i), |product, k| product * at.component(k, i));
+            *y = at.component(0, i);
+            for k in 1..self.inputs {
+                *y *= at.component(k, i);
+            }
         }
     }
 

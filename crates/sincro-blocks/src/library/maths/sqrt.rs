@@ -9,11 +9,13 @@ declare_block! {
 
 impl Block for Sqrt {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn unit_rule(&self) -> UnitRule {
         UnitRule::SquareRoot
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, u) in y.iter_mut().zip(at.input(0)) {
             *y = u.sqrt();

@@ -36,6 +36,7 @@ fn minus(signs: &str) -> Vec<bool> {
 
 impl Block for Sum {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
 
     fn validate(&mut self, p: &mut Reader<'_>) {
@@ -51,6 +52,7 @@ impl Block for Sum {
         Ports::numbered(self.minus.len())
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let first = at.component(0, i);

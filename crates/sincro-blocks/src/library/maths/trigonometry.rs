@@ -40,6 +40,7 @@ impl Trigonometry {
 
 impl Block for Trigonometry {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(if self.function == Atan2 { 2 } else { 1 })
@@ -49,6 +50,7 @@ impl Block for Trigonometry {
         UnitRule::fixed([if matches!(self.function, Sin | Cos | Tan) { "1" } else { "rad" }])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let u = at.component(0, i);

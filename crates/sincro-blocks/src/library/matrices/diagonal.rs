@@ -9,11 +9,13 @@ declare_block! {
 
 impl Block for Diagonal {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
         Ok(vec![inputs[0].map(|n| n * n)])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let u = at.input(0);
         y.fill(R::zero());

@@ -27,6 +27,7 @@ impl MatrixConcatenate {
 
 impl Block for MatrixConcatenate {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(self.inputs)
@@ -43,6 +44,7 @@ impl Block for MatrixConcatenate {
         Ok(vec![inputs.iter().copied().sum()])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let columns = y.len() / self.rows;
         for (i, row) in y.chunks_exact_mut(columns).enumerate() {

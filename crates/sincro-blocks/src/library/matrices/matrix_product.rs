@@ -33,6 +33,7 @@ impl MatrixProduct {
 
 impl Block for MatrixProduct {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::new(&["a", "b"], &["y"])
@@ -58,6 +59,7 @@ impl Block for MatrixProduct {
         UnitRule::SumOfProducts
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let (a, b) = (at.input(0), at.input(1));
         let (rows, inner) = self.shape(a.len());
@@ -66,8 +68,10 @@ impl Block for MatrixProduct {
         let (down, along) = if self.transposed { (1, rows) } else { (inner, 1) };
         for (i, row) in y.chunks_exact_mut(columns).enumerate() {
             for (j, y) in row.iter_mut().enumerate() {
-                let products = (0..inner).map(|k| a[i * down + k * along] * b[k * columns + j]);
-                *y = products.fold(R::zero(), |sum, product| sum + product);
+                *y = R::zero();
+                for k in 0..inner {
+                    *y += a[i * down + k * along] * b[k * columns + j];
+                }
             }
         }
     }

@@ -24,7 +24,9 @@ impl CoulombFriction {
 
 impl Block for CoulombFriction {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let zero = R::zero();
         for (i, y) in y.iter_mut().enumerate() {

@@ -22,12 +22,14 @@ impl DeadZone {
 
 impl Block for DeadZone {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
 
     fn validate(&mut self, p: &mut Reader<'_>) {
         super::check_limits(p, &self.lower, &self.upper);
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             let u = at.component(0, i);

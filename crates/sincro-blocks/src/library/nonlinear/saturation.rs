@@ -57,12 +57,18 @@ fn one_side(node: &Node, memory: &[f64], word: &str, bound: &[f64]) -> Option<St
 
 impl Block for Saturation {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
+
+    fn runs_in_lanes(&self) -> bool {
+        !self.report
+    }
 
     fn validate(&mut self, p: &mut Reader<'_>) {
         super::check_limits(p, &self.lower, &self.upper);
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y = self.limited(at.component(0, i), i);
@@ -73,6 +79,7 @@ impl Block for Saturation {
         Memory { continuous: 0, discrete: if self.report { 2 * N_MEMORY } else { 0 } }
     }
 
+    #[inline(always)]
     fn update<R: Real>(&self, at: &At<'_, R>, (): &mut (), memory: &mut [R], _: &mut [R]) {
         if !self.report {
             return;

@@ -111,7 +111,7 @@ pub(super) fn euler_to_quaternion<R: Real>(angles: Angles<R>, convention: Conven
 /// The rotation matrix of Euler angles.
 #[inline(always)]
 pub(super) fn euler_to_matrix<R: Real>(angles: Angles<R>, convention: Convention) -> Matrix3<R> {
-    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    let [(sx, cx), (sy, cy), (sz, cz)] = sines_and_cosines(angles);
     match convention {
         Convention::Zyx => [
             cz * cy,
@@ -169,11 +169,17 @@ pub(super) fn rotate<R: Real>(m: Matrix3<R>, v: [R; 3], inverse: bool) -> [R; 3]
     core::array::from_fn(|i| entry(i, 0) * v[0] + entry(i, 1) * v[1] + entry(i, 2) * v[2])
 }
 
+#[inline(always)]
+fn sines_and_cosines<R: Real>(angles: Angles<R>) -> [(R, R); 3] {
+    // no closure: it would not be compiled for lanes
+    [angles[0].sin_cos(), angles[1].sin_cos(), angles[2].sin_cos()]
+}
+
 /// Rates of the Euler angles of a body that turns with the angular velocity `w` in its own axes; not finite where the
 /// middle angle is ±π/2.
 #[inline(always)]
 pub(super) fn euler_rates<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> Angles<R> {
-    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    let [(sx, cx), (sy, cy), (sz, cz)] = sines_and_cosines(angles);
     match convention {
         Convention::Zyx => {
             let yaw = (w[1] * sx + w[2] * cx) / cy;
@@ -189,7 +195,7 @@ pub(super) fn euler_rates<R: Real>(angles: Angles<R>, w: [R; 3], convention: Con
 /// E(angles)·rates: the angular velocity in the axes of the body.
 #[inline(always)]
 pub(super) fn angular_velocity<R: Real>(angles: Angles<R>, rates: [R; 3], convention: Convention) -> [R; 3] {
-    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    let [(sx, cx), (sy, cy), (sz, cz)] = sines_and_cosines(angles);
     match convention {
         Convention::Zyx => {
             let yaw = cy * rates[2];
@@ -206,7 +212,7 @@ pub(super) fn angular_velocity<R: Real>(angles: Angles<R>, rates: [R; 3], conven
 /// finite where the middle angle is ±π/2.
 #[inline(always)]
 pub(super) fn body_torque<R: Real>(angles: Angles<R>, w: [R; 3], convention: Convention) -> [R; 3] {
-    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    let [(sx, cx), (sy, cy), (sz, cz)] = sines_and_cosines(angles);
     match convention {
         Convention::Zyx => {
             let yaw = (w[2] + sy * w[0]) / cy;
@@ -222,7 +228,7 @@ pub(super) fn body_torque<R: Real>(angles: Angles<R>, w: [R; 3], convention: Con
 /// Eᵀ(angles)·torque: the inverse of [`body_torque`].
 #[inline(always)]
 pub(super) fn euler_torque<R: Real>(angles: Angles<R>, torque: [R; 3], convention: Convention) -> [R; 3] {
-    let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(R::sin_cos);
+    let [(sx, cx), (sy, cy), (sz, cz)] = sines_and_cosines(angles);
     match convention {
         Convention::Zyx => {
             let yaw = sx * torque[1] + cx * torque[2];

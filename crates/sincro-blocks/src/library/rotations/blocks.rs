@@ -281,6 +281,11 @@ impl<const MAP: usize> Described for Rotation<MAP> {
 
 impl<const MAP: usize> Block for Rotation<MAP> {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
+
+    fn runs_in_lanes(&self) -> bool {
+        !matches!(Self::ROW.map, Map::QuaternionToEuler | Map::MatrixToEuler | Map::MatrixToQuaternion)
+    }
 
     fn ports(&self) -> Ports {
         let inputs: Vec<&str> = Self::ROW.inputs.iter().map(|(name, _)| *name).collect();
@@ -313,6 +318,7 @@ impl<const MAP: usize> Block for Rotation<MAP> {
         }
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let Self { convention, option } = *self;
         match Self::ROW.map {
@@ -331,12 +337,16 @@ impl<const MAP: usize> Block for Rotation<MAP> {
                 y.copy_from_slice(&quaternion_rate(array(at, 0), array(at, 1), option));
             }
             Map::EulerRates => {
-                let matrix = if option { body_torque } else { euler_rates };
-                y.copy_from_slice(&matrix(array(at, 0), array(at, 1), convention));
+                let (angles, u) = (array(at, 0), array(at, 1));
+                let product =
+                    if option { body_torque(angles, u, convention) } else { euler_rates(angles, u, convention) };
+                y.copy_from_slice(&product);
             }
             Map::EulerRatesToAngularVelocity => {
-                let matrix = if option { euler_torque } else { angular_velocity };
-                y.copy_from_slice(&matrix(array(at, 0), array(at, 1), convention));
+                let (angles, u) = (array(at, 0), array(at, 1));
+                let product =
+                    if option { euler_torque(angles, u, convention) } else { angular_velocity(angles, u, convention) };
+                y.copy_from_slice(&product);
             }
         }
     }

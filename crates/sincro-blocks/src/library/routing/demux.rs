@@ -34,6 +34,7 @@ impl Described for Demux {
 
 impl Block for Demux {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports { inputs: vec!["u".into()], outputs: (1..=self.sizes.len()).map(|k| format!("y{k}")).collect() }
@@ -55,6 +56,7 @@ impl Block for Demux {
         UnitRule::InOrder
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         y.copy_from_slice(at.input(0));
     }

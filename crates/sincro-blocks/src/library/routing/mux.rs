@@ -20,6 +20,7 @@ impl Mux {
 
 impl Block for Mux {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::numbered(self.inputs)
@@ -39,6 +40,7 @@ impl Block for Mux {
         UnitRule::InOrder
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         let mut from = 0;
         for k in 0..self.inputs {

@@ -34,6 +34,7 @@ impl Described for Selector {
 
 impl Block for Selector {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
     const KEEPS_UNIT: bool = true;
 
     fn widths(&self, inputs: &[Option<usize>]) -> Result<Vec<Option<usize>>, String> {
@@ -50,6 +51,7 @@ impl Block for Selector {
         UnitRule::Components(self.indices.clone())
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (): &mut (), y: &mut [R]) {
         for (y, index) in y.iter_mut().zip(&self.indices) {
             *y = at.input(0)[*index];

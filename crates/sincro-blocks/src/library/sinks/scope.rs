@@ -64,6 +64,7 @@ impl Described for Scope {
 
 impl Block for Scope {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports { inputs: self.inputs.clone(), outputs: Vec::new() }
@@ -73,6 +74,7 @@ impl Block for Scope {
         Ok(Vec::new())
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, _: &At<'_, R>, (): &mut (), _: &mut [R]) {}
 
     fn label(&self) -> String {

@@ -9,6 +9,7 @@ declare_block! {
 
 impl Block for Terminator {
     type Work<R: Real> = ();
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::new(&["u"], &[])
@@ -18,6 +19,7 @@ impl Block for Terminator {
         Ok(Vec::new())
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, _: &At<'_, R>, (): &mut (), _: &mut [R]) {}
 
     fn label(&self) -> String {

@@ -67,6 +67,7 @@ impl Described for ForwardKinematics {
 
 impl Block for ForwardKinematics {
     type Work<R: Real> = Robot<R>;
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         match self.velocity {

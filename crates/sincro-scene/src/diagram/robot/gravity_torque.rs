@@ -46,6 +46,7 @@ impl Described for GravityTorque {
 
 impl Block for GravityTorque {
     type Work<R: Real> = Robot<R>;
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::new(&["q"], &["y"])

@@ -79,6 +79,7 @@ impl Described for Jacobian {
 
 impl Block for Jacobian {
     type Work<R: Real> = (Robot<R>, Vec<R>);
+    const IN_LANES: bool = true;
 
     fn ports(&self) -> Ports {
         Ports::new(&["q"], &["y"])

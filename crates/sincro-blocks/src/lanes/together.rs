@@ -1,0 +1,118 @@
+//! Block of a diagram in lanes that computes all of them together, compiled for the instruction set of the lanes.
+
+use core::any::Any;
+use core::fmt::Debug;
+use core::marker::PhantomData;
+
+use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
+use sincro_math::{Real, Task};
+
+use super::is_in;
+use crate::block::{At, Block, Node};
+use crate::instance::{DynBlock, RunningBlock};
+
+/// Instances of blocks for all lanes.
+pub(super) struct Together<R>(PhantomData<R>);
+
+impl<R: Real> Together<R> {
+    /// Instance of a block on all lanes of `R`; none of one that computes them one after the other.
+    pub fn instance(template: &dyn DynBlock) -> Option<Box<dyn RunningBlock<R>>> {
+        let instance: Box<Box<dyn RunningBlock<R>>> = template.on_lanes()?.downcast().ok()?;
+        Some(*instance)
+    }
+}
+
+/// Instance of a block that can run on the lanes of this processor, a `Box<dyn RunningBlock<R>>`.
+pub(crate) fn on_lanes<B: Block>(block: &B) -> Option<Box<dyn Any>> {
+    if B::IN_LANES && block.runs_in_lanes() { dispatch_lanes(Instance { block }) } else { None }
+}
+
+struct Instance<'a, B> {
+    block: &'a B,
+}
+
+impl<B: Block> LaneVisitor for Instance<'_, B> {
+    type Output = Option<Box<dyn Any>>;
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> Self::Output {
+        if !B::IN_LANES || R::IS_SCALAR {
+            return None;
+        }
+        let instance: Box<dyn RunningBlock<R>> =
+            Box::new(RunningInLanes { block: self.block.clone(), work: self.block.work::<R>() });
+        Some(Box::new(instance))
+    }
+}
+
+/// Instance of a block on lanes.
+#[derive(Clone, Debug)]
+struct RunningInLanes<B: Block, R: Real> {
+    block: B,
+    work: B::Work<R>,
+}
+
+/// One call of a block, compiled for the lanes as a whole.
+struct Call<F>(F);
+
+impl<F: FnOnce()> Task for Call<F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        (self.0)();
+    }
+}
+
+impl<B: Block, R: Real> RunningBlock<R> for RunningInLanes<B, R> {
+    fn start(&self, _: &Node, _: &mut [R], _: &mut [R]) {}
+    fn output(&mut self, at: &At<'_, R>, y: &mut [R]) {
+        R::run_hot(Call(
+            #[inline(always)]
+            || self.block.output(at, &mut self.work, y),
+        ));
+    }
+    fn derivatives(&mut self, at: &At<'_, R>, derivatives: &mut [R]) {
+        R::run_hot(Call(
+            #[inline(always)]
+            || self.block.derivatives(at, &mut self.work, derivatives),
+        ));
+    }
+    fn neg_jacobian_diagonal(&self, at: &At<'_, R>, diagonal: &mut [R]) {
+        R::run_hot(Call(
+            #[inline(always)]
+            || self.block.neg_jacobian_diagonal(at, diagonal),
+        ));
+    }
+    fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]) {
+        R::run_hot(Call(
+            #[inline(always)]
+            || self.block.update(at, &mut self.work, memory, states),
+        ));
+    }
+    fn zero_crossings(&mut self, _: &At<'_, R>, _: &mut [R]) {}
+    fn scheduled_event(&self, _: &[R]) -> f64 {
+        f64::INFINITY
+    }
+    fn handle_events(&mut self, _: &At<'_, R>, _: (&mut [R], &mut [R]), _: bool) -> bool {
+        false
+    }
+    fn save_outside(&self, _: &[R]) -> Option<Vec<u8>> {
+        None
+    }
+    fn restore_outside(&mut self, _: Option<&[u8]>, _: &[R]) {}
+    fn boxed_clone(&self) -> Box<dyn RunningBlock<R>> {
+        Box::new(self.clone())
+    }
+}
+
+/// Puts back those numbers of `x` that are not of the `lanes` among the first `n`.
+#[inline(always)]
+pub(super) fn select<R: Real>(lanes: u64, n: usize, x: &mut [R], kept: &[R]) {
+    if lanes == super::all(n) {
+        return;
+    }
+    for (x, kept) in x.iter_mut().zip(kept) {
+        *x = R::from_lanes(|lane| if is_in(lanes, lane) { x.lane(lane) } else { kept.lane(lane) });
+    }
+}
