@@ -6,7 +6,7 @@ use sincro_blocks::library::sources::random::uniform;
 use sincro_math::random::splitmix64;
 use sincro_sim::prelude::*;
 use sincro_sim::rollout::{Compile, StepsBy};
-use sincro_sim::task::{Autoreset, Step, TaskWorlds};
+use sincro_sim::task::{Autoreset, Plan, Step, TaskWorlds};
 
 fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name)
@@ -480,4 +480,143 @@ fn noise_of_sensors_differs_from_world_to_world_and_from_episode_to_episode() {
     let (one, other, again) = (first([Some(1), Some(2)]), first([None, None]), first([Some(1), Some(2)]));
     assert_eq!(one, again);
     assert!(one[0] != one[1] && one[0] != other[0], "{one:?} {other:?}");
+}
+
+/// A diagram that acts between ticks: states of all kinds, functions of time, what is sampled and held, a command that
+/// the task sets itself, and a block that may fail.
+const CONTINUOUS_DIAGRAM: &str = r#"
+wires = [
+  "/rail/cart/hinge.position -> lag -> both.q",
+  "/rail/cart/hinge/pole/tip.measured_pitch -> held -> both.p",
+  "/rail/cart/doppler.measured_velocity.x -> both.v",
+  "/rail/cart/hinge/pole.velocity.x -> second -> both.w",
+  "wave -> both.s",
+  "push -> both.j",
+  "both -> /rail/cart/hinge",
+  "both -> total -> late",
+  "late -> both.l",
+  "lag -> force -> /rail",
+]
+
+[[block]]
+name = "force"
+type = "gain"
+unit = "N"
+gain = 0.5
+
+[[block]]
+name = "lag"
+type = "low-pass"
+time_constant = 0.02
+initial = 0.01
+
+[[block]]
+name = "held"
+type = "zero-order-hold"
+sample_time = 0.02
+
+[[block]]
+name = "second"
+type = "state-space"
+a = [[0.0, 1.0], [-400.0, -30.0]]
+b = [0.0, 400.0]
+c = [[1.0, 0.0]]
+
+[[block]]
+name = "wave"
+type = "sine"
+amplitude = 0.05
+angular_frequency = 9.0
+
+[[block]]
+name = "push"
+type = "step"
+time = JUMP
+to = 0.1
+
+[[block]]
+name = "total"
+type = "integrator"
+initial = 0.1
+upper = 0.104
+
+[[block]]
+name = "late"
+type = "unit-delay"
+sample_time = 0.03
+
+[[block]]
+name = "both"
+type = "expression"
+inputs = ["q", "p", "v", "w", "s", "j", "l"]
+expression = "sqrt(0.06 - q) - 2*p - 0.1*w - 0.05*v + s + j + l + 0.01*atan2(w, 1 + q)"
+"#;
+
+#[test]
+fn continuous_diagrams_run_in_lanes_as_one_by_one() {
+    let n = 24 + 3;
+    let task = NOISY_TASK
+        .replace("step = 0.01", "step = 0.01\ndiagram = \"control.toml\"")
+        .replace("observations = [", "observations = [\"lag\", \"both\", \"total\", \"late\", ")
+        .replace(
+            "[task.signals]",
+            "[task.signals]\nlag = \"lag\"\nboth = \"both\"\ntotal = \"total\"\nlate = \"late\"",
+        );
+    // semi-implicit Euler does not end its steps at jumps: there it is between ticks
+    let tasks = [
+        ("rk4", "torque", "0.16"),
+        ("rk4", "velocity", "0.16"),
+        ("implicit", "torque", "0.16"),
+        ("implicit", "velocity", "0.16"),
+        ("semi-implicit-euler", "torque", "0.163"),
+        ("semi-implicit-euler", "velocity", "0.163"),
+    ];
+    for (method, mode, jump) in tasks {
+        let name = format!("continuous-{method}-{mode}");
+        let scene = |text: String| noisy_scene(&text, true, mode);
+        let (task, diagram) = (task.replace("rk4", method), CONTINUOUS_DIAGRAM.replace("JUMP", jump));
+        let lanes = OwnTask::with_scene(&name, &task, &diagram, scene);
+        let alone = OwnTask::with_scene(&format!("{name}-alone"), &(task.clone() + ONE_BY_ONE), &diagram, scene);
+        let [lanes, alone] = [&lanes, &alone]
+            .map(|own| load(&own.0, &[], Extensions::default()).unwrap_or_else(|found| panic!("{name}: {found}")));
+        for autoreset in [Autoreset::SameStep, Autoreset::NextStep, Autoreset::Disabled] {
+            let mut worlds = TaskWorlds::new(&alone, n, 1).unwrap();
+            assert!(worlds.plan().lanes_refused().is_some_and(|why| why.contains("drawn")), "{name}");
+            let expected = episodes(&mut worlds, autoreset, 60);
+            let mut worlds = TaskWorlds::new(&lanes, n, 1).unwrap();
+            if sincro_math::lanes::width() > 1 {
+                assert_eq!(worlds.plan().lanes_refused(), None, "{name}");
+            }
+            let found = episodes(&mut worlds, autoreset, 60);
+            for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                let differs = found.iter().zip(expected).position(|(a, b)| a != b);
+                let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
+                assert_eq!(differs.map(of), None, "{name}, {autoreset:?}, world {world}");
+                assert_eq!(found.len(), expected.len());
+            }
+            let n_stopped = expected.iter().flatten().filter(|x| **x == STOPPED).count();
+            assert!(n_stopped > 5, "{name}: worlds that cannot go on: {n_stopped}");
+        }
+    }
+}
+
+#[test]
+fn diagrams_whose_steps_end_between_ticks_are_refused_in_lanes_by_name() {
+    let refused = |method: &str, diagram: &str| {
+        let task = NOISY_TASK.replace("step = 0.01", "step = 0.01\ndiagram = \"control.toml\"").replace("rk4", method);
+        let own = OwnTask::with_scene("refused", &task, diagram, |text| noisy_scene(&text, true, "torque"));
+        let loaded = load(&own.0, &[], Extensions::default()).unwrap_or_else(|found| panic!("{found}"));
+        Plan::new(&loaded).unwrap().lanes_refused().unwrap_or_default().to_owned()
+    };
+    let none = if sincro_math::lanes::width() > 1 { "" } else { "a processor without AVX2" };
+    let jump = |time: &str| CONTINUOUS_DIAGRAM.replace("JUMP", time);
+    for method in ["rk4", "implicit"] {
+        assert_eq!(
+            refused(method, &jump("0.163")),
+            "block `push` of the diagram, whose jump or corner at t = 0.163 s does not fall exactly on a tick"
+        );
+        // after the end of the longest episode, of 0.6 s
+        assert_eq!(refused(method, &jump("0.603")), none);
+    }
+    assert_eq!(refused("semi-implicit-euler", &jump("0.163")), none);
 }

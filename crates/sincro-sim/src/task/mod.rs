@@ -1,8 +1,8 @@
 //! Tasks of scenes: many worlds at once for reinforcement learning, each with its own random starts.
 //!
 //! [`TaskWorlds`] steps all worlds by one action each and gives observations, rewards and the ends of episodes. Worlds
-//! that lanes can advance together do so (fixed steps; no contacts, scripts, limited drives and continuous diagrams),
-//! with a diagram and the noise of sensors for each; the others are lock-steps of their own; threads share them out.
+//! that lanes can advance together do so (fixed steps; no contacts, scripts and limited drives), with a diagram and the
+//! noise of sensors for each; the others are lock-steps of their own; threads share them out.
 //! Nothing that a world gives depends on its neighbours: the same seed gives the same episodes on any number of worlds,
 //! lanes and threads.
 //!

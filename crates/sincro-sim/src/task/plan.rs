@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use sincro_blocks::library::sources::random::{gaussian, uniform};
+use sincro_blocks::program::{Program, Step};
 use sincro_dynamics::batch::{is_time_invariant, obstacle_to_lanes};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
@@ -23,6 +24,9 @@ use sincro_scene::record::probe::{needs_kinematics, of_state};
 use sincro_scene::record::{Probe, Recorder, catalogue};
 use sincro_scene::scene::Scene;
 use sincro_scene::sensor::SensorKind;
+
+/// Maximum number of time events of one source in an episode that are looked at.
+const MAX_TIME_EVENTS: usize = 100_000;
 
 /// A formula, the plain ones known as such.
 #[derive(Clone, Debug)]
@@ -163,7 +167,7 @@ impl Plan {
         let is_varying = |command: &usize| !matches!(loaded.scene.commands[*command], Signal::Constant(_));
         let left = |command: &usize| !plan.own_commands().any(|own| own == *command);
         plan.varying_commands = (0..plan.n_commands()).filter(is_varying).filter(left).collect();
-        plan.recursions_refused = plan.obstacle_to_recursions().map(ToOwned::to_owned);
+        plan.recursions_refused = plan.obstacle_to_recursions();
         let middle = plan.drawn(0, 0);
         if !middle.overrides.is_empty() {
             loaded.with_overrides_without_variants(&middle.overrides)?;
@@ -172,27 +176,63 @@ impl Plan {
     }
 
     /// Part of the scene that keeps the recursions from advancing its worlds in lanes, in words.
-    fn obstacle_to_recursions(&self) -> Option<&str> {
-        self.common_obstacle().or_else(|| self.obstacle_in_diagram()).or_else(|| {
+    fn obstacle_to_recursions(&self) -> Option<String> {
+        let common = self.common_obstacle().map(ToOwned::to_owned);
+        common.or_else(|| self.obstacle_in_diagram()).or_else(|| {
             let is_known = |probe: &Probe| is_of_state(&self.loaded.scene.model, *probe) || self.is_of_lanes(*probe);
-            (!self.probes.iter().all(is_known)).then_some(
-                "a signal that lanes do not compute, such as a contact, an acceleration or a proximity sensor",
-            )
+            let words = "a signal that lanes do not compute, such as a contact, an acceleration or a proximity sensor";
+            (!self.probes.iter().all(is_known)).then(|| words.to_owned())
         })
     }
 
-    /// Part of the diagram that keeps it from running beside lanes, in words.
-    fn obstacle_in_diagram(&self) -> Option<&'static str> {
+    /// Part of the diagram that keeps it from running in or beside lanes, in words.
+    fn obstacle_in_diagram(&self) -> Option<String> {
         let wiring = &self.loaded.controller.as_ref()?.wiring;
-        if wiring.program().is_continuous() {
-            return Some("a diagram that acts between the steps");
+        let program = wiring.program();
+        if let Some(step) = program.steps.iter().find(|step| step.template.zero_crossing_count().is_some()) {
+            return Some(format!("block `{}` of the diagram, which has events between ticks", step.path));
         }
         if !wiring.late.is_empty() {
-            return Some("a diagram that measures accelerations or motor torques");
+            return Some("a diagram that measures accelerations or motor torques".to_owned());
+        }
+        // steps of semi-implicit Euler do not end at time events
+        if self.method != MethodKind::SemiImplicitEuler
+            && let Some((path, t)) = self.event_between_ticks(program)
+        {
+            let words = "whose jump or corner at t =";
+            return Some(format!("block `{path}` of the diagram, {words} {t} s does not fall exactly on a tick"));
         }
         let measured = |probe: &Probe| !is_known_at_ticks_only(*probe) || self.is_of_lanes(*probe);
-        (!wiring.early.iter().flat_map(|reading| &reading.probes).all(measured))
-            .then_some("a diagram that measures a contact, a proximity sensor, or a mean over the step")
+        let words = "a diagram that measures a contact, a proximity sensor, or a mean over the step";
+        (!wiring.early.iter().flat_map(|reading| &reading.probes).all(measured)).then(|| words.to_owned())
+    }
+
+    /// First time event of an episode that would end a step of one world before its next tick: path of the block and
+    /// time `[s]`. A source with very many events counts as one that has such an event.
+    fn event_between_ticks<'a>(&self, program: &'a Program) -> Option<(&'a str, f64)> {
+        let h = self.loaded.experiment.step;
+        let end = self.task.max_actions.saturating_mul(self.task.ticks) as f64 * h;
+        let splits = |step: &Step, tick: f64| {
+            let (start, event) = (tick * h, step.template.next_time_event(tick * h));
+            event < start + h
+        };
+        program.steps.iter().filter(|step| step.is_minor).find_map(|step| {
+            let (mut t, mut n_events) = (0.0, 0);
+            loop {
+                let event = step.template.next_time_event(t);
+                // beyond the last tick, or none
+                if event > end || event.is_nan() {
+                    return None;
+                }
+                let tick = (event / h).floor();
+                let near = [tick - 1.0, tick, tick + 1.0].into_iter().filter(|tick| *tick >= 0.0);
+                n_events += 1;
+                if n_events > MAX_TIME_EVENTS || near.into_iter().any(|tick| splits(step, tick)) {
+                    return Some((step.path.as_str(), event));
+                }
+                t = event;
+            }
+        })
     }
 
     /// Returns true for the value of a sensor that the state and the accelerations decide, with its noise.

@@ -228,7 +228,7 @@ impl Group {
                     commands.iter().enumerate().for_each(|(i, x)| rows.set(k, layout.n_state + i, *x));
                 }
                 for k in (0..task.width()).filter(is_here) {
-                    bundle.diagram(k).into_iter().for_each(|diagram| rows.set_diagram(k, diagram));
+                    bundle.diagram(k).into_iter().for_each(|diagram| rows.set_diagram(k, &diagram));
                 }
             }
             Worlds::Single(worlds) => {

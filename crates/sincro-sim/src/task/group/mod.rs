@@ -57,7 +57,7 @@ impl Scratch {
 
 #[derive(Debug)]
 enum Worlds {
-    Lanes(LaneBundle),
+    Lanes(Box<LaneBundle>),
     Single(Vec<SingleWorld>),
 }
 
@@ -81,7 +81,7 @@ impl Group {
         }
         let commands = &plan.loaded.scene.initial.commands;
         let worlds = match plan.recursions_refused() {
-            None => Worlds::Lanes(LaneBundle::new(plan, n_worlds)),
+            None => Worlds::Lanes(Box::new(LaneBundle::new(plan, n_worlds))),
             Some(_) => Worlds::Single((0..n_worlds).map(|_| SingleWorld::new()).collect()),
         };
         let (none, no) = (vec![0; n_worlds], vec![false; n_worlds]);
@@ -265,7 +265,7 @@ impl Group {
             }
         }
         if let Worlds::Lanes(bundle) = &mut self.worlds {
-            bundle.start(plan, &self.commands, &scratch.begins_anew);
+            bundle.start(plan, &mut self.commands, &scratch.begins_anew);
         }
     }
 

@@ -58,9 +58,13 @@ impl LaneBundle {
     }
 
     /// Starts the episodes that have begun in the worlds of a mask, all worlds under commands (`lane × command`).
-    pub fn start(&mut self, plan: &Plan, commands: &[f64], mask: &[bool]) {
+    pub fn start(&mut self, plan: &Plan, commands: &mut [f64], mask: &[bool]) {
         self.lanes(plan).set_commands(commands);
         self.measure(plan, |lane| mask[lane]);
+        if let Some(diagrams) = self.diagrams.as_mut().filter(|diagrams| diagrams.is_continuous()) {
+            diagrams.write_outputs(mask, commands);
+            self.lanes(plan).set_commands(commands);
+        }
     }
 
     /// Advances all worlds but those that `is_over` by one action's period under commands (`lane × command`), among
@@ -75,9 +79,14 @@ impl LaneBundle {
         while left > 0 {
             self.latch(plan, commands, is_over);
             let n_steps = self.steps_to_samples(plan, is_over, left);
-            let lanes = self.lanes(plan);
-            lanes.set_commands(commands);
-            lanes.advance(plan.loaded.experiment.step, n_steps);
+            self.lanes(plan).set_commands(commands);
+            match self {
+                Self { lanes: Some(lanes), ticks, diagrams: Some(diagrams), .. } if diagrams.is_continuous() => {
+                    diagrams.advance(lanes, ticks, is_over, commands);
+                    lanes.set_commands(commands);
+                }
+                _ => self.lanes(plan).advance(plan.loaded.experiment.step, n_steps),
+            }
             for (tick, is_over) in self.ticks.iter_mut().zip(is_over) {
                 *tick += if *is_over { 0 } else { n_steps };
             }
@@ -115,9 +124,9 @@ impl LaneBundle {
             for command in &plan.varying_commands {
                 commands[*command] = plan.loaded.scene.commands[*command].value(t);
             }
-            if let Some(diagrams) = &mut self.diagrams {
-                diagrams.latch(lane, tick, t, commands);
-            }
+        }
+        if let Some(diagrams) = &mut self.diagrams {
+            diagrams.latch(&self.ticks, is_over, commands);
         }
     }
 
@@ -129,11 +138,7 @@ impl LaneBundle {
             sensors.sample(lanes, ticks, |lane| is_active(lane) && is_good[lane]);
         }
         let Some(diagrams) = diagrams else { return };
-        diagrams.measure(plan, lanes, sensors.as_ref());
-        for lane in (0..ticks.len()).filter(|lane| is_active(*lane)) {
-            let t = ticks[lane] as f64 * plan.loaded.experiment.step;
-            is_good[lane] = is_good[lane] && diagrams.evaluate(lane, ticks[lane], t);
-        }
+        diagrams.evaluate((lanes, sensors.as_ref()), ticks, is_active, is_good);
     }
 
     /// Signals of all worlds, `lane × signal`, and if each world can go on.
@@ -143,13 +148,15 @@ impl LaneBundle {
         if self.diagrams.is_none() && self.sensors.is_none() {
             return;
         }
-        for (lane, signals) in signals.chunks_exact_mut(probes.len().max(1)).enumerate() {
-            for (signal, probe) in signals.iter_mut().zip(probes) {
-                match (*probe, &self.diagrams, &self.sensors) {
-                    (Probe::Signal(k), Some(diagrams), _) => *signal = diagrams.state(lane).signals[k],
-                    (Probe::Sensor(k), _, Some(sensors)) => *signal = sensors.values(lane)[k],
-                    _ => {}
+        for (i, probe) in probes.iter().enumerate() {
+            match (*probe, &mut self.diagrams, &self.sensors) {
+                (Probe::Signal(k), Some(diagrams), _) => diagrams.copy_signal(k, &mut signals[i..], probes.len()),
+                (Probe::Sensor(k), _, Some(sensors)) => {
+                    for (lane, signals) in signals.chunks_exact_mut(probes.len()).enumerate() {
+                        signals[i] = sensors.values(lane)[k];
+                    }
                 }
+                _ => {}
             }
         }
         for (lane, is_finite) in is_finite.iter_mut().enumerate() {
@@ -159,8 +166,8 @@ impl LaneBundle {
     }
 
     /// State of the diagram of a world; none if there is no diagram.
-    pub fn diagram(&self, lane: usize) -> Option<&DiagramState<f64>> {
-        self.diagrams.as_ref().map(|diagrams| diagrams.state(lane))
+    pub fn diagram(&mut self, lane: usize) -> Option<DiagramState<f64>> {
+        self.diagrams.as_mut().map(|diagrams| diagrams.state(lane))
     }
 
     /// Puts a world into the state in which its episode is at tick `tick`, its diagram into that which `set` makes.
@@ -175,7 +182,7 @@ impl LaneBundle {
         self.place(plan, lane, state);
         (self.ticks[lane], self.is_good[lane]) = (tick, true);
         if let Some(diagrams) = &mut self.diagrams {
-            diagrams.resume(lane, tick, set);
+            diagrams.resume(lane, set);
         }
     }
 
@@ -196,7 +203,9 @@ impl LaneBundle {
 
     fn lanes(&mut self, plan: &Plan) -> &mut SteppedLanes {
         self.lanes.get_or_insert_with(|| {
-            let mut made = SteppedLanes::new(&[&plan.loaded.scene.model], plan.method)
+            let controller = plan.loaded.controller.as_ref();
+            let n_states = controller.map_or(0, |controller| controller.wiring.program().n_states);
+            let mut made = SteppedLanes::with_coupled_states(&[&plan.loaded.scene.model], plan.method, n_states)
                 .expect("the plan refuses lanes where they cannot be");
             made.set_commands(&plan.loaded.scene.initial.commands);
             made
