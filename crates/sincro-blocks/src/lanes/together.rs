@@ -52,43 +52,82 @@ struct RunningInLanes<B: Block, R: Real> {
     work: B::Work<R>,
 }
 
-/// One call of a block, compiled for the lanes as a whole.
-struct Call<F>(F);
+// Calls of a block, compiled for the lanes as a whole. No closures: they would not be inlined.
 
-impl<F: FnOnce()> Task for Call<F> {
+struct Output<'a, B: Block, R: Real> {
+    running: &'a mut RunningInLanes<B, R>,
+    at: &'a At<'a, R>,
+    y: &'a mut [R],
+}
+
+impl<B: Block, R: Real> Task for Output<'_, B, R> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        (self.0)();
+        self.running.block.output(self.at, &mut self.running.work, self.y);
+    }
+}
+
+struct Derivatives<'a, B: Block, R: Real> {
+    running: &'a mut RunningInLanes<B, R>,
+    at: &'a At<'a, R>,
+    derivatives: &'a mut [R],
+}
+
+impl<B: Block, R: Real> Task for Derivatives<'_, B, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.running.block.derivatives(self.at, &mut self.running.work, self.derivatives);
+    }
+}
+
+struct Diagonal<'a, B: Block, R: Real> {
+    block: &'a B,
+    at: &'a At<'a, R>,
+    diagonal: &'a mut [R],
+}
+
+impl<B: Block, R: Real> Task for Diagonal<'_, B, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.block.neg_jacobian_diagonal(self.at, self.diagonal);
+    }
+}
+
+struct Update<'a, B: Block, R: Real> {
+    running: &'a mut RunningInLanes<B, R>,
+    at: &'a At<'a, R>,
+    memory: &'a mut [R],
+    states: &'a mut [R],
+}
+
+impl<B: Block, R: Real> Task for Update<'_, B, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.running.block.update(self.at, &mut self.running.work, self.memory, self.states);
     }
 }
 
 impl<B: Block, R: Real> RunningBlock<R> for RunningInLanes<B, R> {
     fn start(&self, _: &Node, _: &mut [R], _: &mut [R]) {}
     fn output(&mut self, at: &At<'_, R>, y: &mut [R]) {
-        R::run_hot(Call(
-            #[inline(always)]
-            || self.block.output(at, &mut self.work, y),
-        ));
+        R::run_hot(Output { running: self, at, y });
     }
     fn derivatives(&mut self, at: &At<'_, R>, derivatives: &mut [R]) {
-        R::run_hot(Call(
-            #[inline(always)]
-            || self.block.derivatives(at, &mut self.work, derivatives),
-        ));
+        R::run_hot(Derivatives { running: self, at, derivatives });
     }
     fn neg_jacobian_diagonal(&self, at: &At<'_, R>, diagonal: &mut [R]) {
-        R::run_hot(Call(
-            #[inline(always)]
-            || self.block.neg_jacobian_diagonal(at, diagonal),
-        ));
+        R::run_hot(Diagonal { block: &self.block, at, diagonal });
     }
     fn update(&mut self, at: &At<'_, R>, memory: &mut [R], states: &mut [R]) {
-        R::run_hot(Call(
-            #[inline(always)]
-            || self.block.update(at, &mut self.work, memory, states),
-        ));
+        R::run_hot(Update { running: self, at, memory, states });
     }
     fn zero_crossings(&mut self, _: &At<'_, R>, _: &mut [R]) {}
     fn scheduled_event(&self, _: &[R]) -> f64 {

@@ -94,10 +94,7 @@ pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
         Probe::ElasticGear(quantity, k) => {
             let gear = &model.elastic_gears()[k];
             let (x, rate) = gear.error(at.q, at.v);
-            match quantity {
-                GearQuantity::MeshError => x,
-                GearQuantity::Torque => gear.torque(x, rate),
-            }
+            if quantity == GearQuantity::MeshError { x } else { gear.torque(x, rate) }
         }
         Probe::Winding(quantity, k) if !has_commanded_circuit(model, quantity, k) => of_winding(at, quantity, k),
         Probe::Activation(k) => {

@@ -90,6 +90,7 @@ impl Block for ForwardKinematics {
         Robot::new(&self.model)
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, robot: &mut Robot<R>, y: &mut [R]) {
         let (model, scratch, zero) = robot.parts();
         let v = if self.velocity { at.input(1) } else { zero };

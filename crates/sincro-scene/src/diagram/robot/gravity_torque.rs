@@ -66,6 +66,7 @@ impl Block for GravityTorque {
         Robot::new(&self.model)
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, robot: &mut Robot<R>, y: &mut [R]) {
         let (model, scratch, zero) = robot.parts();
         inverse_dynamics(model, at.input(0), zero, zero, None, scratch, y);

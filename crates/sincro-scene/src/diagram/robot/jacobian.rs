@@ -94,6 +94,7 @@ impl Block for Jacobian {
         (Robot::new(&self.model), vec![R::zero(); 6 * self.model.n_v()])
     }
 
+    #[inline(always)]
     fn output<R: Real>(&self, at: &At<'_, R>, (robot, whole): &mut (Robot<R>, Vec<R>), y: &mut [R]) {
         let (model, scratch, _) = robot.parts();
         kinematics::jacobian(model, at.input(0), &attached(model, self.frame), scratch, whole);

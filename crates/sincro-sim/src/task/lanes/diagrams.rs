@@ -8,16 +8,16 @@ use sincro_blocks::runner::State as DiagramState;
 use sincro_dynamics::batch::{CoupledLanes, LaneObserver, LaneSystem, SteppedLanes};
 use sincro_dynamics::coupled::{CoupledSystem, MechanismResponse, StateView};
 use sincro_dynamics::kinematics;
-use sincro_dynamics::spatial::Vec3;
 use sincro_dynamics::world::MethodKind;
 use sincro_math::lanes::{LaneVisitor, dispatch_lanes};
 use sincro_math::{Real, Task};
 
+use super::measured::Measured;
 use super::sensors::LaneSensors;
 use crate::task::plan::Plan;
 use sincro_scene::diagram::{MeasuredSignals, Wiring};
-use sincro_scene::record::probe::{View, attached, needs_kinematics, of_state};
-use sincro_scene::record::{FrameQuantity, Probe};
+use sincro_scene::record::Probe;
+use sincro_scene::record::probe::{View, needs_kinematics};
 
 /// Diagrams of the worlds of a bundle.
 #[derive(Debug)]
@@ -195,22 +195,11 @@ impl<R: Real> Diagrams<R> {
     #[inline(always)]
     fn read(&mut self, view: &View<'_, R>, wanted: impl Fn(usize, &MeasuredSignals) -> bool) {
         let Self { wiring, runner, .. } = self;
-        // components of one quantity stand side by side
-        let (mut last, mut components) = (None, Vec3::zero());
+        let mut measured = Measured::new(view);
         for (_, reading) in wiring.early.iter().enumerate().filter(|(k, reading)| wanted(*k, reading)) {
             for (k, probe) in reading.probes.iter().enumerate() {
-                let signal = &mut runner.signals[reading.at + k];
-                match *probe {
-                    Probe::Coordinate(i) => *signal = view.q[i],
-                    Probe::Rate(i) => *signal = view.v[i],
-                    Probe::Frame(quantity, frame, component) if is_of_pose_or_twist(quantity) => {
-                        if last != Some((quantity, frame)) {
-                            components = frame_components(view, quantity, frame);
-                            last = Some((quantity, frame));
-                        }
-                        *signal = components[component];
-                    }
-                    probe => *signal = of_state(view, probe).unwrap_or(*signal),
+                if let Some(value) = measured.value(*probe) {
+                    runner.signals[reading.at + k] = value;
                 }
             }
         }
@@ -236,25 +225,6 @@ impl<R: Real> Diagrams<R> {
                 }
             }
         }
-    }
-}
-
-/// Returns true for what [`frame_components`] computes.
-#[inline(always)]
-fn is_of_pose_or_twist(quantity: FrameQuantity) -> bool {
-    use FrameQuantity::{Angles, AngularVelocity, Position, Velocity};
-    matches!(quantity, Position | Angles | Velocity | AngularVelocity)
-}
-
-/// Components of a quantity of a frame, all of which [`of_state`] would compute for each of them.
-#[inline(always)]
-fn frame_components<R: Real>(view: &View<'_, R>, quantity: FrameQuantity, frame: usize) -> Vec3<R> {
-    let fixed = attached(view.model, frame);
-    match quantity {
-        FrameQuantity::Position => kinematics::frame_pose(view.scratch, &fixed).pos,
-        FrameQuantity::Angles => kinematics::roll_pitch_yaw(&kinematics::frame_pose(view.scratch, &fixed).rot),
-        FrameQuantity::Velocity => kinematics::frame_velocity(view.scratch, &fixed).lin,
-        _ => kinematics::frame_velocity(view.scratch, &fixed).ang,
     }
 }
 

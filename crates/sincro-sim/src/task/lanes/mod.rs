@@ -1,6 +1,7 @@
 //! A bundle of worlds in lanes, with the diagrams and sensors of each.
 
 mod diagrams;
+mod measured;
 mod sensors;
 
 use sincro_blocks::runner::State as DiagramState;
@@ -10,11 +11,12 @@ use sincro_dynamics::state::State;
 use sincro_math::Real;
 
 use diagrams::LaneDiagrams;
+use measured::Measured;
 use sensors::LaneSensors;
 
 use super::plan::{Drawn, Plan};
 use sincro_scene::record::Probe;
-use sincro_scene::record::probe::{View, of_state};
+use sincro_scene::record::probe::View;
 
 /// Worlds side by side, made when the first of them is placed.
 #[derive(Debug)]
@@ -231,12 +233,13 @@ impl LaneObserver for Observation<'_> {
         for x in view.q.iter().chain(view.v).chain(view.rotors) {
             probe_of_all += R::zero() * *x;
         }
+        let mut measured = Measured::new(&view);
         for (i, probe) in probes.iter().enumerate() {
             let value = match *probe {
                 Probe::Command(k) => view.commands[k],
                 // written by the bundle
                 Probe::Signal(_) | Probe::Sensor(_) => continue,
-                probe => of_state(&view, probe).expect("the plan refuses other signals"),
+                probe => measured.value(probe).expect("the plan refuses other signals"),
             };
             for lane in 0..is_finite.len() {
                 signals[lane * probes.len() + i] = value.lane(lane);
