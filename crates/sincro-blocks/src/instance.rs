@@ -90,6 +90,8 @@ pub trait DynBlock: Debug + Send + Sync {
     fn on_duals(&self) -> Box<dyn RunningBlock<Dual<1>>>;
     /// Creates an instance that runs on recorded numbers, to be compiled.
     fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>>;
+    /// Returns true if the block computes all lanes together: [`Block::IN_LANES`].
+    fn computes_lanes_together(&self) -> bool;
     /// Creates an instance that runs on the lanes `R` of this processor, a `Box<dyn RunningBlock<R>>`; `None` if the
     /// block computes them one after the other: [`Block::IN_LANES`].
     fn on_lanes(&self) -> Option<Box<dyn Any>>;
@@ -157,6 +159,9 @@ impl<B: Block> DynBlock for B {
     }
     fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>> {
         Box::new(Running { block: self.clone(), work: self.work() })
+    }
+    fn computes_lanes_together(&self) -> bool {
+        B::IN_LANES && self.runs_in_lanes()
     }
     fn on_lanes(&self) -> Option<Box<dyn Any>> {
         crate::lanes::on_lanes(self)

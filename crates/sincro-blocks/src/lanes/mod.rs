@@ -50,7 +50,8 @@ pub struct LaneRunner<R> {
     new_memory: Vec<R>,
     /// State of one lane at the start of a run.
     initial: State<f64>,
-    blocks: Vec<LaneBlock<R>>,
+    blocks: Vec<LaneBlock>,
+    together: LaneBlocks<R>,
     buffers: each::Buffers,
     /// Numbers of lanes that stay as they are.
     kept: Vec<R>,
@@ -63,10 +64,33 @@ pub struct LaneRunner<R> {
     with_memory: Vec<usize>,
 }
 
-/// Instance of a block for all lanes, or one for each.
-enum LaneBlock<R> {
-    Together(Box<dyn RunningBlock<R>>),
+/// Block that computes all lanes by its instance in [`LaneBlocks`], or each by one of its own.
+enum LaneBlock {
+    Together,
     Each(Each),
+}
+
+/// Instances of the blocks that compute all lanes together, by their steps in the program. They have no state but
+/// buffers whose content does not matter: [`LaneRunner`]s of one program may share them, one after the other.
+pub struct LaneBlocks<R>(Vec<Option<Box<dyn RunningBlock<R>>>>);
+
+impl<R: Real> LaneBlocks<R> {
+    /// Creates the instances of a program.
+    #[must_use]
+    pub fn new(program: &Program) -> Self {
+        Self(program.steps.iter().map(|step| Together::instance(step.template.as_ref())).collect())
+    }
+
+    #[inline(always)]
+    fn of(&mut self, k: usize) -> &mut dyn RunningBlock<R> {
+        self.0[k].as_deref_mut().expect("the runner has the blocks")
+    }
+}
+
+impl<R> core::fmt::Debug for LaneBlocks<R> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("LaneBlocks")
+    }
 }
 
 impl<R> core::fmt::Debug for LaneRunner<R> {
@@ -83,6 +107,18 @@ impl<R: Real> LaneRunner<R> {
     /// If `R` has fewer lanes, or more than 64, or a block has events of its own.
     #[must_use]
     pub fn new(program: &Arc<Program>, n: usize) -> Self {
+        let mut new = Self::without_blocks(program, n);
+        new.together = LaneBlocks::new(program);
+        new
+    }
+
+    /// As [`LaneRunner::new`], without blocks: [`LaneRunner::exchange_blocks`] gives it some before each step.
+    ///
+    /// # Panics
+    ///
+    /// As [`LaneRunner::new`].
+    #[must_use]
+    pub fn without_blocks(program: &Arc<Program>, n: usize) -> Self {
         assert!(n <= R::LANES && R::LANES <= MAX_LANES, "a lane for each run");
         let has_events = program.steps.iter().any(|step| step.template.zero_crossing_count().is_some());
         assert!(!has_events, "events are those of one run alone");
@@ -91,13 +127,11 @@ impl<R: Real> LaneRunner<R> {
             (0..program.steps.len()).filter(|k| wanted(*k)).collect()
         };
         let steps = &program.steps;
-        let blocks: Vec<LaneBlock<R>> = steps
-            .iter()
-            .map(|step| match Together::instance(step.template.as_ref()) {
-                Some(together) => LaneBlock::Together(together),
-                None => LaneBlock::Each(Each::new(step)),
-            })
-            .collect();
+        let blocks = steps.iter().map(|step| match step.template.computes_lanes_together() && !R::IS_SCALAR {
+            true => LaneBlock::Together,
+            false => LaneBlock::Each(Each::new(step)),
+        });
+        let blocks: Vec<LaneBlock> = blocks.collect();
         let period = |k: usize| program.periods.iter().position(|p| *p == steps[k].node.every).unwrap_or(0);
         let mut new = Self {
             initial: Runner::<f64>::new(Arc::clone(program)).state,
@@ -107,6 +141,7 @@ impl<R: Real> LaneRunner<R> {
             memory: zeros(program.n_memory),
             new_memory: zeros(program.n_memory),
             blocks,
+            together: LaneBlocks(Vec::new()),
             buffers: each::Buffers::default(),
             kept: Vec::new(),
             due: vec![0; program.periods.len()],
@@ -119,6 +154,12 @@ impl<R: Real> LaneRunner<R> {
         };
         (0..n).for_each(|lane| new.begin(lane));
         new
+    }
+
+    /// Exchanges the instances of the blocks that compute all lanes together with those of another runner of the same
+    /// program.
+    pub fn exchange_blocks(&mut self, others: &mut LaneBlocks<R>) {
+        core::mem::swap(&mut self.together, others);
     }
 
     /// Number of runs.
@@ -206,12 +247,12 @@ impl<R: Real> LaneRunner<R> {
             let states = &mut self.continuous[step.states.clone()];
             let inputs = Inputs { signals: &self.signals, states: &[], memory: &self.memory[step.memory.clone()] };
             match &mut self.blocks[k] {
-                LaneBlock::Together(block) => {
+                LaneBlock::Together => {
                     let n = memory.len();
                     self.kept.clear();
                     self.kept.extend_from_slice(memory);
                     self.kept.extend_from_slice(states);
-                    block.update(&inputs.at(step), memory, states);
+                    self.together.of(k).update(&inputs.at(step), memory, states);
                     select(lanes, self.n, memory, &self.kept[..n]);
                     select(lanes, self.n, states, &self.kept[n..]);
                 }
@@ -260,7 +301,7 @@ impl<R: Real> LaneRunner<R> {
                 memory: &self.memory[step.memory.clone()],
             };
             match &mut self.blocks[k] {
-                LaneBlock::Together(block) => block.derivatives(&inputs.at(step), out),
+                LaneBlock::Together => self.together.of(k).derivatives(&inputs.at(step), out),
                 LaneBlock::Each(each) => each.run(
                     (step, &inputs),
                     (active(clocks), clocks),
@@ -293,7 +334,7 @@ impl<R: Real> LaneRunner<R> {
                 memory: &self.memory[step.memory.clone()],
             };
             match &mut self.blocks[k] {
-                LaneBlock::Together(block) => block.neg_jacobian_diagonal(&inputs.at(step), out),
+                LaneBlock::Together => self.together.of(k).neg_jacobian_diagonal(&inputs.at(step), out),
                 LaneBlock::Each(each) => each.run(
                     (step, &inputs),
                     (active(clocks), clocks),
@@ -368,11 +409,11 @@ impl<R: Real> LaneRunner<R> {
             memory: &self.memory[step.memory.clone()],
         };
         match &mut self.blocks[k] {
-            LaneBlock::Together(block) if lanes == all(self.n) => block.output(&inputs.at(step), out),
-            LaneBlock::Together(block) => {
+            LaneBlock::Together if lanes == all(self.n) => self.together.of(k).output(&inputs.at(step), out),
+            LaneBlock::Together => {
                 self.kept.clear();
                 self.kept.extend_from_slice(out);
-                block.output(&inputs.at(step), out);
+                self.together.of(k).output(&inputs.at(step), out);
                 select(lanes, self.n, out, &self.kept);
             }
             LaneBlock::Each(each) => each.run(

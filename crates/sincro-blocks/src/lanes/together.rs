@@ -24,7 +24,7 @@ impl<R: Real> Together<R> {
 
 /// Instance of a block that can run on the lanes of this processor, a `Box<dyn RunningBlock<R>>`.
 pub(crate) fn on_lanes<B: Block>(block: &B) -> Option<Box<dyn Any>> {
-    if B::IN_LANES && block.runs_in_lanes() { dispatch_lanes(Instance { block }) } else { None }
+    if block.computes_lanes_together() { dispatch_lanes(Instance { block }) } else { None }
 }
 
 struct Instance<'a, B> {

@@ -4,7 +4,7 @@ mod compiled;
 
 use compiled::{CompiledScratch, CompiledWorlds};
 
-use super::lanes::LaneBundle;
+use super::lanes::{LaneBundle, SharedBlocks};
 use super::plan::{Drawn, Plan, copy_unsigned, unsigned_zero};
 use super::single::SingleWorld;
 use super::{Autoreset, StepMut};
@@ -37,6 +37,8 @@ pub(super) struct Scratch {
     single_commands: Vec<Option<f64>>,
     stack: Vec<f64>,
     compiled: Option<CompiledScratch>,
+    /// Blocks of diagrams in lanes.
+    blocks: Option<SharedBlocks>,
 }
 
 impl Scratch {
@@ -51,6 +53,7 @@ impl Scratch {
             default_commands,
             stack: Vec::new(),
             compiled: plan.compiled.as_ref().map(|task| CompiledScratch::new(plan, task)),
+            blocks: SharedBlocks::new(plan),
         }
     }
 }
@@ -239,7 +242,9 @@ impl Group {
         let n = plan.n_commands();
         match &mut self.worlds {
             Worlds::Lanes(bundle) => {
-                bundle.advance(plan, &mut self.commands, &scratch.was_over[..self.is_finite.len()])
+                bundle.exchange_blocks(&mut scratch.blocks);
+                bundle.advance(plan, &mut self.commands, &scratch.was_over[..self.is_finite.len()]);
+                bundle.exchange_blocks(&mut scratch.blocks);
             }
             Worlds::Single(worlds) => {
                 for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| !scratch.was_over[*k]) {
@@ -265,7 +270,9 @@ impl Group {
             }
         }
         if let Worlds::Lanes(bundle) = &mut self.worlds {
+            bundle.exchange_blocks(&mut scratch.blocks);
             bundle.start(plan, &mut self.commands, &scratch.begins_anew);
+            bundle.exchange_blocks(&mut scratch.blocks);
         }
     }
 

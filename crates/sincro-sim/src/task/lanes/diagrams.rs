@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use sincro_blocks::lanes::{Clock, LaneRunner};
+use core::any::Any;
+use sincro_blocks::lanes::{Clock, LaneBlocks, LaneRunner};
 use sincro_blocks::runner::State as DiagramState;
 use sincro_dynamics::batch::{CoupledLanes, LaneObserver, LaneSystem, SteppedLanes};
 use sincro_dynamics::coupled::{CoupledSystem, MechanismResponse, StateView};
@@ -41,6 +42,27 @@ struct Reading {
     /// Periods of what reads it, in base steps.
     periods: Vec<u64>,
     needs_poses: bool,
+}
+
+/// Blocks of the diagrams of all bundles of one thread, which have them one after the other: what they compute with,
+/// such as the model of a robot, is too much memory for each.
+pub(in crate::task) struct SharedBlocks {
+    /// A `LaneBlocks<R>`.
+    blocks: Box<dyn Any + Send>,
+}
+
+impl core::fmt::Debug for SharedBlocks {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("SharedBlocks")
+    }
+}
+
+impl SharedBlocks {
+    /// None if the task has no diagram in lanes.
+    pub fn new(plan: &Plan) -> Option<Self> {
+        let wiring = &plan.loaded.controller.as_ref()?.wiring;
+        plan.recursions_refused().is_none().then(|| Self { blocks: dispatch_lanes(NewBlocks { wiring }) })
+    }
 }
 
 /// Command that a diagram gives.
@@ -95,6 +117,11 @@ impl LaneDiagrams {
             clocks: vec![clock; n_worlds],
             step: plan.loaded.experiment.step,
         })
+    }
+
+    /// Takes the blocks of the thread, or gives them back.
+    pub fn exchange_blocks(&mut self, shared: &mut SharedBlocks) {
+        dispatch_lanes(ExchangeBlocks { system: &mut self.system, shared });
     }
 
     /// Returns true if the diagram is integrated with the worlds: [`LaneDiagrams::advance`].
@@ -337,12 +364,40 @@ impl LaneVisitor for New<'_> {
         });
         LaneSystem::new(Diagrams::<R> {
             wiring: Arc::clone(wiring),
-            runner: LaneRunner::new(program, n_worlds),
+            runner: LaneRunner::without_blocks(program, n_worlds),
             given: given.collect(),
             starts: Vec::new(),
             now: Vec::new(),
             zeros: vec![R::zero(); plan.loaded.scene.model.n_v()],
         })
+    }
+}
+
+struct NewBlocks<'a> {
+    wiring: &'a Wiring,
+}
+
+impl LaneVisitor for NewBlocks<'_> {
+    type Output = Box<dyn Any + Send>;
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> Self::Output {
+        Box::new(LaneBlocks::<R>::new(self.wiring.program()))
+    }
+}
+
+struct ExchangeBlocks<'a> {
+    system: &'a mut LaneSystem,
+    shared: &'a mut SharedBlocks,
+}
+
+impl LaneVisitor for ExchangeBlocks<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<R: Real>(self) {
+        let blocks = self.shared.blocks.downcast_mut().expect("the dispatch takes the same lanes each time");
+        self.system.get::<R, Diagrams<R>>().runner.exchange_blocks(blocks);
     }
 }
 

@@ -11,6 +11,7 @@ use sincro_dynamics::state::State;
 use sincro_math::Real;
 
 use diagrams::LaneDiagrams;
+pub(super) use diagrams::SharedBlocks;
 use measured::Measured;
 use sensors::LaneSensors;
 
@@ -56,6 +57,14 @@ impl LaneBundle {
         }
         if let Some(diagrams) = &mut self.diagrams {
             diagrams.begin(lane);
+        }
+    }
+
+    /// Takes the blocks of diagrams that the bundles of a thread share, or gives them back: it needs them to start and
+    /// to advance.
+    pub fn exchange_blocks(&mut self, shared: &mut Option<SharedBlocks>) {
+        if let (Some(diagrams), Some(shared)) = (&mut self.diagrams, shared) {
+            diagrams.exchange_blocks(shared);
         }
     }
 
