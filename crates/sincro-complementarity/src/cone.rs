@@ -54,6 +54,9 @@ pub struct SlowSliding {
 /// Distance of the speed from that which friction could not turn, relative to it, where the sliding rate ends.
 const SLOWEST_RISE: f64 = 1e-6;
 
+/// Largest difference of the components of directions that are the same.
+const SAME_DIRECTION: f64 = 1e-6;
+
 impl<R: Real> FrictionGroup<R> {
     /// Group of `dim` rows (1 or 2) from `row` on, sticking.
     #[must_use]
@@ -84,6 +87,13 @@ impl<R: Real> FrictionGroup<R> {
             let share = 1.0 - (speed / reach) * (speed / reach);
             speed / (h * share * share)
         })
+    }
+
+    /// Returns true if it sticks as `other` does, or slips in the same direction.
+    fn has_mode_of(&self, other: &Self) -> bool {
+        let is_near = |(x, y): (&R, &R)| (*x - *y).lane(0).abs() <= SAME_DIRECTION;
+        self.mode == other.mode
+            && (self.mode == ContactMode::Stick || self.direction.iter().zip(&other.direction).all(is_near))
     }
 
     /// Sets the group to stick.
@@ -123,6 +133,15 @@ impl<R: Real> UnilateralConstraint<R> {
     #[must_use]
     pub fn contact(slot: usize, row: usize, groups: [Option<FrictionGroup<R>>; 3]) -> Self {
         Self { slot, row, open: false, given: None, is_compliant: false, groups }
+    }
+
+    /// Returns true if it is open as `other` is, or closed with the same modes of friction.
+    pub(crate) fn has_modes_of(&self, other: &Self) -> bool {
+        let same = |(one, two): (&Option<FrictionGroup<R>>, &Option<FrictionGroup<R>>)| match (one, two) {
+            (Some(one), Some(two)) => one.has_mode_of(two),
+            _ => one.is_none() && two.is_none(),
+        };
+        self.open == other.open && (self.open || self.groups.iter().zip(&other.groups).all(same))
     }
 
     /// Returns true if the constraint is a limited drive.

@@ -11,6 +11,9 @@ use super::active_set::ContactProblem;
 use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use super::solver::{Solver, Tolerances, norm, pair};
 
+/// Number of turns of impending slip after which those that converge do so steadily.
+const SETTLING_TURNS: usize = 2;
+
 /// Maximum number of friction groups whose modes are all tried.
 const MAX_ENUMERATED: usize = 6;
 
@@ -61,7 +64,7 @@ impl<R: Real> Solver<R> {
         undecided(blocks).for_each(FrictionGroup::stick);
         // forces that would let all stick tell the directions of impending slip
         lambda.copy_from_slice(&self.found.lambda);
-        self.hold_modes(problem, blocks, lambda);
+        self.hold_modes(problem, blocks, lambda, SETTLING_TURNS);
         self.sticking.keep(blocks, lambda, &self.active_set.rates);
         (0..1_u32 << n).any(|slipping| {
             blocks.copy_from_slice(&self.sticking.blocks);
@@ -73,7 +76,8 @@ impl<R: Real> Solver<R> {
                     group.slip(force.map(|x| R::splat(x / size)), None);
                 }
             }
-            self.hold_modes(problem, blocks, lambda) && self.worst_law(problem, blocks, lambda).is_none()
+            self.hold_modes(problem, blocks, lambda, SETTLING_TURNS)
+                && self.worst_law(problem, blocks, lambda).is_none()
         })
     }
 }

@@ -16,6 +16,12 @@ use super::solver::{MAX_TURNS, RANK, SLACK, Solver, Tolerances, norm, pair, turn
 /// Least change of a rate that is an observable one, relative to the largest rate.
 const OBSERVABLE: f64 = 0.1 * SLACK;
 
+/// Number of turns after which held modes whose directions do not converge are given up.
+const PATIENT_TURNS: usize = 10;
+
+/// Number of turns after which redundant constraints share the load in each of them.
+const UNSHARED_TURNS: usize = 4;
+
 /// Constraint by what it stands for, wherever it is in the list of an evaluation: contacts that have left are in none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConstraintId {
@@ -116,31 +122,57 @@ impl<R: Real> Solver<R> {
         lambda: &mut [R],
     ) -> bool {
         self.report.solved += 1;
-        self.hold_modes(problem, blocks, lambda)
+        self.hold_modes(problem, blocks, lambda, PATIENT_TURNS)
     }
 
-    /// As [`Solver::hold`], as a part of another problem.
+    /// As [`Solver::hold`], as a part of another problem; from turn `patience` on, directions that converge too slowly
+    /// are given up.
     pub(crate) fn hold_modes(
         &mut self,
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
+        patience: usize,
     ) -> bool {
         self.rank = RANK;
-        for _ in 0..MAX_TURNS {
-            self.correct(problem, blocks, lambda);
+        let (mut last, mut is_shared) = ([f64::INFINITY; 2], turns_by_load(blocks));
+        for n_turns in 0..MAX_TURNS {
+            self.correct_rates(problem, blocks, lambda);
+            // until the directions are found the load is shared as before
+            if is_shared || n_turns >= UNSHARED_TURNS || blocks.is_empty() {
+                self.share_load(problem, blocks, lambda);
+                is_shared = true;
+            }
             if blocks.is_empty() {
                 return true;
             }
-            self.active_set.find_rates(problem, lambda);
-            let small = Tolerances::of(problem, lambda);
-            if turn(small, &self.active_set.rates, blocks, lambda) {
+            let mut turned = self.turn_slip(problem, blocks, lambda);
+            if turned == 0.0 && !is_shared && self.share_load(problem, blocks, lambda) {
+                is_shared = true;
+                turned = self.turn_slip(problem, blocks, lambda);
+            }
+            if turned > 0.0 {
+                if n_turns >= patience && !converges(turned, last[0], MAX_TURNS - n_turns) {
+                    return false;
+                }
+                last = [last[1], turned];
                 continue;
             }
             self.refine(problem, blocks, lambda);
-            return self.is_consistent(small, blocks);
+            return self.is_consistent(Tolerances::of(problem, lambda), blocks);
         }
         false
+    }
+
+    /// Finds the rates of λ, and turns friction against them; returns the largest change of a direction.
+    fn turn_slip(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &[R],
+    ) -> f64 {
+        self.active_set.find_rates(problem, lambda);
+        turn(Tolerances::of(problem, lambda), &self.active_set.rates, blocks, lambda)
     }
 
     /// Returns true if the rates that the modes hold at zero are zero.
@@ -248,19 +280,37 @@ fn excess<R: Real>(law: HeldLaw<&UnilateralConstraint<R>>, small: Tolerances, ra
     }
 }
 
-/// Turns friction that slips against its velocity or rate; returns true if any was not turned so yet. A rate that
-/// counts as none for sticking friction gives impending slip no direction.
-fn turn<R: Real>(mut small: Tolerances, rates: &[R], blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) -> bool {
+/// Returns true if a group slides so slowly that its direction hangs on its share of the load.
+fn turns_by_load<R: Real>(blocks: &[UnilateralConstraint<R>]) -> bool {
+    let groups = blocks.iter().filter(|block| !block.open).flat_map(|block| block.groups.iter().flatten());
+    groups.into_iter().any(|group| group.is_sliding && group.compliance.is_some())
+}
+
+/// Returns true if changes of directions, now of size `turned` and of size `before` two turns before, come down to
+/// rounding in `n` more turns at this pace.
+fn converges(turned: f64, before: f64, n: usize) -> bool {
+    let of_two_turns = turned / before;
+    turned * of_two_turns.powi(n.div_ceil(2) as i32) <= SLACK
+}
+
+/// Turns friction that slips against its velocity or rate; returns the largest change of a direction, zero if all were
+/// turned so. A rate that counts as none for sticking friction gives impending slip no direction.
+fn turn<R: Real>(mut small: Tolerances, rates: &[R], blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) -> f64 {
     small.rate = small.held;
-    let mut turned = false;
+    let mut turned = 0.0_f64;
     for block in blocks.iter_mut().filter(|block| !block.open) {
         let normal = lambda[block.row].lane(0);
         for group in block.groups.iter_mut().flatten() {
-            turned |= match group.mode {
+            let before = group.direction;
+            let is_turned = match group.mode {
                 ContactMode::Slip if group.is_sliding => turn_slow_friction(group, normal, rates, lambda),
                 ContactMode::Slip => turn_impending_slip(group, normal.max(0.0), small, rates, lambda) == Some(true),
                 ContactMode::Stick => false,
             };
+            if is_turned {
+                let change = [0, 1].map(|k| (group.direction[k] - before[k]).lane(0));
+                turned = turned.max(norm(change).max(f64::MIN_POSITIVE));
+            }
         }
     }
     turned

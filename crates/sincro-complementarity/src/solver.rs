@@ -248,6 +248,17 @@ impl<R: Real> Solver<R> {
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) -> bool {
+        self.iterate_away_from(None, problem, blocks, lambda)
+    }
+
+    /// As [`Solver::iterate_active_set`], but returns false where the modes become those of a `known` solution.
+    pub(crate) fn iterate_away_from(
+        &mut self,
+        known: Option<&[UnilateralConstraint<R>]>,
+        problem: &ContactProblem<'_, R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
         let (mut updates, mut turns) = (0, 0);
         while updates < MAX_MODE_UPDATES {
             self.correct(problem, blocks, lambda);
@@ -258,6 +269,9 @@ impl<R: Real> Solver<R> {
             let rates = &self.active_set.rates;
             if update_modes(problem, rates, blocks, lambda) {
                 updates += 1;
+                if known.is_some_and(|known| blocks.iter().zip(known).all(|(block, known)| block.has_modes_of(known))) {
+                    return false;
+                }
             } else if turns < MAX_TURNS && turn_slow_sliding(rates, blocks, lambda) {
                 turns += 1;
             } else {
@@ -285,8 +299,20 @@ impl<R: Real> Solver<R> {
         }
     }
 
-    /// Solves the linear system of the current active set.
+    /// Solves the linear system of the current active set; redundant constraints share the load.
     pub fn correct(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &mut [R]) {
+        self.correct_rates(problem, blocks, lambda);
+        self.share_load(problem, blocks, lambda);
+    }
+
+    /// Solves the linear system of the current active set; how redundant constraints share the load, which changes no
+    /// rate, follows from λ before.
+    pub(crate) fn correct_rates(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) {
         self.active_set.take(problem.n_free, blocks, lambda);
         self.active_set.find_rates(problem, lambda);
         self.active_set.system(problem, blocks, lambda, &mut self.dense);
@@ -295,9 +321,20 @@ impl<R: Real> Solver<R> {
         self.dense.solve(self.rank, &mut self.delta);
         self.smallest_pivot = self.dense.smallest_pivot;
         self.active_set.change(blocks, &self.delta, lambda);
-        if self.dense.rank < self.dense.n {
+    }
+
+    /// Lets redundant constraints share the load of the linear system last solved; returns true if there are any.
+    pub(crate) fn share_load(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
+        let is_redundant = self.dense.rank < self.dense.n;
+        if is_redundant {
             self.share.apply(problem, (&self.dense, &self.active_set), blocks, lambda);
         }
+        is_redundant
     }
 
     /// Complementarity residual relative to the largest rate (dimensionless); counted if it exceeds the tolerance.

@@ -76,7 +76,7 @@ impl<R: Real> Solver<R> {
         lambda.copy_from_slice(&first.lambda);
         set_start(one, blocks, lambda)
             && two.is_none_or(|two| set_start(two, blocks, lambda))
-            && self.iterate_active_set(problem, blocks, lambda)
+            && self.iterate_away_from(Some(&first.blocks), problem, blocks, lambda)
             && self.keeps_laws_elsewhere(problem, first, blocks, lambda)
     }
 

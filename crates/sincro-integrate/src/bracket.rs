@@ -1,15 +1,41 @@
 //! Bracket of the instant of an event, closed by Chandrupatla's method: inverse quadratic interpolation where it
-//! promises progress, else bisection.
+//! promises progress, else bisection; first by cubic Hermite interpolation where the rates of the zero crossing are
+//! known at both ends.
 //!
 //! Which end of the bracket an instant belongs to is decided by the event itself; a value of the zero crossing only
 //! guides the search, and where it is missing or has the wrong sign the bracket is bisected. Source: key
 //! `chandrupatla1997`.
 
-/// Instant with the value of the zero crossing, NaN if it is not known.
+/// Maximum number of instants found by the rates: where these do not close the bracket, they mislead.
+const MAX_BY_RATES: u32 = 8;
+
+/// Value of a zero crossing, and its rate in units of the value per second; NaN where they are not known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Value: below zero before the event, above zero after it.
+    pub value: f64,
+    /// Rate.
+    pub rate: f64,
+}
+
+impl From<f64> for Sample {
+    fn from(value: f64) -> Self {
+        Self { value, rate: f64::NAN }
+    }
+}
+
+/// Instant with the value of the zero crossing and its rate, NaN if it is not known.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     t: f64,
     value: f64,
+    rate: f64,
+}
+
+impl Point {
+    fn of(t: f64, Sample { value, rate }: Sample) -> Self {
+        Self { t, value, rate }
+    }
 }
 
 /// Bracket of the first instant at which an event has happened.
@@ -33,15 +59,17 @@ pub struct Bracket {
     /// The end that the last instant replaced, and true if the last instant became `after`.
     replaced: Point,
     last_is_after: bool,
+    n_taken: u32,
 }
 
 impl Bracket {
-    /// Creates the bracket between an instant before the event and one after it `[s]`; `values` of the zero crossing
-    /// there: below zero before, above zero after, NaN where unknown.
+    /// Creates the bracket between an instant before the event and one after it `[s]`; `samples` of the zero crossing
+    /// there: values below zero before, above zero after, NaN where unknown.
     #[must_use]
-    pub fn new((before, after): (f64, f64), values: (f64, f64)) -> Self {
-        let [before, after] = [(before, values.0), (after, values.1)].map(|(t, value)| Point { t, value });
-        Self { before, after, replaced: Point { t: f64::NAN, value: f64::NAN }, last_is_after: true }
+    pub fn new((before, after): (f64, f64), samples: (impl Into<Sample>, impl Into<Sample>)) -> Self {
+        let (before, after) = (Point::of(before, samples.0.into()), Point::of(after, samples.1.into()));
+        let replaced = Point { t: f64::NAN, value: f64::NAN, rate: f64::NAN };
+        Self { before, after, replaced, last_is_after: true, n_taken: 0 }
     }
 
     /// Last instant known to be after the event `[s]`.
@@ -60,30 +88,62 @@ impl Bracket {
     #[must_use]
     pub fn next(&self, resolution: f64) -> f64 {
         let margin = (0.5 * resolution / self.width()).min(0.5);
-        let share = self.interpolated().unwrap_or(0.5).clamp(margin, 1.0 - margin);
+        let share = self.interpolated_by_rates().or_else(|| self.interpolated());
+        let share = share.unwrap_or(0.5).clamp(margin, 1.0 - margin);
         let (new, old) = self.ends();
         let t = new.t + share * (old.t - new.t);
         if t > self.before.t && t < self.after.t { t } else { 0.5 * (self.before.t + self.after.t) }
     }
 
-    /// Takes the instant `t` `[s]`, which is after the event or not, with the value of the zero crossing there, NaN if
+    /// Takes the instant `t` `[s]`, which is after the event or not, with a sample of the zero crossing there, NaN if
     /// it is not known.
-    pub fn take(&mut self, t: f64, is_after: bool, value: f64) {
+    pub fn take(&mut self, t: f64, is_after: bool, sample: impl Into<Sample>) {
         let end = if is_after { &mut self.after } else { &mut self.before };
-        self.replaced = core::mem::replace(end, Point { t, value });
+        self.replaced = core::mem::replace(end, Point::of(t, sample.into()));
         self.last_is_after = is_after;
+        self.n_taken += 1;
     }
 
-    /// Forgets the values: the zero crossing is another one, with the value `value_after` at the end of the bracket.
-    pub fn forget(&mut self, value_after: f64) {
-        self.before.value = f64::NAN;
-        self.replaced.value = f64::NAN;
-        self.after.value = value_after;
+    /// Forgets the values: the zero crossing is another one, with the sample `after` at the end of the bracket.
+    pub fn forget(&mut self, after: impl Into<Sample>) {
+        for point in [&mut self.before, &mut self.replaced] {
+            *point = Point::of(point.t, f64::NAN.into());
+        }
+        self.after = Point::of(self.after.t, after.into());
     }
 
     /// The end found last, and the other one.
     fn ends(&self) -> (Point, Point) {
         if self.last_is_after { (self.after, self.before) } else { (self.before, self.after) }
+    }
+
+    /// Zero of the cubic through values and rates at both ends, as a share of the way from the last end to the other
+    /// one; none where they are not known. A zero crossing that begins at zero, or above it by rounding, falls first.
+    fn interpolated_by_rates(&self) -> Option<f64> {
+        let Self { before, after, .. } = self;
+        let begins_before = before.value < 0.0 || before.rate < 0.0;
+        if !(begins_before && after.value > 0.0 && self.n_taken < MAX_BY_RATES) {
+            return None;
+        }
+        let (first, last) = (before.rate * self.width(), after.rate * self.width());
+        let cubic = |s: f64| {
+            let left = 1.0 - s;
+            left * left * ((1.0 + 2.0 * s) * before.value + s * first)
+                + s * s * ((1.0 + 2.0 * left) * after.value - left * last)
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        while high - low > f64::EPSILON * high {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            match cubic(middle) {
+                value if value > 0.0 => high = middle,
+                value if value <= 0.0 => low = middle,
+                _ => return None,
+            }
+        }
+        Some(if self.last_is_after { 1.0 - high } else { high })
     }
 
     /// Zero of the inverse parabola, or of the chord, as a share of the way from the last end to the other one; none
@@ -136,6 +196,43 @@ mod tests {
             assert!(count <= 14, "{count}");
             assert!(f(root) > 0.0 && f(root - 2e-13) <= 0.0);
         }
+    }
+
+    #[test]
+    fn rates_take_a_few_probes_less() {
+        type Function = fn(f64) -> f64;
+        let crossings: [(Function, Function); 3] = [
+            (|t| t * t - 0.3 + 0.1 * t, |t| 2.0 * t + 0.1),
+            (|t| 1.0 / (1.2 - t) - 2.0, |t| 1.0 / (1.2 - t) / (1.2 - t)),
+            (|t| t - 0.987, |_| 1.0),
+        ];
+        for (f, rate) in crossings {
+            let sample = |t: f64| Sample { value: f(t), rate: rate(t) };
+            let mut bracket = Bracket::new((0.0, 1.0), (sample(0.0), sample(1.0)));
+            let mut count = 0;
+            while bracket.width() > 1e-13 {
+                let t = bracket.next(1e-13);
+                bracket.take(t, f(t) > 0.0, sample(t));
+                count += 1;
+            }
+            assert!(count <= 6, "{count}");
+            assert!(f(bracket.after()) > 0.0 && f(bracket.after() - 2e-13) <= 0.0);
+        }
+        // one that begins at zero and falls first
+        let sample = |t: f64| Sample { value: t * (t - 0.7), rate: 2.0 * t - 0.7 };
+        let mut bracket = Bracket::new((0.0, 1.0), (sample(0.0), sample(1.0)));
+        let t = bracket.next(1e-13);
+        assert!((t - 0.7).abs() < 1e-12, "{t}");
+        bracket.take(t, t > 0.7, sample(t));
+        // wrong rates cost no more than so many probes
+        let mut bracket = Bracket::new((0.0, 1.0), [-0.3, 0.7].map(|value| Sample { value, rate: 1e-3 }).into());
+        let mut count = 0;
+        while bracket.width() > 1e-13 {
+            let t = bracket.next(1e-13);
+            bracket.take(t, t > 0.3, Sample { value: t - 0.3, rate: 1e-3 });
+            count += 1;
+        }
+        assert!(count <= 30, "{count}");
     }
 
     #[test]

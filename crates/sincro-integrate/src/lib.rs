@@ -22,7 +22,7 @@ mod extrapolated;
 mod quadrature;
 mod rk4;
 
-pub use bracket::Bracket;
+pub use bracket::{Bracket, Sample};
 pub use dormand_prince::DormandPrince;
 pub use euler::SemiImplicitEuler;
 pub use extrapolated::Extrapolated;

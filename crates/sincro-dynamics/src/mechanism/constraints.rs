@@ -13,7 +13,7 @@ use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::candidate_list::SlotCandidate;
 use crate::contact::{Collider, Margin, Pair};
 use crate::energy::energy_at;
-use crate::integrate::System;
+use crate::integrate::{Sample, System};
 use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
 use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
@@ -232,14 +232,17 @@ impl Mechanism<f64> {
         ]
     }
 
-    /// Value of a zero crossing in the state last evaluated, above zero where it has happened; NaN if it is not known.
-    pub(crate) fn contact_event_value(&mut self, event: ContactEvent) -> f64 {
-        let Some(c) = self.constraints.as_deref() else { return f64::NAN };
+    /// Zero crossing in the state last evaluated, at velocities `v`: its value is above zero where it has happened.
+    pub(crate) fn contact_event_sample(&mut self, event: ContactEvent, v: &[f64]) -> Sample {
+        let Some(c) = self.constraints.as_deref() else { return f64::NAN.into() };
         match event {
-            ContactEvent::Law(law) => c.excess(law),
-            ContactEvent::Reversal(slot, group) => -c.memory.along_start(slot, group),
-            ContactEvent::Opening(block) => c.blocks.get(block).map_or(f64::NAN, |b| c.residual[b.row]),
-            ContactEvent::Closing(slot) => -self.distance_of(slot),
+            ContactEvent::Law(law) => c.excess(law).into(),
+            ContactEvent::Reversal(slot, group) => (-c.memory.along_start(slot, group)).into(),
+            ContactEvent::Opening(block) => c.blocks.get(block).map_or(f64::NAN, |b| c.residual[b.row]).into(),
+            ContactEvent::Closing(slot) => {
+                let (distance, rate) = self.gap_of(slot, v);
+                Sample { value: -distance, rate: -rate }
+            }
         }
     }
 
@@ -296,16 +299,18 @@ impl Mechanism<f64> {
         deepest.0
     }
 
-    /// Signed distance of a slot in the state last evaluated `[m]` or `[rad]`; NaN if there is no candidate.
-    fn distance_of(&mut self, slot: usize) -> f64 {
-        let Some(c) = self.constraints.as_deref_mut() else { return f64::NAN };
+    /// Signed distance of a slot in the state last evaluated `[m]` or `[rad]`, and its rate; NaN if there is no
+    /// candidate.
+    fn gap_of(&mut self, slot: usize, v: &[f64]) -> (f64, f64) {
+        let Some(c) = self.constraints.as_deref_mut() else { return (f64::NAN, f64::NAN) };
         let set = &*self.model.params.constraints;
         if let Some(limit) = set.limits.get(slot) {
-            return limit.sign * (self.q[limit.coordinate] - limit.bound);
+            return (limit.sign * (self.q[limit.coordinate] - limit.bound), limit.sign * v[limit.dof]);
         }
         c.detect_later(set, &self.scratch.poses, Margin::of(LOCATED));
-        let candidate = c.later_candidates.get(slot - set.limits.len());
-        candidate.map_or(f64::NAN, |candidate| candidate.kinematics(&c.motions.at(&self.scratch)).distance)
+        let Some(candidate) = c.later_candidates.get(slot - set.limits.len()) else { return (f64::NAN, f64::NAN) };
+        let at = candidate.kinematics(&c.motions.at(&self.scratch));
+        (at.distance, normal_rate(&c.motions, candidate, &at))
     }
 
     /// Applies an impact at the chart's origin: changes `v` and returns the energy lost `[J]`. Prescribed degrees of

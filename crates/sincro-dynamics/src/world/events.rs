@@ -7,7 +7,7 @@
 use super::{Stop, World};
 use crate::constraint::ModeRule;
 use crate::coupled::CoupledSystem;
-use crate::integrate::{Bracket, Control, System};
+use crate::integrate::{Bracket, Control, Sample, System};
 use crate::mechanism::constraints::ContactEvent;
 use crate::mechanism::passages::Looks;
 
@@ -113,11 +113,19 @@ impl World {
     /// Value of a zero crossing in the present state, last evaluated: above zero where it has happened; NaN if it is
     /// not known.
     fn crossing_value(&mut self, crossing: Crossing) -> f64 {
+        self.crossing_sample(crossing).value
+    }
+
+    /// Zero crossing in the present state, last evaluated, with its rate where that is known.
+    fn crossing_sample(&mut self, crossing: Crossing) -> Sample {
         match crossing {
-            Crossing::Target(i) => self.target_passage(i),
-            Crossing::Overload(i) => self.mechanism.drive_overload(i),
-            Crossing::Contact(event) => self.mechanism.contact_event_value(event),
-            Crossing::Coupled(k) => self.coupled_crossings[k],
+            Crossing::Contact(event) => {
+                let velocities = self.layout().velocities();
+                self.mechanism.contact_event_sample(event, &self.y[velocities])
+            }
+            Crossing::Target(i) => self.target_passage(i).into(),
+            Crossing::Overload(i) => self.mechanism.drive_overload(i).into(),
+            Crossing::Coupled(k) => self.coupled_crossings[k].into(),
         }
     }
 
@@ -224,7 +232,6 @@ impl World {
         self.mechanism.set_locating(false);
         let (at, crossing) = at?;
         self.mode_changes += u32::from(!matches!(crossing, Crossing::Contact(ContactEvent::Closing(_))));
-        self.repeat_step(t, at, control, system)?;
         // beyond the event the modes of the sub-step may fit no forces; those after it are found below
         let report = self.solver_report();
         self.evaluate_slope(t + at, system);
@@ -251,7 +258,7 @@ impl World {
     }
 
     /// Time after `t` of the first zero crossing, known to have happened at `bad`, to a `resolution` `[s]`, and which
-    /// one it is.
+    /// one it is; the state is that of this instant.
     fn narrow(
         &mut self,
         t: f64,
@@ -260,10 +267,10 @@ impl World {
         control: Option<Control>,
         system: &mut dyn CoupledSystem<f64>,
     ) -> Result<(f64, Crossing), (f64, Stop)> {
-        let after = self.crossing_value(crossing);
+        let after = self.crossing_sample(crossing);
         self.restore();
         self.evaluate_held(t, system);
-        let mut bracket = Bracket::new((0.0, bad), (self.crossing_value(crossing), after));
+        let mut bracket = Bracket::new((0.0, bad), (self.crossing_sample(crossing), after));
         let resolution = resolution.max(self.time_resolution(control));
         while bracket.width() > resolution {
             let at = bracket.next(resolution);
@@ -276,12 +283,14 @@ impl World {
             // another one has happened before it
             let other = unlocated.filter(|_| !self.crossings.contains(&crossing));
             crossing = other.unwrap_or(crossing);
-            let value = self.crossing_value(crossing);
-            bracket.take(at, has_happened, value);
+            let sample = self.crossing_sample(crossing);
+            bracket.take(at, has_happened, sample);
             if other.is_some() {
-                bracket.forget(value);
+                bracket.forget(sample);
             }
         }
-        Ok((bracket.after(), crossing))
+        let at = bracket.after();
+        self.repeat_step(t, at, control, system)?;
+        Ok((at, crossing))
     }
 }

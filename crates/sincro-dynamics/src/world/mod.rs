@@ -217,6 +217,8 @@ pub struct World {
     statistics: StepStatistics,
     /// Events after which several sets of modes keep all laws.
     ambiguous_events: Occurrences,
+    /// Events of the present step after which another set was sought.
+    n_searches: u32,
     /// True while modes a little ahead are taken if they graze a law now.
     may_graze: bool,
     /// Changes of modes in the present step: events but for closing contacts, whose bounces may follow each other ever
@@ -313,6 +315,7 @@ impl World {
             accelerations,
             statistics: StepStatistics::default(),
             ambiguous_events: Occurrences::default(),
+            n_searches: 0,
             may_graze: true,
             mode_changes: 0,
             chattering_steps: Occurrences::default(),
@@ -348,7 +351,8 @@ impl World {
 
     /// Events since the world was made after which several sets of contact and drive modes keep all laws and give
     /// different accelerations: the motion goes on with one of them, and rounding may decide which. Not part of the
-    /// state; not every such event is found, and semi-implicit Euler does not look for them.
+    /// state; not every such event is found, they are sought after the first sixteen events of a step alone, and
+    /// semi-implicit Euler does not look for them.
     #[must_use]
     pub fn ambiguous_events(&self) -> Occurrences {
         self.ambiguous_events
@@ -529,7 +533,7 @@ impl World {
         } else {
             self.mechanism.set_time_since_event(f64::INFINITY);
             self.start_tick(t, h, system);
-            self.mode_changes = 0;
+            (self.mode_changes, self.n_searches) = (0, 0);
             let reached = self.sub_steps(t, h, system);
             if self.mode_changes > CHATTER {
                 self.chattering_steps.note(t);

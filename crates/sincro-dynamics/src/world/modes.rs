@@ -11,6 +11,9 @@ use crate::coupled::CoupledSystem;
 /// Relative difference of accelerations above which solutions are different motions.
 const OTHER_MOTION: f64 = 1e-9;
 
+/// Maximum number of events of one step after which another solution is sought: a search costs as much as an event.
+const MAX_SEARCHES: u32 = 16;
+
 impl World {
     /// Decides the modes of limited drives, contacts and limits at the start of a sub-step of about `h`, `after_event`
     /// those a little later, and records them. Returns false if no forces keep the laws.
@@ -153,7 +156,8 @@ impl World {
             self.y[layout.velocity(kink.dof)] = kink.target;
         }
         self.decide_kinks(ahead, system);
-        if self.mechanism.has_other_solution() {
+        self.n_searches += 1;
+        if self.n_searches <= MAX_SEARCHES && self.mechanism.has_other_solution() {
             self.ambiguous_events.note(t);
         }
         self.y.copy_from_slice(&self.present);
