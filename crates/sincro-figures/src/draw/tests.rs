@@ -1,5 +1,7 @@
 //! Claims about whole drawings, on textbook diagrams and on random ones.
 
+use core::any::Any;
+
 use sincro_blocks::block::{Memory, Node, Ports, SampleTimeKind};
 use sincro_blocks::instance::{DynBlock, RunningBlock};
 use sincro_blocks::kind::{Category, Kind};
@@ -77,6 +79,12 @@ impl DynBlock for Sham {
     }
     fn on_recorded(&self) -> Box<dyn RunningBlock<Recorded>> {
         unimplemented!("never run")
+    }
+    fn computes_lanes_together(&self) -> bool {
+        false
+    }
+    fn on_lanes(&self) -> Option<Box<dyn Any>> {
+        None
     }
     fn boxed_clone(&self) -> Box<dyn DynBlock> {
         Box::new(self.clone())
