@@ -16,9 +16,6 @@ use super::solver::{MAX_TURNS, RANK, SLACK, Solver, Tolerances, norm, pair, turn
 /// Least change of a rate that is an observable one, relative to the largest rate.
 const OBSERVABLE: f64 = 0.1 * SLACK;
 
-/// Number of turns after which held modes whose directions do not converge are given up.
-const PATIENT_TURNS: usize = 10;
-
 /// Number of turns after which redundant constraints share the load in each of them.
 const UNSHARED_TURNS: usize = 4;
 
@@ -122,7 +119,7 @@ impl<R: Real> Solver<R> {
         lambda: &mut [R],
     ) -> bool {
         self.report.solved += 1;
-        self.hold_modes(problem, blocks, lambda, PATIENT_TURNS)
+        self.hold_modes(problem, blocks, lambda, MAX_TURNS)
     }
 
     /// As [`Solver::hold`], as a part of another problem; from turn `patience` on, directions that converge too slowly
