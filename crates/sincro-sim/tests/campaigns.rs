@@ -1,7 +1,7 @@
 //! Variants on all processors: none is lost, whatever ends first, is refused, or is interrupted.
 
 use std::fmt::Write as _;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use sincro_sim::Extensions;
 use sincro_sim::campaign::{Campaign, run_campaign};
@@ -65,8 +65,18 @@ fn an_interrupted_campaign_leaves_no_variant_out() {
 
 #[test]
 fn jobs_keep_their_order_and_the_caller_is_called() {
-    let mut calls = 0;
-    let squares = on_all_processors(100, &|k| k * k, &mut || calls += 1);
+    let calls = AtomicU32::new(0);
+    // the last job goes on when the caller has been called: it is, as long as a job is under way
+    let square = |k| {
+        while k == 99 && calls.load(Ordering::Relaxed) == 0 {
+            std::thread::yield_now();
+        }
+        k * k
+    };
+    let count = &mut || {
+        calls.fetch_add(1, Ordering::Relaxed);
+    };
+    let squares = on_all_processors(100, &square, count);
     assert!(squares.iter().enumerate().all(|(k, square)| *square == k * k) && squares.len() == 100);
-    assert!(calls > 0 && on_all_processors(0, &|k| k, &mut || ()).is_empty());
+    assert!(calls.into_inner() > 0 && on_all_processors(0, &|k| k, &mut || ()).is_empty());
 }
