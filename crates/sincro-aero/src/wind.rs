@@ -29,9 +29,10 @@
 
 use core::f64::consts::{PI, TAU};
 
-use sincro_math::Real;
 use sincro_math::elementary::{atan, ln, pow, sin_cos};
+use sincro_math::lanes::dispatch_lanes;
 use sincro_math::random::SplitMix64;
+use sincro_math::{LaneVisitor, Real};
 
 use sincro_geometry::spatial::Vec3;
 use sincro_math::error::InvalidParameters;
@@ -122,6 +123,9 @@ pub struct TurbulenceSpec {
 /// cost.
 pub const N_HARMONICS: usize = 64;
 
+// whole bundles of lanes
+const _: () = assert!(N_HARMONICS.is_multiple_of(8));
+
 /// End of the turbulence band, as a multiple of the corner frequency V/L (dimensionless): no harmonic has a frequency
 /// above `BAND`·V/L `[rad/s]`.
 pub const BAND: f64 = 100.0;
@@ -171,8 +175,10 @@ struct Turbulence {
 #[derive(Clone, Debug, PartialEq)]
 struct Component {
     amplitude: f64,
-    /// ω [rad/s] and φ `[rad]`
-    harmonics: Vec<(f64, f64)>,
+    /// ω `[rad/s]`
+    frequencies: [f64; N_HARMONICS],
+    /// φ `[rad]`
+    phases: [f64; N_HARMONICS],
 }
 
 impl Wind {
@@ -354,20 +360,45 @@ impl Component {
     /// Standard deviation σ, corner frequency V/L [rad/s], and the part of the variance below x = ω/(V/L).
     fn new(deviation: f64, corner: f64, area: fn(f64) -> f64, random: &mut SplitMix64) -> Self {
         let share = area(BAND) / N_HARMONICS as f64;
-        let harmonics = (0..N_HARMONICS).map(|k| {
-            let x = inverse(area, share * (k as f64 + random.unit()));
-            (x * corner, TAU * random.unit())
-        });
         // each cosine has half the square of its amplitude as variance
-        Self { amplitude: deviation * (2.0 / N_HARMONICS as f64).sqrt(), harmonics: harmonics.collect() }
+        let amplitude = deviation * (2.0 / N_HARMONICS as f64).sqrt();
+        let mut new = Self { amplitude, frequencies: [0.0; N_HARMONICS], phases: [0.0; N_HARMONICS] };
+        for (k, (frequency, phase)) in new.frequencies.iter_mut().zip(&mut new.phases).enumerate() {
+            *frequency = corner * inverse(area, share * (k as f64 + random.unit()));
+            *phase = TAU * random.unit();
+        }
+        new
     }
 
     fn value<R: Real>(&self, t: R) -> R {
-        let mut sum = R::zero();
-        for (frequency, phase) in &self.harmonics {
-            sum += (R::splat(*frequency) * t + R::splat(*phase)).sin_cos().1;
+        t.map(|t| dispatch_lanes(Harmonics { component: self, t }))
+    }
+}
+
+/// A component at an instant `[s]`, with its rate of change: its harmonics side by side in lanes, then summed one after
+/// the other, so that the sum is the same on every processor.
+struct Harmonics<'a> {
+    component: &'a Component,
+    t: f64,
+}
+
+impl LaneVisitor for Harmonics<'_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> (f64, f64) {
+        let Component { amplitude, frequencies, phases } = self.component;
+        let [mut cosines, mut rates] = [[0.0; N_HARMONICS]; 2];
+        let outputs = cosines.chunks_exact_mut(R::LANES).zip(rates.chunks_exact_mut(R::LANES));
+        let inputs = frequencies.chunks_exact(R::LANES).zip(phases.chunks_exact(R::LANES));
+        for ((frequencies, phases), (cosines, rates)) in inputs.zip(outputs) {
+            let frequency = R::from_row(frequencies);
+            let (sin, cos) = (frequency * R::splat(self.t) + R::from_row(phases)).sin_cos();
+            cos.to_row(cosines);
+            (-(frequency * sin)).to_row(rates);
         }
-        R::splat(self.amplitude) * sum
+        let sum = |terms: &[f64; N_HARMONICS]| terms.iter().fold(0.0, |sum, term| sum + term);
+        (amplitude * sum(&cosines), amplitude * sum(&rates))
     }
 }
 
@@ -441,4 +472,37 @@ fn problems(mean: [f64; 3], profile: Profile, gusts: &[Gust], turbulence: Option
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sincro_math::Dual;
+
+    fn component() -> Component {
+        Component::new(1.3, 0.7, across_area, &mut SplitMix64::new(5))
+    }
+
+    #[test]
+    fn harmonics_in_lanes_have_the_bits_of_their_sum_one_by_one() {
+        let component = component();
+        for t in [0.0, 0.37, -12.5, 4_321.0, 1e9] {
+            let mut sum = 0.0;
+            for (frequency, phase) in component.frequencies.iter().zip(&component.phases) {
+                sum += sin_cos(frequency * t + phase).1;
+            }
+            assert_eq!(component.value(t).to_bits(), (component.amplitude * sum).to_bits(), "{t}");
+        }
+    }
+
+    #[test]
+    fn rate_is_that_of_the_value() {
+        let component = component();
+        for t in [0.0, 0.37, 55.0] {
+            let h = 1e-5;
+            let rate = (component.value(t + h) - component.value(t - h)) / (2.0 * h);
+            let [found] = component.value(Dual::<1>::variable(t, 0)).partials;
+            assert!((found - rate).abs() < 1e-7 * (1.0 + rate.abs()), "{found} {rate}");
+        }
+    }
 }
