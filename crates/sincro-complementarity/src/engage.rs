@@ -9,6 +9,7 @@ use sincro_math::Real;
 
 use super::active_set::ContactProblem;
 use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
+use super::held::Load;
 use super::solver::{Solver, Tolerances, norm, pair};
 
 /// Number of turns of impending slip after which those that converge do so steadily.
@@ -64,7 +65,7 @@ impl<R: Real> Solver<R> {
         undecided(blocks).for_each(FrictionGroup::stick);
         // forces that would let all stick tell the directions of impending slip
         lambda.copy_from_slice(&self.found.lambda);
-        self.hold_modes(problem, blocks, lambda, SETTLING_TURNS);
+        self.hold_modes(problem, blocks, lambda, (Load::Shared, SETTLING_TURNS));
         self.sticking.keep(blocks, lambda, &self.active_set.rates);
         (0..1_u32 << n).any(|slipping| {
             blocks.copy_from_slice(&self.sticking.blocks);
@@ -76,7 +77,7 @@ impl<R: Real> Solver<R> {
                     group.slip(force.map(|x| R::splat(x / size)), None);
                 }
             }
-            self.hold_modes(problem, blocks, lambda, SETTLING_TURNS)
+            self.hold_modes(problem, blocks, lambda, (Load::Shared, SETTLING_TURNS))
                 && self.worst_law(problem, blocks, lambda).is_none()
         })
     }

@@ -78,6 +78,15 @@ impl<C: Copy> HeldLaw<C> {
     }
 }
 
+/// Load of redundant constraints in a solution with held modes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Load {
+    /// Shared as by equally stiff constraints.
+    Shared,
+    /// About as it was before, where that makes no difference to the motion.
+    Kept,
+}
+
 /// A solution, kept while another one is sought.
 #[derive(Clone, Debug, Default)]
 pub struct Solution<R> {
@@ -117,9 +126,24 @@ impl<R: Real> Solver<R> {
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
+        load: Load,
     ) -> bool {
         self.report.solved += 1;
-        self.hold_modes(problem, blocks, lambda, MAX_TURNS)
+        self.hold_modes(problem, blocks, lambda, (load, MAX_TURNS))
+    }
+
+    /// Lets redundant constraints share the load where [`Solver::hold`] has kept it; returns false where it has not.
+    pub fn share_kept_load(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
+        let is_shared = !slips(blocks) && self.share_load(problem, blocks, lambda);
+        if is_shared {
+            self.active_set.find_rates(problem, lambda);
+        }
+        is_shared
     }
 
     /// As [`Solver::hold`], as a part of another problem; from turn `patience` on, directions that converge too slowly
@@ -129,14 +153,15 @@ impl<R: Real> Solver<R> {
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
-        patience: usize,
+        (load, patience): (Load, usize),
     ) -> bool {
         self.rank = RANK;
         let (mut last, mut is_shared) = ([f64::INFINITY; 2], turns_by_load(blocks));
+        let wants_share = load == Load::Shared || slips(blocks);
         for n_turns in 0..MAX_TURNS {
             self.correct_rates(problem, blocks, lambda);
             // until the directions are found the load is shared as before
-            if is_shared || n_turns >= UNSHARED_TURNS || blocks.is_empty() {
+            if wants_share && (is_shared || n_turns >= UNSHARED_TURNS || blocks.is_empty()) {
                 self.share_load(problem, blocks, lambda);
                 is_shared = true;
             }
@@ -144,7 +169,7 @@ impl<R: Real> Solver<R> {
                 return true;
             }
             let mut turned = self.turn_slip(problem, blocks, lambda);
-            if turned == 0.0 && !is_shared && self.share_load(problem, blocks, lambda) {
+            if wants_share && turned == 0.0 && !is_shared && self.share_load(problem, blocks, lambda) {
                 is_shared = true;
                 turned = self.turn_slip(problem, blocks, lambda);
             }
@@ -281,6 +306,12 @@ fn excess<R: Real>(law: HeldLaw<&UnilateralConstraint<R>>, small: Tolerances, ra
 fn turns_by_load<R: Real>(blocks: &[UnilateralConstraint<R>]) -> bool {
     let groups = blocks.iter().filter(|block| !block.open).flat_map(|block| block.groups.iter().flatten());
     groups.into_iter().any(|group| group.is_sliding && group.compliance.is_some())
+}
+
+/// Returns true if friction of a closed constraint slips.
+fn slips<R: Real>(blocks: &[UnilateralConstraint<R>]) -> bool {
+    let mut groups = blocks.iter().filter(|block| !block.open).flat_map(|block| block.groups.iter().flatten());
+    groups.any(|group| group.mode == ContactMode::Slip)
 }
 
 /// Returns true if changes of directions, now of size `turned` and of size `before` two turns before, come down to

@@ -31,5 +31,5 @@ mod uniqueness;
 pub use active_set::ContactProblem;
 pub use cone::{ContactMode, FrictionGroup, NO_SLOT, SlowSliding, UnilateralConstraint};
 pub use dense::PROJECTION_RANK;
-pub use held::{ConstraintId, HeldLaw, Solution, is_observable};
+pub use held::{ConstraintId, HeldLaw, Load, Solution, is_observable};
 pub use solver::{HELD_RATE, Solver, SolverReport};

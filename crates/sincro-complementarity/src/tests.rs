@@ -2,7 +2,7 @@
 
 use super::active_set::ContactProblem;
 use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
-use super::held::ConstraintId;
+use super::held::{ConstraintId, Load};
 use super::solver::Solver;
 
 /// Numbers between −1 and 1, always the same.
@@ -156,7 +156,7 @@ fn held_modes_go_on_smoothly_beyond_the_laws() {
     for (b, force) in [(-1.0, 0.5), (1.0, -0.5)] {
         let problem = ContactProblem { a: &a, b: &[b], n_free: 0 };
         let mut lambda = [0.0];
-        assert!(solver.hold(&problem, &mut block, &mut lambda));
+        assert!(solver.hold(&problem, &mut block, &mut lambda, Load::Shared));
         assert!((lambda[0] - force).abs() < 1e-15);
         let violated = solver.worst_law(&problem, &block, &lambda);
         assert_eq!(violated, (force < 0.0).then_some(super::HeldLaw::Unilateral(ConstraintId::of(&block, 0))));
@@ -183,7 +183,7 @@ fn a_law_stays_with_its_constraint_when_another_one_leaves() {
     let mut solver = Solver::default();
     let (mut blocks, mut lambda) = (without_friction(&[0, 1, 2]), vec![0.0; 3]);
     let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
-    assert!(solver.hold(&problem, &mut blocks, &mut lambda));
+    assert!(solver.hold(&problem, &mut blocks, &mut lambda, Load::Shared));
     let law = solver.worst_law(&problem, &blocks, &lambda).unwrap();
     assert_eq!(law, super::HeldLaw::Unilateral(ConstraintId::of(&blocks, 1)));
     let excess = solver.excess(law, &problem, &blocks, &lambda);
@@ -192,12 +192,12 @@ fn a_law_stays_with_its_constraint_when_another_one_leaves() {
     let (mut fewer, mut lambda) = (without_friction(&[1, 2]), vec![0.0; 2]);
     let (a, b) = ([2.0, 0.0, 0.0, 2.0], [1.0, -1.0]);
     let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
-    assert!(solver.hold(&problem, &mut fewer, &mut lambda));
+    assert!(solver.hold(&problem, &mut fewer, &mut lambda, Load::Shared));
     assert!((solver.excess(law, &problem, &fewer, &lambda) - excess).abs() < 1e-12);
     // it has left itself: it obeys its law
     let (mut last, mut lambda) = (without_friction(&[2]), vec![0.0; 1]);
     let problem = ContactProblem { a: &[2.0], b: &[-1.0], n_free: 0 };
-    assert!(solver.hold(&problem, &mut last, &mut lambda));
+    assert!(solver.hold(&problem, &mut last, &mut lambda, Load::Shared));
     assert!((solver.excess(law, &problem, &last, &lambda) + 1.0).abs() < 1e-15);
 }
 
@@ -366,8 +366,37 @@ fn the_load_shifts_before_friction_that_holds_alone_is_beyond_its_limit() {
         }
         // the same modes give the same forces, from wherever they start
         lambda.iter_mut().for_each(|x| *x *= 1.7);
-        assert!(solver.hold(&problem, &mut blocks, &mut lambda), "{push:?}");
+        assert!(solver.hold(&problem, &mut blocks, &mut lambda, Load::Shared), "{push:?}");
         assert_eq!(solver.worst_law(&problem, &blocks, &lambda), None, "{push:?}: {lambda:?}");
         assert!((lambda[0] / weight - share).abs() < 1e-9, "{push:?}: {lambda:?}, {share}");
+    }
+}
+
+/// A load that is kept makes the same motion, and is shared afterwards as if it had been at once.
+#[test]
+fn a_kept_load_moves_as_a_shared_one() {
+    let mut numbers = Numbers(11);
+    for _ in 0..50 {
+        let m = 12;
+        let a = products(&mut numbers, m, 6);
+        // the rates of a body that moves: redundant rows agree
+        let forces: Vec<f64> = (0..m).map(|_| numbers.next()).collect();
+        let b: Vec<f64> = (0..m).map(|i| (0..m).map(|k| a[i * m + k] * forces[k]).sum()).collect();
+        let problem = ContactProblem { a: &a, b: &b, n_free: 0 };
+        let mut solver = Solver::default();
+        let start: Vec<f64> = (0..m).map(|_| numbers.next()).collect();
+        let mut find = |load| {
+            let (mut blocks, mut lambda) = (contacts(4, 0, 0.5), start.clone());
+            assert!(solver.hold(&problem, &mut blocks, &mut lambda, load));
+            let rates = solver.rates().to_vec();
+            let kept = lambda.clone();
+            let is_shared = load == Load::Kept && solver.share_kept_load(&problem, &blocks, &mut lambda);
+            (rates, kept, lambda, is_shared)
+        };
+        let (shared, kept) = (find(Load::Shared), find(Load::Kept));
+        let distance = |x: &[f64], y: &[f64]| x.iter().zip(y).fold(0.0_f64, |s, (x, y)| s.max((x - y).abs()));
+        assert!(kept.3 && distance(&shared.0, &kept.0) < 1e-9);
+        assert!(distance(&shared.1, &kept.1) > 1e-3, "the load was kept");
+        assert!(distance(&shared.2, &kept.2) < 1e-7 * (1.0 + shared.2.iter().fold(0.0_f64, |s, x| s.max(x.abs()))));
     }
 }

@@ -349,7 +349,7 @@ impl TangentWorld {
             let beyond = self.furthest_beyond();
             if let Some(other) = beyond.filter(|other| *other != limit) {
                 limit = other;
-                bracket.forget(f64::NAN);
+                bracket.change_crossing(f64::NAN, f64::NAN);
             }
             bracket.take(at, beyond.is_some(), -self.gap(&self.limits[limit]).value);
         }

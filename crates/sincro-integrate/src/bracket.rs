@@ -72,6 +72,12 @@ impl Bracket {
         Self { before, after, replaced, last_is_after: true, n_taken: 0 }
     }
 
+    /// First instant known to be before the event `[s]`.
+    #[must_use]
+    pub fn before(&self) -> f64 {
+        self.before.t
+    }
+
     /// Last instant known to be after the event `[s]`.
     #[must_use]
     pub fn after(&self) -> f64 {
@@ -104,12 +110,12 @@ impl Bracket {
         self.n_taken += 1;
     }
 
-    /// Forgets the values: the zero crossing is another one, with the sample `after` at the end of the bracket.
-    pub fn forget(&mut self, after: impl Into<Sample>) {
-        for point in [&mut self.before, &mut self.replaced] {
-            *point = Point::of(point.t, f64::NAN.into());
-        }
+    /// Changes the zero crossing to another one, with these samples at the ends of the bracket.
+    pub fn change_crossing(&mut self, before: impl Into<Sample>, after: impl Into<Sample>) {
+        self.before = Point::of(self.before.t, before.into());
         self.after = Point::of(self.after.t, after.into());
+        self.replaced = Point::of(self.replaced.t, f64::NAN.into());
+        self.n_taken = 0;
     }
 
     /// The end found last, and the other one.
@@ -118,11 +124,11 @@ impl Bracket {
     }
 
     /// Zero of the cubic through values and rates at both ends, as a share of the way from the last end to the other
-    /// one; none where they are not known. A zero crossing that begins at zero, or above it by rounding, falls first.
+    /// one; none where they are not known, or where there is none. A zero crossing that begins above zero falls first.
     fn interpolated_by_rates(&self) -> Option<f64> {
         let Self { before, after, .. } = self;
-        let begins_before = before.value < 0.0 || before.rate < 0.0;
-        if !(begins_before && after.value > 0.0 && self.n_taken < MAX_BY_RATES) {
+        let falls_first = before.value >= 0.0 && before.rate < 0.0 && after.rate > 0.0;
+        if !((before.value < 0.0 || falls_first) && after.value > 0.0 && self.n_taken < MAX_BY_RATES) {
             return None;
         }
         let (first, last) = (before.rate * self.width(), after.rate * self.width());
@@ -131,19 +137,13 @@ impl Bracket {
             left * left * ((1.0 + 2.0 * s) * before.value + s * first)
                 + s * s * ((1.0 + 2.0 * left) * after.value - left * last)
         };
-        let (mut low, mut high) = (0.0, 1.0);
-        while high - low > f64::EPSILON * high {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            match cubic(middle) {
-                value if value > 0.0 => high = middle,
-                value if value <= 0.0 => low = middle,
-                _ => return None,
-            }
-        }
-        Some(if self.last_is_after { 1.0 - high } else { high })
+        let slope = |s: f64| {
+            let left = 1.0 - s;
+            6.0 * s * left * (after.value - before.value) + left * (1.0 - 3.0 * s) * first + s * (3.0 * s - 2.0) * last
+        };
+        let lowest = if falls_first { rise(0.0, slope)? } else { 0.0 };
+        let zero = if cubic(lowest) > 0.0 { None } else { rise(lowest, cubic) }?;
+        Some(if self.last_is_after { 1.0 - zero } else { zero })
     }
 
     /// Zero of the inverse parabola, or of the chord, as a share of the way from the last end to the other one; none
@@ -168,6 +168,24 @@ impl Bracket {
             + alpha * a.value / (c.value - a.value) * b.value / (c.value - b.value);
         quadratic.is_finite().then_some(quadratic)
     }
+}
+
+/// Zero between `low` and 1 of a function that is not above zero at `low` and above it at 1, from above, by bisection;
+/// none where a value is missing.
+fn rise(mut low: f64, function: impl Fn(f64) -> f64) -> Option<f64> {
+    let mut high = 1.0;
+    while high - low > f64::EPSILON * high {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        match function(middle) {
+            value if value > 0.0 => high = middle,
+            value if value <= 0.0 => low = middle,
+            _ => return None,
+        }
+    }
+    Some(high)
 }
 
 #[cfg(test)]
@@ -224,6 +242,13 @@ mod tests {
         let t = bracket.next(1e-13);
         assert!((t - 0.7).abs() < 1e-12, "{t}");
         bracket.take(t, t > 0.7, sample(t));
+        // one that begins above zero, falls below it and comes back
+        let sample = |t: f64| Sample { value: (t - 0.1) * (t - 0.7), rate: 2.0 * t - 0.8 };
+        let bracket = Bracket::new((0.0, 1.0), (sample(0.0), sample(1.0)));
+        assert!((bracket.next(1e-13) - 0.7).abs() < 1e-12, "{}", bracket.next(1e-13));
+        // and one that only comes near it: the middle, as if nothing were known
+        let sample = |t: f64| Sample { value: 1.0 + t * (t - 0.7), rate: 2.0 * t - 0.7 };
+        assert!((Bracket::new((0.0, 1.0), (sample(0.0), sample(1.0))).next(1e-13) - 0.5).abs() < 1e-12);
         // wrong rates cost no more than so many probes
         let mut bracket = Bracket::new((0.0, 1.0), [-0.3, 0.7].map(|value| Sample { value, rate: 1e-3 }).into());
         let mut count = 0;
@@ -233,6 +258,17 @@ mod tests {
             count += 1;
         }
         assert!(count <= 30, "{count}");
+    }
+
+    #[test]
+    fn another_crossing_begins_the_search_anew() {
+        let mut bracket = Bracket::new((0.0, 1.0), (-1.0, 1.0));
+        bracket.take(0.5, true, f64::NAN);
+        // t − 0.3, with its rate
+        let sample = |t: f64| Sample { value: t - 0.3, rate: 1.0 };
+        assert_eq!((bracket.before(), bracket.after()), (0.0, 0.5));
+        bracket.change_crossing(sample(0.0), sample(0.5));
+        assert!((bracket.next(1e-13) - 0.3).abs() < 1e-12, "{}", bracket.next(1e-13));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Impacts and contact points: constraint rows outside of the evaluation of rates.
 
-use sincro_complementarity::{ContactMode, ContactProblem, UnilateralConstraint};
+use sincro_complementarity::{ContactMode, ContactProblem, Load, UnilateralConstraint};
 use sincro_math::dot;
 
 use super::assembly::restitution;
@@ -89,7 +89,7 @@ impl Constraints<f64> {
         }
         self.b.clone_from(&self.before);
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
-        self.solver.hold(&problem, &mut self.blocks, &mut self.lambda);
+        self.solver.hold(&problem, &mut self.blocks, &mut self.lambda, Load::Shared);
         self.apply_impulses(model, v, scratch, has_drives);
         self.work_of_impulses().0
     }

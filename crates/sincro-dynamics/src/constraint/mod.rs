@@ -48,7 +48,7 @@ pub(crate) mod warm_start;
 pub(crate) use sincro_complementarity::HeldLaw;
 use sincro_complementarity::sweeps::rest::Rest;
 use sincro_complementarity::{
-    ContactMode, ContactProblem, HELD_RATE, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable,
+    ContactMode, ContactProblem, HELD_RATE, Load, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable,
 };
 use sincro_math::{Real, dot};
 
@@ -106,10 +106,13 @@ pub(crate) enum Level {
 pub(crate) enum ModeRule {
     /// The complementarity problem decides them.
     Decided,
-    /// Those of the start of the sub-step stand.
+    /// Those of the start of the sub-step stand: stages of a sub-step that is repeated.
     Held,
-    /// As `Held`; laws that they violate are noted.
+    /// As `Held`; laws that they violate are noted: stages of a sub-step that is new.
     HeldAndChecked,
+    /// As `HeldAndChecked`, and the forces are those of the instant: redundant constraints share the load, which a
+    /// stage whose motion does not hang on it leaves about as it was.
+    HeldAtInstant,
 }
 
 /// Two points of surfaces that part at the end of a sub-step, so close that they may have turned within it.
@@ -396,10 +399,11 @@ impl<R: Real> Constraints<R> {
         self.violation = None;
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         let holds = self.mode_rule != ModeRule::Decided;
-        let held = holds && self.solver.hold(&problem, &mut self.blocks, &mut self.lambda);
+        let load = if self.mode_rule == ModeRule::HeldAtInstant { Load::Shared } else { Load::Kept };
+        let held = holds && self.solver.hold(&problem, &mut self.blocks, &mut self.lambda, load);
         self.lost_modes = holds && !held;
         if held {
-            if self.mode_rule == ModeRule::HeldAndChecked {
+            if self.mode_rule != ModeRule::Held {
                 self.check_held_modes();
             }
         } else {
@@ -412,7 +416,16 @@ impl<R: Real> Constraints<R> {
     /// where it violates a law.
     fn check_held_modes(&mut self) {
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
-        let Some(law) = self.solver.worst_law(&problem, &self.blocks, &self.lambda) else { return };
+        let Some(mut law) = self.solver.worst_law(&problem, &self.blocks, &self.lambda) else { return };
+        if self.mode_rule == ModeRule::HeldAndChecked {
+            // a load that no share could carry violates a law however it is shared: nothing is missed
+            if self.solver.share_kept_load(&problem, &self.blocks, &mut self.lambda) {
+                match self.solver.worst_law(&problem, &self.blocks, &self.lambda) {
+                    Some(of_shared) => law = of_shared,
+                    None => return,
+                }
+            }
+        }
         self.held.keep(&self.blocks, &self.lambda, self.solver.rates());
         let report = self.solver.report;
         let is_solved = if self.is_locating {
@@ -452,6 +465,18 @@ impl<R: Real> Constraints<R> {
         let largest = self.b.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
         let rate = |i: usize| self.b[i] + dot(&self.a[i * m..(i + 1) * m], &self.lambda);
         (0..self.n_free.min(m)).any(|i| rate(i).lane(0).abs() > HELD_RATE * largest)
+    }
+
+    /// Rate of the sliding velocity of a group along that at the start of the sub-step, in the evaluation last made;
+    /// NaN if it slides no more.
+    pub fn sliding_rate(&self, slot: usize, group: usize) -> f64 {
+        let block = self.blocks.iter().find(|block| block.slot == slot);
+        let group = block.and_then(|block| block.groups[group].as_ref()).filter(|group| group.is_sliding);
+        group.map_or(f64::NAN, |group| {
+            let rate = self.solver.rates()[group.row];
+            // of two rows the first is along that velocity, of one the friction is against it
+            (if group.dim == 2 { rate } else { -(rate * group.direction[0]) }).lane(0)
+        })
     }
 
     /// Returns true if the problem last solved has another solution, with other accelerations.

@@ -237,7 +237,9 @@ impl Mechanism<f64> {
         let Some(c) = self.constraints.as_deref() else { return f64::NAN.into() };
         match event {
             ContactEvent::Law(law) => c.excess(law).into(),
-            ContactEvent::Reversal(slot, group) => (-c.memory.along_start(slot, group)).into(),
+            ContactEvent::Reversal(slot, group) => {
+                Sample { value: -c.memory.along_start(slot, group), rate: -c.sliding_rate(slot, group) }
+            }
             ContactEvent::Opening(block) => c.blocks.get(block).map_or(f64::NAN, |b| c.residual[b.row]).into(),
             ContactEvent::Closing(slot) => {
                 let (distance, rate) = self.gap_of(slot, v);

@@ -20,6 +20,12 @@ const EVENT_ACCURACY: f64 = 1e-4;
 /// Value of a zero crossing that is as good as zero, relative to its terms.
 const VALUE_RESOLUTION: f64 = 1e-14;
 
+/// Size of a value relative to the last one above which a search has come no nearer to zero.
+const STALLED: f64 = 0.25;
+
+/// Values between which such a search may end, relative to those that are as good as zero.
+const NOISE: f64 = 30.0;
+
 /// Distance of the instants within a step that are looked at where a law seems violated, relative to the step.
 const INTERIOR_STEP: f64 = 0.125;
 
@@ -82,7 +88,7 @@ impl World {
 
     /// f(t, y) into `self.slope` with the modes held that are marked.
     pub(super) fn evaluate_checked(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
-        self.mechanism.set_mode_rule(ModeRule::HeldAndChecked);
+        self.mechanism.set_mode_rule(ModeRule::HeldAtInstant);
         self.evaluate_slope(t, system);
         self.mechanism.set_mode_rule(ModeRule::Decided);
         if !self.coupled_crossings.is_empty() {
@@ -257,6 +263,32 @@ impl World {
         Ok(t + at)
     }
 
+    /// Zero crossing at the start of the sub-step at `t`, to which the state goes back.
+    fn sample_at_start(&mut self, t: f64, crossing: Crossing, system: &mut dyn CoupledSystem<f64>) -> Sample {
+        self.restore();
+        self.mechanism.return_to_start();
+        self.evaluate_held(t, system);
+        self.crossing_sample(crossing)
+    }
+
+    /// Returns true if the state last evaluated, with this sample of a zero crossing that is not exactly located, is as
+    /// good as its instant: a contact that comes to its surface, where the last bit of its distance decides whether it
+    /// is past it, or stays within what counts as closed; or a reversal whose value has come little nearer to zero than
+    /// the `last` one: slow sliding depends on the length of the repeated sub-step, which limits how near it comes.
+    fn is_close(&self, crossing: Crossing, (sample, last): (Sample, f64), has_happened: bool) -> bool {
+        let resolution = self.crossing_resolution(crossing);
+        match crossing {
+            Crossing::Contact(ContactEvent::Closing(_)) => {
+                !has_happened && sample.value >= -resolution && sample.rate > 0.0
+            }
+            Crossing::Contact(ContactEvent::Reversal(..)) => {
+                let size = sample.value.abs();
+                size <= if size > STALLED * last { NOISE * resolution } else { resolution }
+            }
+            _ => false,
+        }
+    }
+
     /// Time after `t` of the first zero crossing, known to have happened at `bad`, to a `resolution` `[s]`, and which
     /// one it is; the state is that of this instant.
     fn narrow(
@@ -268,10 +300,10 @@ impl World {
         system: &mut dyn CoupledSystem<f64>,
     ) -> Result<(f64, Crossing), (f64, Stop)> {
         let after = self.crossing_sample(crossing);
-        self.restore();
-        self.evaluate_held(t, system);
-        let mut bracket = Bracket::new((0.0, bad), (self.crossing_sample(crossing), after));
+        let before = self.sample_at_start(t, crossing, system);
+        let mut bracket = Bracket::new((0.0, bad), (before, after));
         let resolution = resolution.max(self.time_resolution(control));
+        let mut last = f64::INFINITY;
         while bracket.width() > resolution {
             let at = bracket.next(resolution);
             self.repeat_step(t, at, control, system)?;
@@ -286,7 +318,14 @@ impl World {
             let sample = self.crossing_sample(crossing);
             bracket.take(at, has_happened, sample);
             if other.is_some() {
-                bracket.forget(sample);
+                let is_start = bracket.before() == 0.0;
+                let before = if is_start { self.sample_at_start(t, crossing, system) } else { f64::NAN.into() };
+                bracket.change_crossing(before, sample);
+                last = f64::INFINITY;
+            } else if self.is_close(crossing, (sample, last), has_happened) {
+                return Ok((at, crossing));
+            } else {
+                last = sample.value.abs();
             }
         }
         let at = bracket.after();
