@@ -1,7 +1,10 @@
 #![doc = include_str!("../README.md")]
 
 mod c;
+mod comparison;
 pub mod diagram;
+#[cfg(feature = "jit")]
+pub mod jit;
 pub mod native;
 pub mod plant;
 pub mod scene;
@@ -9,6 +12,11 @@ pub mod scene;
 use core::fmt;
 
 use sincro_math::record::Unrecordable;
+
+/// Returns true if the environment variable `SINCRO_COMPILE` is `off`: then no compiled code runs.
+pub(crate) fn is_forbidden() -> bool {
+    std::env::var_os("SINCRO_COMPILE").is_some_and(|value| value == "off")
+}
 
 /// Reason for which a model or a diagram cannot be compiled, in words that continue "it cannot be compiled: ".
 #[derive(Clone, Debug, PartialEq, Eq)]

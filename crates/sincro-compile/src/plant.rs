@@ -3,11 +3,15 @@
 use sincro_dynamics::aba::{self, Input};
 use sincro_dynamics::batch::{LaneWorlds, is_time_invariant, obstacle_to_lanes};
 use sincro_dynamics::ids::BodyId;
+use sincro_dynamics::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
 use sincro_dynamics::kinematics;
+use sincro_dynamics::mechanism::Mechanism;
+use sincro_dynamics::mechanism::layout::Layout;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::rnea;
 use sincro_dynamics::scratch::Scratch;
-use sincro_dynamics::world::MethodKind;
+use sincro_dynamics::state::State;
+use sincro_dynamics::world::{CompiledKind, MethodKind};
 use sincro_math::Real;
 use sincro_math::record::{Program, Recorded, record};
 use sincro_scene::record::probe;
@@ -116,6 +120,59 @@ pub fn worlds(
         Some(error) => Err(Obstacle::new(error.to_string())),
         None => Ok(program?),
     }
+}
+
+/// Records the equations of a single world, with work, dissipation and motor impulses if it `tracks_totals`. Inputs and
+/// outputs: see [`CompiledKind`].
+///
+/// # Errors
+///
+/// As [`step`]. A right-hand side is that of any explicit method.
+pub fn equations(
+    model: &Model<f64>,
+    method: MethodKind,
+    kind: CompiledKind,
+    tracks_totals: bool,
+) -> Result<Program, Obstacle> {
+    match (kind, method) {
+        (CompiledKind::Slope, MethodKind::Stiff | MethodKind::Implicit | MethodKind::SemiImplicitEuler) => {
+            return Err(Obstacle::new("its method is implicit, and takes no right-hand side"));
+        }
+        (CompiledKind::Slope, _) => check(model, MethodKind::Rk4)?,
+        (CompiledKind::Step { .. }, _) => check(model, method)?,
+    }
+    if method == MethodKind::SemiImplicitEuler && model.n_drives() > 0 {
+        return Err(Obstacle::new("a drive reaches its velocity within a step of semi-implicit Euler"));
+    }
+    let dim = Layout::new(model, tracks_totals).dim();
+    let n_inputs = model.n_q() + dim + model.n_commands();
+    let program = record(n_inputs, 1, |inputs| {
+        let model = Model::<Recorded>::pack(&[model]).expect("a model has its own structure");
+        let [q, unknowns, commands] = parts(inputs, [model.n_q(), dim, model.n_commands()]);
+        let mut mechanism = Mechanism::new(model, tracks_totals);
+        let mut state = State::new(mechanism.model());
+        state.q.copy_from_slice(q);
+        state.commands.copy_from_slice(commands);
+        let (mut y, displacement) = (vec![Recorded::zero(); dim], mechanism.layout().displacement());
+        mechanism.load(&state, &mut y);
+        mechanism.mark_locked();
+        y.copy_from_slice(unknowns);
+        let CompiledKind::Step { h } = kind else {
+            let mut slope = vec![Recorded::zero(); dim];
+            mechanism.slope(0.0, &y, &mut slope);
+            return slope;
+        };
+        y[displacement].fill(Recorded::zero());
+        match method {
+            MethodKind::SemiImplicitEuler => SemiImplicitEuler::new(dim).step(&mut mechanism, 0.0, h, &mut y),
+            MethodKind::Rk4 => Rk4::new(dim).step(&mut mechanism, 0.0, h, &mut y),
+            // two rows, as a world has them; the control is that of variable steps
+            _ => Extrapolated::new(dim, 2, Control::new(1.0, h)).step(&mut mechanism, 0.0, h, &mut y),
+        }
+        mechanism.store(&y, &mut state);
+        [state.q, y].concat()
+    });
+    Ok(program?)
 }
 
 /// Records the forward dynamics of the bare mechanism: accelerations (n_v) of coordinates (n_q), velocities (n_v) and

@@ -2,6 +2,7 @@
 // a loop over lanes reads one index in several arrays
 #![allow(clippy::needless_range_loop)]
 
+pub mod compiled;
 pub mod dual;
 pub mod elementary;
 pub mod error;

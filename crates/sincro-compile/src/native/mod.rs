@@ -17,23 +17,15 @@ use core::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use sincro_math::random::splitmix64;
 use sincro_math::record::Program;
 
 use crate::Obstacle;
+use crate::comparison::{self, ROUNDS};
 use library::{Function, LoadedLibrary};
 pub use text::INPUT_LIMIT;
 
 /// Largest number of operations of the programs of one library: compilers take more than their number's time.
 const MAX_OPERATIONS: usize = 40_000;
-
-/// Rounds of the comparison with the programs, each with other random inputs in every lane.
-const ROUNDS: u64 = 10;
-
-/// Rounds of them with inputs of many sizes, then those up to which all are small: some programs have results near the
-/// origin alone.
-const ROUNDS_OF_SIZES: u64 = 4;
-const ROUNDS_OF_SMALL: u64 = 8;
 
 /// Places of a program's outputs: the first are its outputs proper, results and flags follow them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -119,7 +111,7 @@ pub fn compile(programs: &[&Program]) -> Result<Native, Obstacle> {
 /// As [`compile`].
 pub fn compile_in_form(programs: &[(&Program, OutputForm)]) -> Result<Native, Obstacle> {
     let start = Instant::now();
-    if std::env::var_os("SINCRO_COMPILE").is_some_and(|value| value == "off") {
+    if crate::is_forbidden() {
         return Err(Obstacle::new("SINCRO_COMPILE=off forbids it"));
     }
     let width = sincro_math::lanes::width();
@@ -279,19 +271,7 @@ impl NativeProgram {
         let parameters = rows_of_parameters(program, 0, width);
         let mut n_compared = 0;
         for round in 0..ROUNDS {
-            let draw = |k: u64| {
-                let bits = splitmix64(round, k);
-                if (ROUNDS_OF_SIZES..ROUNDS_OF_SMALL).contains(&round) {
-                    return 1e-2 * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0);
-                }
-                if round >= ROUNDS_OF_SMALL {
-                    // four such numbers are nearly a rotation: no state of a machine with quaternions is wilder
-                    return 0.5 + 0.01 * ((bits >> 11) as f64 / (1_u64 << 53) as f64);
-                }
-                let size = [1.0, 1e-3, 30.0, 1.0][(bits % 4) as usize];
-                size * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
-            };
-            let inputs: Vec<f64> = (0..(self.n_inputs * width) as u64).map(draw).collect();
+            let inputs: Vec<f64> = (0..(self.n_inputs * width) as u64).map(|k| comparison::number(round, k)).collect();
             let results = [&mut first[..], &mut second];
             let Some(flags) = self.evaluate_in_form(&inputs, &parameters, &mut outputs, results, u64::MAX) else {
                 continue;

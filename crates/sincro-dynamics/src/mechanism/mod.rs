@@ -28,6 +28,7 @@ mod slopes;
 mod torques;
 
 use sincro_math::Real;
+use sincro_math::compiled::CompiledEvaluation;
 
 use crate::actuation::{Drive, DriveKind, ExternalForce, Motor, MotorMode, damper, friction};
 use crate::aero::rotor::{RotorLaw, SpeedSource};
@@ -113,6 +114,8 @@ pub struct Mechanism<R> {
     singular: SingularPassage<R>,
     /// Laws of limited drives at the stages of a step.
     pub(crate) drive_monitor: DriveMonitor,
+    /// Right-hand side that was compiled for this mechanism, during a step of an explicit method.
+    pub(crate) compiled: Option<Box<CompiledEvaluation>>,
 }
 
 impl<R: Real> Mechanism<R> {
@@ -152,6 +155,7 @@ impl<R: Real> Mechanism<R> {
             rotating: RotatingLinks::new(&model),
             singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
+            compiled: None,
             // constraints branch, which lanes cannot
             constraints: if R::IS_SCALAR { Constraints::new(&model) } else { None },
             model,
@@ -673,6 +677,14 @@ impl<R: Real> Mechanism<R> {
         }
     }
 
+    /// Evaluates the compiled right-hand side; false if there is none for this state.
+    fn compiled_slope(&mut self, y: &[R], slope: &mut [R]) -> bool {
+        let Some(compiled) = &mut self.compiled else { return false };
+        let Some(found) = compiled.evaluate([&self.base, y], &self.commands) else { return false };
+        slope.iter_mut().zip(found).for_each(|(slope, x)| *slope = R::splat(*x));
+        true
+    }
+
     /// Rate of the chart's displacement for velocity `v` at displacement `delta`.
     #[inline(always)]
     fn chart_rate(&self, delta: &[R], v: &[R], rate: &mut [R]) {
@@ -728,6 +740,9 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
+        if R::IS_SCALAR && self.compiled_slope(y, slope) {
+            return;
+        }
         if R::IS_SCALAR && self.bearings.is_some() {
             self.find_loads(t, None, y, slope);
         }

@@ -195,6 +195,8 @@ impl World {
         let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
         self.mechanism.set_sweeps(is_large);
         self.save_step_start();
+        let switches = self.is_constrained() || self.has_limited_drives();
+        let is_compiled = !switches && self.compiled_step(h, system.acts());
         let mut step = |world: &mut Self| {
             if let Some(constraints) = &mut world.mechanism.constraints {
                 constraints.sub_step = h;
@@ -206,11 +208,13 @@ impl World {
             };
             method.step(system, t, h, &mut world.y);
         };
-        if !self.is_constrained() && !self.has_limited_drives() {
+        if !switches {
             // no modes to decide: what is locked ends at its target velocity
             self.kinks.clear();
-            self.mark_targets(h);
-            step(self);
+            if !is_compiled {
+                self.mark_targets(h);
+                step(self);
+            }
         } else {
             self.solve_step_modes(h, |world| {
                 world.restore();

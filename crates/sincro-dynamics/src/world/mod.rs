@@ -12,6 +12,7 @@
 
 pub mod audit;
 mod builder;
+mod compiled;
 mod contacts;
 mod continued;
 mod drives;
@@ -24,8 +25,11 @@ mod substeps;
 mod switching;
 
 pub use builder::WorldBuilder;
+pub use compiled::CompiledKind;
 pub use observation::Observation;
 pub use step::{StepError, StepReport};
+
+use sincro_math::compiled::CompiledEvaluation;
 
 use crate::actuation::{ExternalForce, Motor};
 use crate::aero::rotor::{RotorLaw, SpeedSource};
@@ -174,6 +178,9 @@ pub struct World {
     /// Present state; may be changed between steps, then see [`World::mark_changed`].
     pub state: State<f64>,
     mechanism: Mechanism<f64>,
+    /// Equations that are compiled, while no parameter changes.
+    compiled: Option<Box<CompiledEvaluation>>,
+    compiled_kind: CompiledKind,
     method: Method,
     /// The method before the last change.
     spare_method: Option<Method>,
@@ -287,6 +294,8 @@ impl World {
         Self {
             state,
             mechanism,
+            compiled: None,
+            compiled_kind: CompiledKind::Slope,
             method,
             spare_method: None,
             y: vec![0.0; dim],
@@ -662,7 +671,7 @@ impl World {
     ///
     /// If the model has no such motor.
     pub fn set_motor(&mut self, id: MotorId, motor: Motor<f64>) {
-        self.mark_changed();
+        self.mark_model_changed();
         self.mechanism.drives.copy_from_slice(&self.state.drives);
         self.mechanism.set_motor(id, motor);
         self.resize_drives();

@@ -21,7 +21,7 @@ impl World {
     ///
     /// If they are of a model of another structure.
     pub fn set_params(&mut self, params: &ModelParams<f64>) {
-        self.mark_changed();
+        self.mark_model_changed();
         self.mechanism.model.set_params(params);
         self.mechanism.resize_drives();
         self.resize_drives();
@@ -34,7 +34,7 @@ impl World {
     ///
     /// If the model has no such body.
     pub fn set_mass_properties(&mut self, body: BodyId, mass: MassProperties) {
-        self.mark_changed();
+        self.mark_model_changed();
         let before = self.energy().total();
         self.mechanism.model.set_mass_properties(body, mass);
         if self.state.tick > 0 {
@@ -45,7 +45,7 @@ impl World {
     /// Sets the gravitational acceleration `[m/s²]`, world axes; the change of energy is counted as work, unless no
     /// step has been made yet.
     pub fn set_gravity(&mut self, gravity: Vec3<f64>) {
-        self.mark_changed();
+        self.mark_model_changed();
         let before = self.energy().total();
         self.mechanism.model.params.gravity = gravity;
         if self.state.tick > 0 {
@@ -56,7 +56,7 @@ impl World {
     /// Sets the lower and upper limit `[rad]` or `[m]` of degree of freedom `dof` (0 to n_v − 1), `None` where it has
     /// none. Returns false, and changes nothing, if it has other limits than those given.
     pub fn set_limits(&mut self, dof: usize, bounds: [Option<f64>; 2]) -> bool {
-        self.mark_changed();
+        self.mark_model_changed();
         let has = |sign: f64, model: &Model<f64>| {
             model.params.constraints.limits.iter().any(|l| l.dof == dof && l.sign == sign)
         };
@@ -79,7 +79,7 @@ impl World {
     ///
     /// If there is no such gear.
     pub fn set_gear(&mut self, k: usize, ratio: f64, offset: f64) {
-        self.mark_changed();
+        self.mark_model_changed();
         let gear = &mut Arc::make_mut(&mut self.mechanism.model.params.constraints).gears[k];
         (gear.ratio, gear.offset) = (ratio, offset);
     }
@@ -91,7 +91,7 @@ impl World {
     ///
     /// If there is no such pair.
     pub fn set_pair(&mut self, pair: usize, is_ignored: bool, material: Material) {
-        self.mark_changed();
+        self.mark_model_changed();
         let set = &mut self.mechanism.model.params.constraints;
         let known = &set.pairs[pair];
         // the scene's own set of constraints is copied once, when the first pair differs

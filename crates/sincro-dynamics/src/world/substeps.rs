@@ -312,6 +312,11 @@ impl World {
         rule: ModeRule,
         system: &mut A,
     ) -> Result<f64, Failure> {
+        let acts = system.acts();
+        if self.compiled_step(h_max, acts) {
+            return Ok(h_max);
+        }
+        self.exchange_slope(acts);
         let h = self.control().map_or(h_max, |c| c.h.min(h_max));
         if let Some(constraints) = &mut self.mechanism.constraints {
             constraints.sub_step = h;
@@ -338,6 +343,7 @@ impl World {
             Method::Stiff(m) => m.adaptive_step(system, t, h_max, y),
         };
         self.mechanism.set_mode_rule(ModeRule::Decided);
+        self.exchange_slope(acts);
         made
     }
 

@@ -85,6 +85,32 @@ pub fn width() -> usize {
     dispatch_lanes(Width)
 }
 
+/// Writes the sines of `angles` `[rad]`, then their cosines, to `to`, many at a time: for compiled programs, whose
+/// calls cost more than what they call. The bits are those of [`Real::sin_cos`].
+///
+/// # Panics
+///
+/// If the angles are no whole rows of [`width`] numbers, or `to` is not twice as long.
+pub fn sines_and_cosines(angles: &[f64], to: &mut [f64]) {
+    struct Sines<'a>(&'a [f64], &'a mut [f64]);
+    impl LaneVisitor for Sines<'_> {
+        type Output = ();
+        #[inline(always)]
+        fn visit<R: Real>(self) {
+            let Self(angles, to) = self;
+            assert!(angles.len() % R::LANES == 0 && to.len() == 2 * angles.len(), "whole rows");
+            let (sines, cosines) = to.split_at_mut(angles.len());
+            let rows = sines.chunks_exact_mut(R::LANES).zip(cosines.chunks_exact_mut(R::LANES));
+            for (angles, (sines, cosines)) in angles.chunks_exact(R::LANES).zip(rows) {
+                let (sine, cosine) = R::from_row(angles).sin_cos();
+                sine.to_row(sines);
+                cosine.to_row(cosines);
+            }
+        }
+    }
+    dispatch_lanes(Sines(angles, to));
+}
+
 /// Name of the instruction set that [`dispatch_lanes`] uses on this processor, for reports: `AVX-512`, `AVX2` or
 /// `baseline`.
 #[must_use]
@@ -101,6 +127,16 @@ pub fn instruction_set() -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rows_of_sines_have_the_bits_of_single_ones() {
+        let angles: Vec<f64> = (0..2 * width()).map(|k| 0.7 * k as f64 - 3.0).chain(vec![1e7; width()]).collect();
+        let mut to = vec![0.0; 2 * angles.len()];
+        sines_and_cosines(&angles, &mut to);
+        for (k, angle) in angles.iter().enumerate() {
+            assert_eq!((to[k], to[angles.len() + k]), Real::sin_cos(*angle), "{angle}");
+        }
+    }
 
     /// Every operation once, on a value that differs in each lane.
     struct Everything;

@@ -9,6 +9,8 @@ use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, Observation, Stop, World};
 
+#[cfg(feature = "jit")]
+use super::compiled::{Compilation, EquationsBy};
 use super::method_choice::{MethodChanges, MethodChoice};
 use super::world_with_room;
 use crate::controller::{
@@ -71,6 +73,8 @@ pub struct LockStep {
     /// Structure now; none if it is that of the start.
     structure: Option<Structure>,
     timing: Timing,
+    #[cfg(feature = "jit")]
+    compilation: Compilation,
 }
 
 /// Copy of a lock-step to look ahead with; result of [`LockStep::fork`].
@@ -190,6 +194,8 @@ impl LockStep {
             scene: Arc::clone(scene),
             structure: None,
             timing,
+            #[cfg(feature = "jit")]
+            compilation: Compilation::new(refined),
         };
         match new.control.as_mut().and_then(Controller::continuous) {
             Some(part) => new.world.initialize_with(0.0, part),
@@ -278,6 +284,8 @@ impl LockStep {
             controllers,
             scene: Arc::clone(&self.scene),
             structure: self.structure.clone(),
+            #[cfg(feature = "jit")]
+            compilation: self.compilation.clone(),
             ..*self
         };
         Fork { lockstep, not_copied }
@@ -572,6 +580,8 @@ impl LockStep {
         if let Some(method) = &mut self.method {
             method.choose(tick, t, &mut self.world);
         }
+        #[cfg(feature = "jit")]
+        self.compile_if_it_pays();
         let advanced = if self.controllers.iter().any(|controller| controller.holds_motion()) {
             self.world.state.tick += 1;
             Ok(())
@@ -598,6 +608,49 @@ impl LockStep {
         }
         // 8 sample, 9 measure
         self.measure()
+    }
+
+    /// Compiles the equations of the world at the next step, if that can be done, whether it pays or not. A run that
+    /// goes on does so by itself after some thousands of steps: its bits are the same.
+    ///
+    /// ```
+    /// use sincro_sim::prelude::*;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/acrobot");
+    /// let loaded = load(folder.as_ref(), &[Override::new("integrator", "rk4")], Extensions::default())?;
+    /// let runs = [true, false].map(|is_compiled| {
+    ///     let mut run = LockStep::new(&loaded, method_for(&loaded).0, false);
+    ///     if is_compiled {
+    ///         run.compile_equations();
+    ///     }
+    ///     run.start().unwrap();
+    ///     (0..20).for_each(|_| run.advance().unwrap());
+    ///     run.state().clone()
+    /// });
+    /// assert_eq!(runs[0], runs[1]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[cfg(feature = "jit")]
+    pub fn compile_equations(&mut self) {
+        self.compilation.want();
+    }
+
+    /// Returns the evaluation of the equations of the world: by compiled code, or why not.
+    #[cfg(feature = "jit")]
+    #[must_use]
+    pub fn equations_by(&self) -> &EquationsBy {
+        self.compilation.equations_by(&self.world)
+    }
+
+    /// Compiles the equations of the world once that pays, and again after parameters have changed.
+    #[cfg(feature = "jit")]
+    fn compile_if_it_pays(&mut self) {
+        if self.compilation.is_due(self.tick, &self.world) {
+            let acts = self.control.as_mut().and_then(Controller::continuous).is_some();
+            self.compilation.compile(self.tick, self.step, acts, &mut self.world);
+        }
     }
 
     /// Latches the commands of the present tick without advancing, so that the world is under the inputs of its next

@@ -7,6 +7,8 @@
 //! where, who and why (`stop.rs`).
 
 mod bounds;
+#[cfg(feature = "jit")]
+mod compiled;
 mod lockstep;
 mod method_choice;
 mod recording;
@@ -24,6 +26,8 @@ use sincro_dynamics::world::{MethodKind, StepStatistics, World};
 use crate::audit::Finding;
 use crate::trace::Trace;
 use crate::validity::ValidityViolation;
+#[cfg(feature = "jit")]
+pub use compiled::EquationsBy;
 pub use lockstep::{Followed, Halt, LockStep};
 pub use recording::Recording;
 
