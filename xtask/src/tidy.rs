@@ -75,6 +75,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "sincro-math",
             "sincro-dynamics",
             "sincro-blocks",
+            "sincro-compile",
             "sincro-scene",
             "sincro-sim",
             "sincro-analysis",

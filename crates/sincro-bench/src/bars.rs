@@ -65,7 +65,7 @@ const fn most(figure: &'static str, model: &'static str, first: f64, goal: f64, 
 }
 
 /// All bars that are measured here.
-pub(super) const BARS: [Bar; 28] = [
+pub(super) const BARS: [Bar; 34] = [
     ratio("step semi-implicit-euler", "alexandros", "mujoco", 3.0, 7.0),
     ratio("step implicit", "alexandros", "mujoco", 3.0, 6.0),
     ratio("step rk4", "arm2", "mujoco", 5.0, 10.0),
@@ -82,6 +82,13 @@ pub(super) const BARS: [Bar; 28] = [
     ratio("inverse", "panda", "pinocchio", 2.0, 4.0),
     ratio("inverse", "quad", "pinocchio", 2.0, 4.0),
     ratio("inverse", "chain100", "pinocchio", 2.0, 4.0),
+    // single worlds whose equations are compiled in memory: with the feature `jit`
+    ratio("step semi-implicit-euler compiled", "alexandros", "mujoco", 6.0, 7.0),
+    most("step semi-implicit-euler compiled", "alexandros", 250.0, 200.0, "ns"),
+    ratio("forward compiled", "alexandros", "pinocchio", 6.0, 7.0),
+    ratio("forward compiled", "panda", "pinocchio", 6.0, 7.0),
+    ratio("forward compiled", "quad", "pinocchio", 6.0, 7.0),
+    ratio("forward compiled", "chain100", "pinocchio", 6.0, 7.0),
     ratio("batch", "alexandros", "mujoco", 15.0, 26.0),
     Bar {
         figure: "batch threads",

@@ -31,6 +31,13 @@ impl Subject {
         Self { units, ..self }
     }
 
+    /// The same with another remark after its own.
+    #[cfg(feature = "jit")]
+    pub fn with_added_note(self, note: &str) -> Self {
+        let notes = [&*self.note, note].into_iter().filter(|note| !note.is_empty()).collect::<Vec<_>>().join("; ");
+        self.with_note(notes)
+    }
+
     /// The same with a remark.
     pub fn with_note(self, note: impl Into<String>) -> Self {
         Self { note: note.into(), ..self }

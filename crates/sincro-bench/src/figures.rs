@@ -80,23 +80,16 @@ fn timed(kind: FigureKind, model: &str, threads: usize) -> Vec<Timed> {
             vec![Timed::new("picture 256 × 256", &[], |scene, _| subjects::picture(scene))]
         }
         _ if TOUCHING.contains(&model) => Vec::new(),
-        FigureKind::Step => vec![
-            Timed::new(
-                "step semi-implicit-euler",
-                &[step("euler"), ("pinocchio", format!("step {model} euler 0.005"))],
-                |scene, _| subjects::step(scene, MethodKind::SemiImplicitEuler, false),
-            ),
-            Timed::new("step semi-implicit-euler, totals", &[], |scene, _| {
-                subjects::step(scene, MethodKind::SemiImplicitEuler, true)
-            }),
-            Timed::new("step implicit", &[step("implicit")], |scene, _| {
-                subjects::step(scene, MethodKind::Implicit, false)
-            }),
-            Timed::new("step rk4", &[step("rk4")], |scene, _| subjects::step(scene, MethodKind::Rk4, false)),
-            Timed::new("step default", &[], |scene, _| default_step(scene, false)),
-            Timed::new("step default, totals", &[], |scene, _| default_step(scene, true)),
-        ],
-        FigureKind::Forward => vec![Timed::new("forward", &[pin("forward")], |scene, _| subjects::forward(scene))],
+        FigureKind::Step => {
+            let mut figures = steps(model);
+            compiled(kind, model, &mut figures);
+            figures
+        }
+        FigureKind::Forward => {
+            let mut figures = vec![Timed::new("forward", &[pin("forward")], |scene, _| subjects::forward(scene))];
+            compiled(kind, model, &mut figures);
+            figures
+        }
         FigureKind::Inverse => {
             let requests = [pin("inverse"), ("mujoco", format!("inverse {model}"))];
             vec![Timed::new("inverse", &requests, |scene, _| subjects::inverse(scene))]
@@ -120,6 +113,46 @@ fn timed(kind: FigureKind, model: &str, threads: usize) -> Vec<Timed> {
         }
         _ => Vec::new(),
     }
+}
+
+/// Steps of a robot by each method.
+fn steps(model: &str) -> Vec<Timed> {
+    let step = |word: &str| ("mujoco", format!("step {model} {word} 0.005"));
+    vec![
+        Timed::new(
+            "step semi-implicit-euler",
+            &[step("euler"), ("pinocchio", format!("step {model} euler 0.005"))],
+            |scene, _| subjects::step(scene, MethodKind::SemiImplicitEuler, false),
+        ),
+        Timed::new("step semi-implicit-euler, totals", &[], |scene, _| {
+            subjects::step(scene, MethodKind::SemiImplicitEuler, true)
+        }),
+        Timed::new("step implicit", &[step("implicit")], |scene, _| subjects::step(scene, MethodKind::Implicit, false)),
+        Timed::new("step rk4", &[step("rk4")], |scene, _| subjects::step(scene, MethodKind::Rk4, false)),
+        Timed::new("step default", &[], |scene, _| default_step(scene, false)),
+        Timed::new("step default, totals", &[], |scene, _| default_step(scene, true)),
+    ]
+}
+
+/// Adds the figures of equations that are compiled in memory, if this program has that.
+#[cfg(not(feature = "jit"))]
+fn compiled(_: FigureKind, _: &str, _: &mut Vec<Timed>) {}
+
+/// Adds the figures of equations that are compiled in memory.
+#[cfg(feature = "jit")]
+fn compiled(kind: FigureKind, model: &str, figures: &mut Vec<Timed>) {
+    let step = |word: &str| ("mujoco", format!("step {model} {word} 0.005"));
+    if kind == FigureKind::Forward {
+        let request = ("pinocchio", format!("forward {model}"));
+        figures.push(Timed::new("forward compiled", &[request], |scene, _| super::compiled::forward(scene)));
+        return;
+    }
+    figures.extend([
+        Timed::new("step semi-implicit-euler compiled", &[step("euler")], |scene, _| {
+            super::compiled::step(scene, MethodKind::SemiImplicitEuler)
+        }),
+        Timed::new("step rk4 compiled", &[step("rk4")], |scene, _| super::compiled::step(scene, MethodKind::Rk4)),
+    ]);
 }
 
 fn default_step(scene: &Scene, totals: bool) -> Subject {

@@ -8,6 +8,8 @@ mod accuracy;
 mod adapters;
 mod bars;
 mod clock;
+#[cfg(feature = "jit")]
+mod compiled;
 mod diagrams;
 mod figures;
 mod flight;

@@ -86,7 +86,7 @@ pub(super) fn world(scene: &Scene, method: MethodKind, accuracy: f64, totals: bo
 }
 
 /// A world that steps, and starts over every simulated second.
-struct Stepper {
+pub(super) struct Stepper {
     world: World,
     start: State<f64>,
     control: Option<Control>,
@@ -95,7 +95,7 @@ struct Stepper {
 }
 
 impl Stepper {
-    fn new(scene: &Scene, method: MethodKind, totals: bool) -> Self {
+    pub fn new(scene: &Scene, method: MethodKind, totals: bool) -> Self {
         let world = world(scene, method, DEFAULT_ACCURACY, totals);
         let (start, control) = (world.state.clone(), world.control());
         let mut stepper = Self { world, start, control, step: STEP, tick: 0 };
@@ -104,6 +104,13 @@ impl Stepper {
         }
         stepper.restart();
         stepper
+    }
+
+    /// Calls `prepare` with the world and its step `[s]`.
+    #[cfg(feature = "jit")]
+    pub fn prepared(mut self, prepare: impl FnOnce(&mut World, f64)) -> Self {
+        prepare(&mut self.world, self.step);
+        self
     }
 
     /// Returns true if a round of steps stays within anything physical.
@@ -183,7 +190,11 @@ fn restore(state: &mut State<f64>, start: &State<f64>) {
 
 /// One step of a world. An error-controlled method is timed by whole seconds, whose ticks differ.
 pub(super) fn step(scene: &Scene, method: MethodKind, totals: bool) -> Subject {
-    let mut stepper = Stepper::new(scene, method, totals);
+    step_of(Stepper::new(scene, method, totals))
+}
+
+/// One step of the world of a stepper.
+pub(super) fn step_of(mut stepper: Stepper) -> Subject {
     let note = stepper.note();
     let subject = if stepper.control.is_some() {
         let second = move || (0..STEPS_A_SECOND).for_each(|_| stepper.call());
@@ -195,7 +206,7 @@ pub(super) fn step(scene: &Scene, method: MethodKind, totals: bool) -> Subject {
 }
 
 /// Start with all velocities 0.1, and the joint torques there: the state at which peers time their dynamics too.
-fn moving(scene: &Scene) -> (State<f64>, Vec<f64>) {
+pub(super) fn moving(scene: &Scene) -> (State<f64>, Vec<f64>) {
     let mut state = scene.initial.clone();
     state.v.fill(0.1);
     let model = &scene.model;

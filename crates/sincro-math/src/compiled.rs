@@ -31,17 +31,18 @@ impl CompiledEvaluation {
     /// Evaluates the function of a state, in two parts, and of what acts on it, which are its inputs in this order.
     /// Returns `None` where it does not have the bits of its algorithm: programs leave out x + 0, which is exact but
     /// for a state of −0.
+    ///
+    /// # Panics
+    ///
+    /// If there are more numbers than the function has inputs.
     #[inline]
     pub fn evaluate<R: Real>(&mut self, state: [&[R]; 2], action: &[R]) -> Option<&[f64]> {
-        let mut has_negative_zero = false;
-        let mut inputs = self.inputs.iter_mut();
-        for (x, input) in state.into_iter().flatten().zip(&mut inputs) {
-            *input = x.lane(0);
-            has_negative_zero |= input.to_bits() == (-0.0_f64).to_bits();
-        }
-        for (x, input) in action.iter().zip(inputs) {
-            *input = x.lane(0);
-        }
+        let [first, second] = state;
+        let (of_first, rest) = self.inputs.split_at_mut(first.len());
+        let (of_second, of_action) = rest.split_at_mut(second.len());
+        // not one after the other, and both: the comparisons are made in lanes
+        let has_negative_zero = copy(first, of_first) | copy(second, of_second);
+        copy(action, of_action);
         if has_negative_zero || !self.function.evaluate(&self.inputs, &mut self.outputs) {
             return None;
         }
@@ -54,6 +55,17 @@ impl CompiledEvaluation {
     pub fn n_evaluations(&self) -> u64 {
         self.n_evaluations
     }
+}
+
+/// Copies numbers; returns true if there is a −0 among them.
+#[inline]
+fn copy<R: Real>(from: &[R], to: &mut [f64]) -> bool {
+    let mut has_negative_zero = false;
+    for (x, to) in from.iter().zip(to) {
+        *to = x.lane(0);
+        has_negative_zero |= to.to_bits() == (-0.0_f64).to_bits();
+    }
+    has_negative_zero
 }
 
 #[cfg(test)]

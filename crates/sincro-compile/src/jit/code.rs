@@ -10,18 +10,15 @@ use cranelift_codegen::Context;
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::FunctionBuilderContext;
 use cranelift_jit::{JITBuilder, JITModule};
-use cranelift_module::{Module, default_libcall_names};
+use cranelift_module::{FuncId, Module, ModuleResult, default_libcall_names};
 use sincro_math::Real;
 use sincro_math::elementary::{Binary, Unary};
 use sincro_math::lanes;
 use sincro_math::record::Program;
 
-use super::translation::{Callees, signature, translate};
+use super::layout::Layout;
+use super::translation::{Callees, signature, signature_of_function, translate, translate_calls};
 use crate::native::INPUT_LIMIT;
-
-/// Number of operations up to which registers are allocated by backtracking: that makes code a fourth faster, in a time
-/// that grows with the square of the number; a single pass takes 3 µs an operation.
-const MAX_BACKTRACKING: usize = 2_500;
 
 /// Function on places of inputs, parameters and outputs; 0 if it does not know the inputs.
 type Signature = unsafe extern "C" fn(*const f64, *const f64, *mut f64) -> i64;
@@ -38,11 +35,11 @@ impl Code {
     pub fn new(programs: &[&Program]) -> Result<(Self, Vec<Function>), String> {
         let failed = |error: &dyn std::fmt::Display| format!("Cranelift fails: {error}");
         let mut flags = settings::builder();
-        let n_operations: usize = programs.iter().map(|program| program.operations().len()).sum();
-        let registers = if n_operations > MAX_BACKTRACKING { "single_pass" } else { "backtracking" };
         // programs have no operation twice: what the optimiser would find is not worth its time
-        let known = [("opt_level", "none"), ("regalloc_algorithm", registers), ("enable_verifier", "false")];
-        for (name, value) in known.into_iter().chain([("is_pic", "false")]) {
+        let known = [("opt_level", "none"), ("enable_verifier", "false"), ("is_pic", "false")];
+        // the working memory of a long program is longer than a page of the stack
+        let probes = [("enable_probestack", "true"), ("probestack_strategy", "inline")];
+        for (name, value) in known.into_iter().chain(probes) {
             flags.set(name, value).map_err(|error| failed(&error))?;
         }
         let isa = cranelift_native::builder().map_err(|error| failed(&error))?;
@@ -57,12 +54,19 @@ impl Code {
         let (mut context, mut builder_context) = (Context::new(), FunctionBuilderContext::new());
         let mut functions = Vec::new();
         for program in programs {
+            let layout = Layout::new(program, lanes::width());
+            let mut parts = Vec::new();
+            for index in 0..layout.parts().len() {
+                context.func.signature = signature_of_function(call);
+                let part = (*program, &layout, index);
+                translate(part, &mut context.func, &mut builder_context, (callees, frontend));
+                parts.push(define(&mut module, &mut context).map_err(|error| failed(&error))?);
+            }
             context.func.signature = signature(call);
-            translate(program, &mut context.func, &mut builder_context, (callees, frontend));
-            let id = module.declare_anonymous_function(&context.func.signature).map_err(|error| failed(&error))?;
-            module.define_function(id, &mut context).map_err(|error| failed(&error))?;
-            module.clear_context(&mut context);
-            functions.push(id);
+            let parts: Vec<_> =
+                parts.into_iter().map(|part| module.declare_func_in_func(part, &mut context.func)).collect();
+            translate_calls(&layout, &parts, &mut context.func, (&mut builder_context, frontend));
+            functions.push(define(&mut module, &mut context).map_err(|error| failed(&error))?);
         }
         module.finalize_definitions().map_err(|error| failed(&error))?;
         let of = |id| {
@@ -87,6 +91,14 @@ impl Code {
         let is_decided = unsafe { f(inputs.as_ptr(), parameters.as_ptr(), outputs.as_mut_ptr()) };
         is_decided != 0 && outputs.iter().fold(true, |finite, x| finite & x.is_finite())
     }
+}
+
+/// Compiles the function in `context`, and clears that.
+fn define(module: &mut JITModule, context: &mut Context) -> ModuleResult<FuncId> {
+    let id = module.declare_anonymous_function(&context.func.signature)?;
+    module.define_function(id, context)?;
+    module.clear_context(context);
+    Ok(id)
 }
 
 impl Drop for Code {

@@ -9,6 +9,7 @@
 //! ([`INPUT_LIMIT`](crate::native::INPUT_LIMIT)), and results that are not finite.
 
 mod code;
+mod layout;
 mod order;
 mod translation;
 

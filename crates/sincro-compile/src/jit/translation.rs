@@ -1,16 +1,19 @@
 //! A program in the intermediate representation of Cranelift.
 
+use std::collections::BTreeMap;
+
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::immediates::Ieee64;
 use cranelift_codegen::ir::{
-    self, AbiParam, InstBuilder, MemFlagsData, SigRef, Signature, StackSlotData, StackSlotKind, Value, types,
+    self, AbiParam, FuncRef, InstBuilder, MemFlagsData, SigRef, Signature, StackSlotData, StackSlotKind, Value, types,
 };
 use cranelift_codegen::isa::{CallConv, TargetFrontendConfig};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use sincro_math::elementary::Binary;
 use sincro_math::record::{Operation, Program};
 
-use super::order::{Order, Part};
+use super::layout::{Angles, Layout, is_in_memory};
+use super::order::Part;
 
 /// Addresses of what compiled code calls.
 #[derive(Clone, Copy, Debug)]
@@ -31,32 +34,46 @@ pub(super) fn signature(call: CallConv) -> Signature {
     signature
 }
 
-/// Writes the body of `function`, whose signature is [`signature`].
+/// Signature of a function of a program: as [`signature`], then the place of the working memory.
+pub(super) fn signature_of_function(call: CallConv) -> Signature {
+    let mut signature = signature(call);
+    signature.params.push(AbiParam::new(types::I64));
+    signature
+}
+
+/// Writes the body of a program, whose signature is [`signature`], which calls its `functions`.
+pub(super) fn translate_calls(
+    layout: &Layout,
+    functions: &[FuncRef],
+    function: &mut ir::Function,
+    (context, frontend): (&mut FunctionBuilderContext, TargetFrontendConfig),
+) {
+    let mut builder = FunctionBuilder::new(function, context);
+    let mut arguments = begin(&mut builder);
+    // lines of the cache
+    let slot = StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * layout.n as u32, 6);
+    let slot = builder.create_sized_stack_slot(slot);
+    arguments.push(builder.ins().stack_addr(types::I64, slot, 0));
+    let mut are_known = builder.ins().iconst(types::I64, 1);
+    for function in functions {
+        let call = builder.ins().call(*function, &arguments);
+        let is_known = builder.inst_results(call)[0];
+        are_known = builder.ins().band(are_known, is_known);
+    }
+    builder.ins().return_(&[are_known]);
+    builder.finalize(frontend);
+}
+
+/// Writes the body of function `index` of a program, whose signature is [`signature_of_function`].
 pub(super) fn translate(
-    program: &Program,
+    (program, layout, index): (&Program, &Layout, usize),
     function: &mut ir::Function,
     context: &mut FunctionBuilderContext,
     (callees, frontend): (Callees, TargetFrontendConfig),
 ) {
-    let order = Order::new(program);
     let mut builder = FunctionBuilder::new(function, context);
-    let block = builder.create_block();
-    builder.append_block_params_for_function_params(block);
-    builder.switch_to_block(block);
-    builder.seal_block(block);
-    let places = builder.block_params(block).to_vec();
+    let arguments = begin(&mut builder);
     let call = builder.func.signature.call_conv;
-    let width = sincro_math::lanes::width();
-    // angles of each set, then their sines, then their cosines; whole rows of lanes
-    let mut n = 0;
-    let mut slots = Vec::new();
-    for angles in &order.sets {
-        slots.push(Slots { first: n, n: angles.len().next_multiple_of(width) });
-        n += 3 * angles.len().next_multiple_of(width);
-    }
-    // lines of the cache
-    let slot = builder.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * n as u32, 6));
-    let work = builder.ins().stack_addr(types::I64, slot, 0);
     let mut signatures = |n_integers: usize, n_numbers: usize, has_result: bool| {
         let mut of = Signature::new(call);
         of.params = vec![AbiParam::new(types::I64); n_integers];
@@ -65,31 +82,34 @@ pub(super) fn translate(
         builder.import_signature(of)
     };
     let signatures = [signatures(3, 0, false), signatures(1, 1, true), signatures(1, 2, true)];
-    let values = vec![None; program.operations().len()];
-    let (inputs, parameters) = (places[0], places[1]);
-    let mut body =
-        Body { builder, program, order: &order, inputs, parameters, work, slots, signatures, callees, values };
+    let values = BTreeMap::new();
+    let (inputs, parameters, work) = (arguments[0], arguments[1], arguments[3]);
+    let mut body = Body { builder, program, layout, index, inputs, parameters, work, signatures, callees, values };
     let mut undecided: Vec<Value> = Vec::new();
-    for part in &order.parts {
+    for part in layout.parts().nth(index).into_iter().flatten() {
         match part {
             Part::Operation(k) => body.operation(*k, &mut undecided),
             Part::Angles(set) => body.sines(*set),
         }
     }
     for (k, &output) in program.outputs().iter().enumerate() {
-        let value = body.value(output);
-        body.builder.ins().store(MemFlagsData::trusted(), value, places[2], offset(k));
+        if layout.functions[output as usize] == index {
+            let value = body.value(output);
+            body.builder.ins().store(MemFlagsData::trusted(), value, arguments[2], offset(k));
+        }
     }
     let is_decided = body.all_false(&undecided);
     body.builder.ins().return_(&[is_decided]);
     body.builder.finalize(frontend);
 }
 
-/// Place of the angles of a set in the working memory, behind which their sines and their cosines stand.
-#[derive(Clone, Copy)]
-struct Slots {
-    first: usize,
-    n: usize,
+/// Begins the one block of a function; returns its arguments.
+fn begin(builder: &mut FunctionBuilder<'_>) -> Vec<Value> {
+    let block = builder.create_block();
+    builder.append_block_params_for_function_params(block);
+    builder.switch_to_block(block);
+    builder.seal_block(block);
+    builder.block_params(block).to_vec()
 }
 
 fn offset(k: usize) -> i32 {
@@ -99,17 +119,17 @@ fn offset(k: usize) -> i32 {
 struct Body<'a> {
     builder: FunctionBuilder<'a>,
     program: &'a Program,
-    order: &'a Order,
+    layout: &'a Layout,
+    /// Index of the function.
+    index: usize,
     inputs: Value,
     parameters: Value,
-    /// Working memory.
     work: Value,
-    slots: Vec<Slots>,
     /// Signatures of [`Callees`], in their order.
     signatures: [SigRef; 3],
     callees: Callees,
-    /// Results of the operations that compute something.
-    values: Vec<Option<Value>>,
+    /// Results of the operations of this function that compute something.
+    values: BTreeMap<u32, Value>,
 }
 
 impl Body<'_> {
@@ -122,22 +142,26 @@ impl Body<'_> {
             Operation::Parameter(i) => self.builder.ins().load(types::F64, flags, self.parameters, offset(i as usize)),
             Operation::Sin(angle) => self.sine(angle, 0),
             Operation::Cos(angle) => self.sine(angle, 1),
-            _ => self.values[k as usize].expect("operands come before what needs them"),
+            _ if self.layout.functions[k as usize] == self.index => self.values[&k],
+            _ => {
+                let place = self.layout.places[k as usize].expect("a later function needs it");
+                self.builder.ins().load(types::F64, flags, self.work, offset(place))
+            }
         }
     }
 
     /// Sine (0) or cosine (1) of an angle.
     fn sine(&mut self, angle: u32, which: usize) -> Value {
-        let (set, place) = self.order.places[&angle];
-        let Slots { first, n } = self.slots[set];
+        let (set, place) = self.layout.order.places[&angle];
+        let Angles { first, n } = self.layout.angles[set];
         let at = offset(first + (1 + which) * n + place);
         self.builder.ins().load(types::F64, MemFlagsData::trusted(), self.work, at)
     }
 
     /// Finds sines and cosines of the angles of a set; the last is repeated up to a full row of lanes.
     fn sines(&mut self, set: usize) {
-        let order = self.order;
-        let (angles, Slots { first, n }) = (&order.sets[set], self.slots[set]);
+        let layout = self.layout;
+        let (angles, Angles { first, n }) = (&layout.order.sets[set], layout.angles[set]);
         let values: Vec<Value> = angles.iter().map(|&angle| self.value(angle)).collect();
         for k in 0..n {
             let value = values[k.min(values.len() - 1)];
@@ -160,14 +184,7 @@ impl Body<'_> {
     /// keep, are added to `undecided`.
     fn operation(&mut self, k: u32, undecided: &mut Vec<Value>) {
         let operation = self.program.operations()[k as usize];
-        if matches!(
-            operation,
-            Operation::Constant(_)
-                | Operation::Input(_)
-                | Operation::Parameter(_)
-                | Operation::Sin(_)
-                | Operation::Cos(_)
-        ) {
+        if is_in_memory(&operation) {
             return;
         }
         let x: Vec<Value> = operation.operands().iter().map(|&x| self.value(x)).collect();
@@ -215,7 +232,10 @@ impl Body<'_> {
             | Operation::Sin(_)
             | Operation::Cos(_) => unreachable!("they stand in memory"),
         };
-        self.values[k as usize] = Some(value);
+        self.values.insert(k, value);
+        if let Some(place) = self.layout.places[k as usize] {
+            self.builder.ins().store(MemFlagsData::trusted(), value, self.work, offset(place));
+        }
     }
 
     /// Bits of a number shifted to the left by `n`, the sign alone kept.
