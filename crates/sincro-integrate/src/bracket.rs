@@ -132,6 +132,7 @@ impl Bracket {
             return None;
         }
         let (first, last) = (before.rate * self.width(), after.rate * self.width());
+        // in a form whose rounding is as small near the end as near the start
         let cubic = |s: f64| {
             let left = 1.0 - s;
             left * left * ((1.0 + 2.0 * s) * before.value + s * first)

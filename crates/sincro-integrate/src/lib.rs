@@ -13,12 +13,14 @@
 //! | [`DormandPrince`] | 5(4) | smooth mechanisms, error control |
 //! | [`Extrapolated`], with [`Extrapolated::control`] | 2…8 | stiff mechanisms, error control |
 //!
-//! [`Bracket`] locates events between two instants; [`quadrature`] integrates functions of one variable.
+//! [`Bracket`] locates events between two instants, and a [`Hermite`] polynomial tells what may have happened within a
+//! step; [`quadrature`] integrates functions of one variable.
 
 mod bracket;
 mod dormand_prince;
 mod euler;
 mod extrapolated;
+mod hermite;
 mod quadrature;
 mod rk4;
 
@@ -26,6 +28,7 @@ pub use bracket::{Bracket, Sample};
 pub use dormand_prince::DormandPrince;
 pub use euler::SemiImplicitEuler;
 pub use extrapolated::Extrapolated;
+pub use hermite::Hermite;
 pub use quadrature::quadrature;
 pub use rk4::Rk4;
 

@@ -5,8 +5,8 @@
 use sincro_math::Real;
 
 use super::Mechanism;
-use super::hermite::Hermite;
 use crate::actuation::Drive;
+use crate::integrate::Hermite;
 use crate::spatial::Vec3;
 
 /// Relative width below which two velocities count as equal.

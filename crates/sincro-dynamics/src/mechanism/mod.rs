@@ -15,7 +15,6 @@ mod analysis;
 mod bearing_load;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
-mod hermite;
 mod kinks;
 pub mod layout;
 mod lines;

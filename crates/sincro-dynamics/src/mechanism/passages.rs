@@ -5,9 +5,9 @@ use crate::constraint::{CLOSED_DISTANCE, Constraints, Parting};
 use crate::contact::Margin;
 use crate::contact::candidate::Feature;
 use crate::contact::candidate_list::SlotCandidate;
+use crate::integrate::Hermite;
 use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::normal_rate;
-use crate::mechanism::hermite::Hermite;
 
 /// Interval at which a sub-step is looked at where a body may have passed right through another one, relative to its
 /// length.

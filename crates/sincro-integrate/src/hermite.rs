@@ -1,7 +1,16 @@
 //! Cubic through values and slopes at both ends of a step: what happens within it.
 
 /// Cubic Hermite polynomial `v₀ + s (a₀ + s (c₂ + s c₃))` on [0, 1].
-pub(super) struct Hermite {
+///
+/// ```
+/// use sincro_integrate::Hermite;
+///
+/// // s (1 − s) rises to 1/4
+/// let arc = Hermite::new((0.0, 1.0), (0.0, -1.0));
+/// assert_eq!(arc.value(arc.extrema()[1]), 0.25);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Hermite {
     v0: f64,
     a0: f64,
     c2: f64,
@@ -9,16 +18,20 @@ pub(super) struct Hermite {
 }
 
 impl Hermite {
-    /// Polynomial of the given values and slopes at 0 and at 1.
+    /// Creates the polynomial of the given values and slopes at 0 and at 1.
+    #[must_use]
     pub fn new((v0, a0): (f64, f64), (v1, a1): (f64, f64)) -> Self {
         Self { v0, a0, c2: 3.0 * (v1 - v0) - 2.0 * a0 - a1, c3: 2.0 * (v0 - v1) + a0 + a1 }
     }
 
+    /// Value at `s`.
+    #[must_use]
     pub fn value(&self, s: f64) -> f64 {
         self.v0 + s * (self.a0 + s * (self.c2 + s * self.c3))
     }
 
     /// Positions of the extrema within (0, 1), roots of `a₀ + 2 c₂ s + 3 c₃ s²` without cancellation; NaN for none.
+    #[must_use]
     pub fn extrema(&self) -> [f64; 2] {
         let root = (self.c2 * self.c2 - 3.0 * self.c3 * self.a0).sqrt();
         let q = -(self.c2 + root.copysign(self.c2));
