@@ -89,7 +89,7 @@ fn shipped_scenes_have_the_bits_of_their_recursions() {
 }
 
 fn double_pendulum(settings: &[(&str, &str)]) -> Loaded {
-    let settings: Vec<Override> = settings.iter().map(|(path, value)| Override::new(*path, *value)).collect();
+    let settings: Vec<Override> = settings.iter().map(|(path, value)| Override::new(path, value)).collect();
     loaded(&sincro_testing::repository_scene("double-pendulum"), &settings)
 }
 

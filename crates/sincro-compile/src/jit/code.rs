@@ -10,7 +10,7 @@ use cranelift_codegen::Context;
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::FunctionBuilderContext;
 use cranelift_jit::{JITBuilder, JITModule};
-use cranelift_module::{FuncId, Module, ModuleResult, default_libcall_names};
+use cranelift_module::{FuncId, Module, default_libcall_names};
 use sincro_math::Real;
 use sincro_math::elementary::{Binary, Unary};
 use sincro_math::lanes;
@@ -33,17 +33,16 @@ pub(super) struct Code(Mutex<Option<JITModule>>);
 impl Code {
     /// Compiles programs, and returns their functions in their order.
     pub fn new(programs: &[&Program]) -> Result<(Self, Vec<Function>), String> {
-        let failed = |error: &dyn std::fmt::Display| format!("Cranelift fails: {error}");
         let mut flags = settings::builder();
         // programs have no operation twice: what the optimiser would find is not worth its time
         let known = [("opt_level", "none"), ("enable_verifier", "false"), ("is_pic", "false")];
         // the working memory of a long program is longer than a page of the stack
         let probes = [("enable_probestack", "true"), ("probestack_strategy", "inline")];
         for (name, value) in known.into_iter().chain(probes) {
-            flags.set(name, value).map_err(|error| failed(&error))?;
+            flags.set(name, value).map_err(failed)?;
         }
-        let isa = cranelift_native::builder().map_err(|error| failed(&error))?;
-        let isa = isa.finish(settings::Flags::new(flags)).map_err(|error| failed(&error))?;
+        let isa = cranelift_native::builder().map_err(failed)?;
+        let isa = isa.finish(settings::Flags::new(flags)).map_err(failed)?;
         let (call, frontend) = (isa.default_call_conv(), isa.frontend_config());
         let mut module = JITModule::new(JITBuilder::with_isa(isa, default_libcall_names()));
         let callees = Callees {
@@ -60,15 +59,15 @@ impl Code {
                 context.func.signature = signature_of_function(call);
                 let part = (*program, &layout, index);
                 translate(part, &mut context.func, &mut builder_context, (callees, frontend));
-                parts.push(define(&mut module, &mut context).map_err(|error| failed(&error))?);
+                parts.push(define(&mut module, &mut context)?);
             }
             context.func.signature = signature(call);
             let parts: Vec<_> =
                 parts.into_iter().map(|part| module.declare_func_in_func(part, &mut context.func)).collect();
             translate_calls(&layout, &parts, &mut context.func, (&mut builder_context, frontend));
-            functions.push(define(&mut module, &mut context).map_err(|error| failed(&error))?);
+            functions.push(define(&mut module, &mut context)?);
         }
-        module.finalize_definitions().map_err(|error| failed(&error))?;
+        module.finalize_definitions().map_err(failed)?;
         let of = |id| {
             let address = module.get_finalized_function(id);
             // SAFETY: the function at this address was translated with this signature, and it is finished
@@ -93,10 +92,14 @@ impl Code {
     }
 }
 
+fn failed(error: impl std::fmt::Display) -> String {
+    format!("Cranelift fails: {error}")
+}
+
 /// Compiles the function in `context`, and clears that.
-fn define(module: &mut JITModule, context: &mut Context) -> ModuleResult<FuncId> {
-    let id = module.declare_anonymous_function(&context.func.signature)?;
-    module.define_function(id, context)?;
+fn define(module: &mut JITModule, context: &mut Context) -> Result<FuncId, String> {
+    let id = module.declare_anonymous_function(&context.func.signature).map_err(failed)?;
+    module.define_function(id, context).map_err(failed)?;
     module.clear_context(context);
     Ok(id)
 }
