@@ -110,12 +110,12 @@ impl Bracket {
         self.n_taken += 1;
     }
 
-    /// Changes the zero crossing to another one, with these samples at the ends of the bracket.
+    /// Changes the zero crossing to another one, with these samples at the ends of the bracket. Instants that were
+    /// found by rates still count: crossings that alternate must not mislead the search for ever.
     pub fn change_crossing(&mut self, before: impl Into<Sample>, after: impl Into<Sample>) {
         self.before = Point::of(self.before.t, before.into());
         self.after = Point::of(self.after.t, after.into());
         self.replaced = Point::of(self.replaced.t, f64::NAN.into());
-        self.n_taken = 0;
     }
 
     /// The end found last, and the other one.
@@ -270,6 +270,16 @@ mod tests {
         assert_eq!((bracket.before(), bracket.after()), (0.0, 0.5));
         bracket.change_crossing(sample(0.0), sample(0.5));
         assert!((bracket.next(1e-13) - 0.3).abs() < 1e-12, "{}", bracket.next(1e-13));
+        // two that alternate, whose rates say that the event is at the start
+        let misleading = |value: f64| Sample { value, rate: 1e9 };
+        let mut count = 0;
+        while bracket.width() > 1e-13 {
+            let t = bracket.next(1e-13);
+            bracket.take(t, t > 0.2, misleading(t - 0.2));
+            bracket.change_crossing(misleading(-0.2), misleading(t.max(0.2)));
+            count += 1;
+            assert!(count <= 100, "no end");
+        }
     }
 
     #[test]

@@ -417,14 +417,12 @@ impl<R: Real> Constraints<R> {
     fn check_held_modes(&mut self) {
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
         let Some(mut law) = self.solver.worst_law(&problem, &self.blocks, &self.lambda) else { return };
-        if self.mode_rule == ModeRule::HeldAndChecked {
+        if self.mode_rule == ModeRule::HeldAndChecked
+            && self.solver.share_kept_load(&problem, &self.blocks, &mut self.lambda)
+        {
             // a load that no share could carry violates a law however it is shared: nothing is missed
-            if self.solver.share_kept_load(&problem, &self.blocks, &mut self.lambda) {
-                match self.solver.worst_law(&problem, &self.blocks, &self.lambda) {
-                    Some(of_shared) => law = of_shared,
-                    None => return,
-                }
-            }
+            let Some(of_shared) = self.solver.worst_law(&problem, &self.blocks, &self.lambda) else { return };
+            law = of_shared;
         }
         self.held.keep(&self.blocks, &self.lambda, self.solver.rates());
         let report = self.solver.report;
