@@ -63,15 +63,44 @@ impl Detector {
             if pair.is_ignored {
                 continue;
             }
-            let reach = self.broad_phase.margin(pair, margin);
-            self.slots.clear();
-            self.slots.resize(pair.slots, None);
-            let is_step = margin.time > 0.0;
-            self.detect_pair((k, pair), colliders, poses, ContactKind::of(former(pair)), (reach, is_step));
-            for (slot, candidate) in (pair.first..).zip(&self.slots) {
-                if let Some(candidate) = candidate {
-                    found.push(SlotCandidate { slot: slot as u32, pair: k as u32, candidate: *candidate });
-                }
+            let reach = (self.broad_phase.margin(pair, margin), margin.time > 0.0);
+            self.push_candidates((k, pair), colliders, poses, ContactKind::of(former(pair)), reach, found);
+        }
+    }
+
+    /// Finds the contact candidates of pair `k` alone, where its surfaces are not farther apart than `margin` `[m]`:
+    /// those that [`Detector::detect`] finds of it with the same margin for all pairs, and no feature touched so far.
+    pub fn detect_alone(
+        &mut self,
+        (colliders, pairs): (&[Collider], &[Pair]),
+        k: usize,
+        poses: &[Pose<f64>],
+        margin: f64,
+        found: &mut CandidateList,
+    ) {
+        found.clear();
+        let pair = &pairs[k];
+        if !pair.is_ignored && self.is_near(pair, (&colliders[pair.a], &colliders[pair.b]), poses, margin) {
+            self.push_candidates((k, pair), colliders, poses, ContactKind::of(0), (margin, false), found);
+        }
+    }
+
+    /// Adds the candidates of pair `k` to those found.
+    fn push_candidates(
+        &mut self,
+        (k, pair): (usize, &Pair),
+        colliders: &[Collider],
+        poses: &[Pose<f64>],
+        former: ContactKind,
+        reach: (f64, bool),
+        found: &mut CandidateList,
+    ) {
+        self.slots.clear();
+        self.slots.resize(pair.slots, None);
+        self.detect_pair((k, pair), colliders, poses, former, reach);
+        for (slot, candidate) in (pair.first..).zip(&self.slots) {
+            if let Some(candidate) = candidate {
+                found.push(SlotCandidate { slot: slot as u32, pair: k as u32, candidate: *candidate });
             }
         }
     }

@@ -4,6 +4,8 @@
 //! spheres, capsules and the flanks of cylinders keep their curvature, and flat faces are exact. The library's memory
 //! between calls is discarded, because a result must not depend on the past.
 
+use std::cmp::Ordering;
+
 use parry3d_f64::math::{Pose as LibraryPose, Vector};
 use parry3d_f64::query::{
     ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
@@ -27,8 +29,20 @@ pub(crate) struct Manifolds {
     shapes: Vec<Option<ParryShape>>,
     pairs: Vec<Vec<ContactManifold<(), ()>>>,
     workspace: Option<ContactManifoldsWorkspace>,
-    /// Distance, candidate and point on the first surface of every point found.
-    found: Vec<(f64, ContactCandidate, Vec3<f64>)>,
+    /// Every point found, in the library's order.
+    found: Vec<Found>,
+    /// Places on the first surface of the points found.
+    places: Vec<Vec3<f64>>,
+}
+
+/// A point of a manifold.
+#[derive(Clone, Copy)]
+struct Found {
+    /// Distance of the surfaces there `[m]`.
+    distance: f64,
+    /// Number of points found before it.
+    order: u32,
+    candidate: ContactCandidate,
 }
 
 impl std::fmt::Debug for Manifolds {
@@ -45,7 +59,13 @@ impl Manifolds {
         }
         let shapes =
             colliders.iter().zip(is_general).map(|(c, general)| general.then(|| ParryShape::of(&c.surface)).flatten());
-        Self { shapes: shapes.collect(), pairs: vec![Vec::new(); pairs.len()], workspace: None, found: Vec::new() }
+        Self {
+            shapes: shapes.collect(),
+            pairs: vec![Vec::new(); pairs.len()],
+            workspace: None,
+            found: Vec::new(),
+            places: Vec::new(),
+        }
     }
 
     /// Writes the candidates of pair `k`: the deepest ones, in the library's order.
@@ -63,6 +83,7 @@ impl Manifolds {
         let x_12 = x_1.inverse().compose(&x_2);
         let manifolds = &mut self.pairs[k];
         self.found.clear();
+        self.places.clear();
         if let [manifold] = &mut manifolds[..]
             && is_convex(a)
             && is_convex(b)
@@ -97,8 +118,12 @@ impl Manifolds {
                 let p_a = one.pose.point(side(manifold.subshape_pos1(), point.local_p1));
                 let p_b = two.pose.point(side(manifold.subshape_pos2(), point.local_p2));
                 // where edges lie on edges, the library finds a corner of each
-                if !self.found.iter().any(|(_, _, known)| (p_a - *known).norm() < SAME_POINT) {
-                    self.found.push((point.dist, candidate((a, p_a, n_a), (b, p_b, n_b)), p_a));
+                let is_there =
+                    |known: &Vec3<f64>| (p_a[0] - known[0]).abs() < SAME_POINT && (p_a - *known).norm() < SAME_POINT;
+                if !self.places.iter().any(is_there) {
+                    let (order, candidate) = (self.found.len() as u32, candidate((a, p_a, n_a), (b, p_b, n_b)));
+                    self.found.push(Found { distance: point.dist, order, candidate });
+                    self.places.push(p_a);
                 }
             }
         }
@@ -106,14 +131,20 @@ impl Manifolds {
     }
 }
 
-/// Writes the deepest candidates, in the order found.
-fn fill(found: &mut Vec<(f64, ContactCandidate, Vec3<f64>)>, slots: &mut [Option<ContactCandidate>]) {
-    while found.len() > slots.len() {
-        let shallowest = (1..found.len()).fold(0, |worst, k| if found[k].0 > found[worst].0 { k } else { worst });
-        found.remove(shallowest);
+/// Writes the deepest candidates, in the order found; of equally deep ones the last.
+fn fill(found: &mut Vec<Found>, slots: &mut [Option<ContactCandidate>]) {
+    if slots.is_empty() {
+        return;
     }
-    for (slot, (_, candidate, _)) in slots.iter_mut().zip(found) {
-        *slot = Some(*candidate);
+    if found.len() > slots.len() {
+        found.select_nth_unstable_by(slots.len() - 1, |a, b| {
+            a.distance.partial_cmp(&b.distance).unwrap_or(Ordering::Equal).then(b.order.cmp(&a.order))
+        });
+        found.truncate(slots.len());
+        found.sort_unstable_by_key(|point| point.order);
+    }
+    for (slot, point) in slots.iter_mut().zip(found) {
+        *slot = Some(point.candidate);
     }
 }
 

@@ -309,7 +309,8 @@ impl Mechanism<f64> {
         if let Some(limit) = set.limits.get(slot) {
             return (limit.sign * (self.q[limit.coordinate] - limit.bound), limit.sign * v[limit.dof]);
         }
-        c.detect_later(set, &self.scratch.poses, Margin::of(LOCATED));
+        let (of_all, pair) = ((&set.colliders[..], &set.pairs[..]), pair_of(set, slot - set.limits.len()));
+        c.detector.detect_alone(of_all, pair, &self.scratch.poses, LOCATED, &mut c.later_candidates);
         let Some(candidate) = c.later_candidates.get(slot - set.limits.len()) else { return (f64::NAN, f64::NAN) };
         let at = candidate.kinematics(&c.motions.at(&self.scratch));
         (at.distance, normal_rate(&c.motions, candidate, &at))
