@@ -97,22 +97,42 @@ impl<R: Real> DormandPrince<R> {
     fn stages<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &[R]) {
         for s in 0..7 {
             let (done, rest) = self.k.split_at_mut(s);
-            self.stage.copy_from_slice(y);
-            for (k, a) in done.iter().zip(A[s]) {
-                for (stage, k) in self.stage.iter_mut().zip(k) {
-                    *stage += R::splat(h * a) * *k;
-                }
+            let stage = &mut self.stage[..];
+            match s {
+                0 => stage.copy_from_slice(y),
+                1 => add_weighted::<_, 1>(stage, y, (done, A[s]), h),
+                2 => add_weighted::<_, 2>(stage, y, (done, A[s]), h),
+                3 => add_weighted::<_, 3>(stage, y, (done, A[s]), h),
+                4 => add_weighted::<_, 4>(stage, y, (done, A[s]), h),
+                5 => add_weighted::<_, 5>(stage, y, (done, A[s]), h),
+                _ => add_weighted::<_, 6>(stage, y, (done, A[s]), h),
             }
             system.slope(t + C[s] * h, &self.stage, &mut rest[0]);
         }
-        self.error.fill(R::zero());
-        for (k, e) in self.k.iter().zip(E) {
-            for (error, k) in self.error.iter_mut().zip(k) {
-                *error += R::splat(e) * *k;
+        let n = self.error.len();
+        let slopes: [&[R]; 7] = std::array::from_fn(|j| &self.k[j][..n]);
+        for (i, error) in self.error.iter_mut().enumerate() {
+            let mut sum = R::zero();
+            for (slope, e) in slopes.iter().zip(E) {
+                sum += R::splat(e) * slope[i];
             }
+            *error = R::splat(h) * sum;
         }
-        for error in &mut self.error {
-            *error = R::splat(h) * *error;
+    }
+}
+
+/// `out = y + Σ (h a_j) k_j` over `S` slopes, added in their order, one unknown after the other.
+#[inline(always)]
+fn add_weighted<R: Real, const S: usize>(out: &mut [R], y: &[R], (k, a): (&[Vec<R>], &[f64]), h: f64) {
+    let n = out.len();
+    let y = &y[..n];
+    let slopes: [&[R]; S] = std::array::from_fn(|j| &k[j][..n]);
+    let weights: [R; S] = std::array::from_fn(|j| R::splat(h * a[j]));
+    for i in 0..n {
+        let mut sum = y[i];
+        for (slope, weight) in slopes.iter().zip(weights) {
+            sum += weight * slope[i];
         }
+        out[i] = sum;
     }
 }

@@ -49,11 +49,17 @@ impl<R: Real> Extrapolated<R> {
         // the newest T_j1 is built in place `j`, then carried through the older ones
         let (older, newest) = self.tableau.split_at_mut(j);
         let x = &mut newest[0];
-        x.copy_from_slice(y);
         for i in 0..n {
-            system.implicit_slope(t + i as f64 * small, small, Implicit::SpringsAndDampers, x, &mut self.slope);
-            for (x, k) in x.iter_mut().zip(&self.slope) {
-                *x += R::splat(small) * *k;
+            let from = if i == 0 { y } else { &**x };
+            system.implicit_slope(t + i as f64 * small, small, Implicit::SpringsAndDampers, from, &mut self.slope);
+            if i == 0 {
+                for ((x, y), k) in x.iter_mut().zip(y).zip(&self.slope) {
+                    *x = *y + R::splat(small) * *k;
+                }
+            } else {
+                for (x, k) in x.iter_mut().zip(&self.slope) {
+                    *x += R::splat(small) * *k;
+                }
             }
         }
         // older[k] holds T_{j,k+1} of the row before; afterwards entry k holds T_{j+1,k+1}

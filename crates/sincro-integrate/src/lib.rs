@@ -186,12 +186,14 @@ fn too_small(t: f64, h: f64) -> bool {
 /// `out = y + h · Σ c_i k_i`.
 #[inline(always)]
 fn combine<R: Real>(out: &mut [R], y: &[R], h: f64, terms: &[(f64, &[R])]) {
-    for (i, o) in out.iter_mut().enumerate() {
-        let mut sum = R::splat(terms[0].0) * terms[0].1[i];
+    let (n, (c_0, k_0)) = (out.len(), terms[0]);
+    let (y, k_0) = (&y[..n], &k_0[..n]);
+    for i in 0..n {
+        let mut sum = R::splat(c_0) * k_0[i];
         for (c, k) in &terms[1..] {
             sum += R::splat(*c) * k[i];
         }
-        *o = y[i] + R::splat(h) * sum;
+        out[i] = y[i] + R::splat(h) * sum;
     }
 }
 

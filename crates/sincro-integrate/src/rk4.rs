@@ -39,7 +39,9 @@ impl<R: Real> FixedStep<R> for Rk4<R> {
             system.slope(t + c * h, &self.stage, into);
         }
         let sixth = R::splat(h / 6.0);
-        for i in 0..y.len() {
+        let n = y.len();
+        let (k1, k2, k3, k4) = (&k1[..n], &k2[..n], &k3[..n], &k4[..n]);
+        for i in 0..n {
             y[i] += sixth * ((k1[i] + k4[i]) + R::splat(2.0) * (k2[i] + k3[i]));
         }
         system.rechart(y);

@@ -203,6 +203,31 @@ impl<R: Real> MountedRotor<R> {
         Hub { velocity: velocity_in_air(&self.pose, twist, x_wl, air), angular_velocity, x_wl }
     }
 
+    /// Load at the rotor's `speed` where it does not depend on the motion of the hub: that of constant coefficients and
+    /// of V-REP's particles, without a gyroscopic moment. `None` for other rotors; see [`MountedRotor::load`].
+    ///
+    /// # Panics
+    ///
+    /// As [`MountedRotor::load`].
+    #[inline(always)]
+    pub fn load_at_any_motion(&self, speed: R, rotors: &[R]) -> Option<Load<R>> {
+        if self.inertia != 0.0 {
+            return None;
+        }
+        match &self.law {
+            RotorLaw::Constant(law) => Some(law.evaluate(speed)),
+            RotorLaw::Stock(law) => Some(self.load_of_particles(law, speed, rotors)),
+            RotorLaw::Blade(_) | RotorLaw::Table(_) | RotorLaw::Printed(_) => None,
+        }
+    }
+
+    /// Returns true if the load depends on the motion of the hub: [`MountedRotor::load_at_any_motion`] is `None`.
+    #[inline(always)]
+    #[must_use]
+    pub fn feels_motion(&self) -> bool {
+        self.inertia != 0.0 || !matches!(self.law, RotorLaw::Constant(_) | RotorLaw::Stock(_))
+    }
+
     /// Thrust, reaction torque, inflow, gyroscopic moment and power at the rotor's `speed` (from
     /// [`SpeedSource::value`]).
     ///
@@ -245,18 +270,21 @@ impl<R: Real> MountedRotor<R> {
             RotorLaw::Blade(rotor) => rotor.evaluate(self.density, speed, hub.velocity),
             RotorLaw::Constant(law) => law.evaluate(speed),
             RotorLaw::Table(law) => law.evaluate(self.density, speed, hub.velocity),
-            RotorLaw::Stock(law) => {
-                let flow = match self.speed.state() {
-                    Some(state) => rotors[state],
-                    None => R::zero(),
-                };
-                Load { thrust: flow * speed, torque: law.torque(speed), ..Load::default() }
-            }
+            RotorLaw::Stock(law) => self.load_of_particles(law, speed, rotors),
             RotorLaw::Printed(script) => {
                 let r_wh = hub.x_wl.rot.mul(&self.pose.rot);
                 script.load(self.density, speed, r_wh.mul_vec(hub.velocity), &r_wh)
             }
         }
+    }
+
+    #[inline(always)]
+    fn load_of_particles(&self, law: &StockPropeller, speed: R, rotors: &[R]) -> Load<R> {
+        let flow = match self.speed.state() {
+            Some(state) => rotors[state],
+            None => R::zero(),
+        };
+        Load { thrust: flow * speed, torque: law.torque(speed), ..Load::default() }
     }
 
     /// Wrench of `load` on the link: moment about the link's origin `[N·m]` and force `[N]`, in link axes.

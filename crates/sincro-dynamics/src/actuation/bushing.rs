@@ -112,9 +112,7 @@ impl<R: Real> Bushing<R> {
     pub fn elastic(&self, at: &BushingMotion<R>) -> [R; 6] {
         let of = scaled(self.stiffness, at.deflection);
         let (phi, gradient) = (part(&at.deflection, 3), part(&of, 3));
-        let once = phi.cross(gradient);
-        let twice = phi.cross(once).scale(phi.rotation_rate_coefficient());
-        six(part(&of, 0), gradient + once.scale(R::splat(0.5)) + twice).map(|x| -x)
+        six(part(&of, 0), phi.rotation_rate(gradient)).map(|x| -x)
     }
 
     /// Damping force `[N]` and torque `[N·m]` on the link of B at `rates` of the deflection, axes of A.

@@ -393,7 +393,7 @@ impl<R: Real> Mechanism<R> {
     fn external_wrenches(&mut self, t: f64, v: &[R], rotors: &[R], implicit: Option<(f64, Implicit)>) {
         self.external.fill(Force::zero());
         let has_field = R::IS_SCALAR && self.model.gravity_field.is_some();
-        if self.model.feels_air() || self.model.has_lines() || has_field {
+        if self.model.moves_in_air() || self.model.has_lines() || has_field {
             // only poses and twists are looked at: any accelerations will do
             kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
         } else if !self.external_forces.is_empty() || self.model.wrenches.iter().any(|w| !w.in_body) {
@@ -496,8 +496,12 @@ impl<R: Real> Mechanism<R> {
         let at = |link: usize| (&self.scratch.links[link].v, &self.scratch.poses[link]);
         self.without_load = None;
         for (k, rotor) in self.model.rotors.iter().enumerate() {
-            let (twist, x_wl) = at(rotor.link);
             let speed = rotor.speed.value(v, &self.commands, rotors);
+            if let Some(load) = rotor.load_at_any_motion(speed, rotors) {
+                self.external[rotor.link] += rotor.wrench(&load);
+                continue;
+            }
+            let (twist, x_wl) = at(rotor.link);
             let load = rotor.load(speed, rotors, &rotor.hub(twist, x_wl, air.as_ref()));
             if matches!(rotor.law, RotorLaw::Printed(_)) && !(load.thrust.is_finite() && load.torque.is_finite()) {
                 self.without_load = self.without_load.or(Some(RotorId::new(k)));
@@ -604,9 +608,11 @@ impl<R: Real> Mechanism<R> {
                 dissipation += friction::dissipation(self.friction_torque(i, v_at[drive.dof]), v[drive.dof]);
             }
         }
-        for (i, motor) in self.model.params.motors.iter().enumerate() {
-            work += self.motor_torque[i] * v[motor.dof];
-            rates[2 + i] = self.motor_torque[i];
+        let motors = &self.model.params.motors[..];
+        let (torques, of_motors) = (&self.motor_torque[..motors.len()], &mut rates[2..][..motors.len()]);
+        for (i, motor) in motors.iter().enumerate() {
+            work += torques[i] * v[motor.dof];
+            of_motors[i] = torques[i];
         }
         if self.has_special {
             for winding in self.model.active_windings() {
@@ -642,10 +648,12 @@ impl<R: Real> Mechanism<R> {
     /// velocities over a linearly implicit step.
     #[inline(always)]
     pub(crate) fn find_motor_torques(&mut self, (v, elements): (&[R], &[R]), mean: &[R], steps: (R, R)) {
-        let commands = acting(&self.model, &self.commands, &self.actuations);
-        for (i, motor) in self.model.params.motors.iter().enumerate() {
+        let motors = &self.model.params.motors[..];
+        let commands = &acting(&self.model, &self.commands, &self.actuations)[..motors.len()];
+        let torques = &mut self.motor_torque[..motors.len()];
+        for (i, motor) in motors.iter().enumerate() {
             let q = self.model.dofs[motor.dof].coordinate_in(&self.q);
-            self.motor_torque[i] = motor.torque(q, v[motor.dof], commands[i], steps).0;
+            torques[i] = motor.torque(q, v[motor.dof], commands[i], steps).0;
         }
         if self.has_special {
             for winding in self.model.active_windings() {
@@ -656,27 +664,29 @@ impl<R: Real> Mechanism<R> {
                 self.motor_torque[i] = winding.torque_per_ampere() * current;
             }
         }
-        for d in 0..self.model.params.drives.len() {
-            let drive = self.model.params.drives[d];
+        let drives = &self.model.params.drives[..];
+        let states = &self.drives[..drives.len()];
+        for (d, drive) in drives.iter().enumerate() {
             let DriveKind::Motor(i) = drive.kind else { continue };
             let i = i.index();
             let mut locked = self.scratch.reaction[drive.dof];
-            for f in 0..d {
-                if self.model.params.drives[f].dof == drive.dof {
+            for (f, other) in drives[..d].iter().enumerate() {
+                if other.dof == drive.dof {
                     // friction that locks the same joint takes its share first
                     let share = self.friction_torque(f, v[drive.dof]);
-                    locked -= self.drives[f].abs().if_less(R::splat(0.5), share, R::zero());
+                    locked -= states[f].abs().if_less(R::splat(0.5), share, R::zero());
                 }
             }
-            let saturated = match self.model.drive_limit(&drive) {
-                Some(limit) => self.drives[d] * limit,
+            let saturated = match self.model.drive_limit(drive) {
+                Some(limit) => states[d] * limit,
                 None => R::zero(),
             };
-            self.motor_torque[i] = self.drives[d].abs().if_less(R::splat(0.5), locked, saturated);
+            self.motor_torque[i] = states[d].abs().if_less(R::splat(0.5), locked, saturated);
         }
     }
 
     /// Evaluates the compiled right-hand side; false if there is none for this state.
+    #[inline(never)]
     fn compiled_slope(&mut self, y: &[R], slope: &mut [R]) -> bool {
         let Some(compiled) = &mut self.compiled else { return false };
         let Some(found) = compiled.evaluate([&self.base, y], &self.commands) else { return false };
@@ -693,15 +703,16 @@ impl<R: Real> Mechanism<R> {
         }
         for link in &self.model.links {
             let k = link.v_idx as usize;
-            match link.kind {
-                StageKind::Ball => rotation_rate(&delta[k..k + 3], &v[k..k + 3], &mut rate[k..k + 3]),
-                StageKind::Free => {
-                    rotation_rate(&delta[k..k + 3], &v[k..k + 3], &mut rate[k..k + 3]);
-                    let turn = Quat::exp(Vec3([delta[k], delta[k + 1], delta[k + 2]])).matrix();
-                    let lin = turn.mul_vec(Vec3([v[k + 3], v[k + 4], v[k + 5]]));
-                    rate[k + 3..k + 6].copy_from_slice(&lin.0);
-                }
-                _ => rate[k] = v[k],
+            if !matches!(link.kind, StageKind::Ball | StageKind::Free) {
+                rate[k] = v[k];
+                continue;
+            }
+            let phi = Vec3([delta[k], delta[k + 1], delta[k + 2]]);
+            rate[k..k + 3].copy_from_slice(&phi.rotation_rate(Vec3([v[k], v[k + 1], v[k + 2]])).0);
+            if link.kind == StageKind::Free {
+                let turn = Quat::exp(phi).matrix();
+                let lin = turn.mul_vec(Vec3([v[k + 3], v[k + 4], v[k + 5]]));
+                rate[k + 3..k + 6].copy_from_slice(&lin.0);
             }
         }
     }
@@ -739,7 +750,7 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     #[inline(always)]
     fn slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
-        if R::IS_SCALAR && self.compiled_slope(y, slope) {
+        if R::IS_SCALAR && self.compiled.is_some() && self.compiled_slope(y, slope) {
             return;
         }
         if R::IS_SCALAR && self.bearings.is_some() {
@@ -828,14 +839,4 @@ pub(crate) fn copy_any<R: Copy>(to: &mut [R], from: &[R]) {
 #[inline(always)]
 fn acting<'a, R: Real>(model: &Model<R>, commands: &'a [R], actuations: &'a [R]) -> &'a [R] {
     if model.activations.is_empty() { commands } else { actuations }
-}
-
-/// φ' = ω + ½ φ×ω + c φ×(φ×ω) with ω in child axes; c by [`Vec3::rotation_rate_coefficient`].
-#[inline(always)]
-fn rotation_rate<R: Real>(phi: &[R], omega: &[R], rate: &mut [R]) {
-    let (phi, omega) = (Vec3([phi[0], phi[1], phi[2]]), Vec3([omega[0], omega[1], omega[2]]));
-    let once = phi.cross(omega);
-    let twice = phi.cross(once);
-    let out = omega + once.scale(R::splat(0.5)) + twice.scale(phi.rotation_rate_coefficient());
-    rate.copy_from_slice(&out.0);
 }

@@ -328,6 +328,11 @@ impl<R: Real> Model<R> {
         !self.rotors.is_empty() || !self.drags.is_empty()
     }
 
+    /// Returns true if the air's forces depend on how links move.
+    pub(crate) fn moves_in_air(&self) -> bool {
+        self.rotors.iter().any(MountedRotor::feels_motion) || !self.drags.is_empty()
+    }
+
     /// External forces and torques on links, in the order in which they were added.
     #[must_use]
     pub fn wrenches(&self) -> &[AppliedWrench<R>] {

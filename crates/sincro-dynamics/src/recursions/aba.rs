@@ -114,9 +114,17 @@ impl<R: Real> Task for ForwardDynamics<'_, R> {
     }
 }
 
+/// Links and their inertias, as many of each: indices of one are those of the other.
+#[inline(always)]
+fn of_links<R: Real>(model: &Model<R>) -> (&[Link<R>], &[RigidInertia<R>]) {
+    (&model.links, &model.params.inertias[..model.links.len()])
+}
+
 #[inline(always)]
 fn velocities_base_to_tip<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
-    for (i, (link, inertia)) in model.links.iter().zip(&model.params.inertias).enumerate() {
+    let (links, inertias) = of_links(model);
+    for i in 0..links.len() {
+        let (link, inertia) = (&links[i], &inertias[i]);
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &done[link.parent as usize].v);
         link.kind.dispatch(Velocity { link, inertia, q: input.q, v: input.v, parent, out: &mut rest[0] });
@@ -174,7 +182,9 @@ pub(crate) fn joint_motion<S: Stage, R: Real>(link: &Link<R>, x: &[R]) -> Motion
 
 #[inline(always)]
 fn inertias_tip_to_base<R: Real>(model: &Model<R>, input: &Input<'_, R>, scratch: &mut Scratch<R>) {
-    for (i, (link, inertia)) in model.links.iter().zip(&model.params.inertias).enumerate().rev() {
+    let (links, inertias) = of_links(model);
+    for i in (0..links.len()).rev() {
+        let (link, inertia) = (&links[i], &inertias[i]);
         let (done, rest) = scratch.links.split_at_mut(i);
         let parent = (link.parent != WORLD).then(|| &mut done[link.parent as usize]);
         let dofs = &mut scratch.dofs[link.v_idx as usize..];

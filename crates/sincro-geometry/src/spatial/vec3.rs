@@ -45,6 +45,15 @@ impl<R: Real> Vec3<R> {
         near.if_less(square, closed, series)
     }
 
+    /// Rate of the rotation vector φ (`self`, `[rad]`) of a body with the angular velocity `omega` `[rad/s]` in its own
+    /// axes; see [`Vec3::rotation_rate_coefficient`].
+    #[inline(always)]
+    pub fn rotation_rate(self, omega: Self) -> Self {
+        let once = self.cross(omega);
+        let twice = self.cross(once);
+        omega + once.scale(R::splat(0.5)) + twice.scale(self.rotation_rate_coefficient())
+    }
+
     /// Vector of zeros, of any unit.
     #[inline(always)]
     pub fn zero() -> Self {
