@@ -1,6 +1,7 @@
 //! `cargo xtask`: the project's own chores, in Rust alone.
 //!
-//! - `check`: formatting, lints, tidiness, tests, packages, documentation; ends with a summary.
+//! - `check`: formatting, lints, tidiness, tests, packages, documentation; ends with a summary. `--tested`: without the
+//!   tests of the release build, where these have just run.
 //! - `tidy`: the checks of `check` that need no compiler: tree, arrows, words, manifests.
 //! - `bless`: rewrites generated files (schemas, trace hashes) after a change that is meant.
 //! - `dist`: builds the program and the library of FMUs as they are given away (profile `dist`), packs them as
@@ -36,7 +37,7 @@ fn main() -> ExitCode {
         Some("api-sample") => exit(sample::print(&root())),
         _ => {
             eprintln!(
-                "usage: cargo xtask check | tidy | bless | dist [--glibc VERSION] | judge NAME | book-links | api-sample"
+                "usage: cargo xtask check [--tested] | tidy | bless | dist [--glibc VERSION] | judge NAME | book-links | api-sample"
             );
             ExitCode::from(2)
         }
@@ -78,19 +79,24 @@ fn runs(command: &mut Command) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
+/// All checks. `--tested` leaves out the tests of the default build: `.ci/run` has just made them.
 fn check() -> ExitCode {
+    let is_tested = std::env::args().any(|argument| argument == "--tested");
     let package = ["package", "--workspace", "--no-verify", "--allow-dirty", "--offline", "--quiet"];
-    let debug_regressions = ["test", "--package", "sincro-sim", "--test", "regressions"];
-    // the code of the feature is linted here, and tested by `.ci/run`; the tests below are of the default build
     let lints =
         ["clippy", "--workspace", "--all-targets", "--release", "--features", "sincro/jit", "--", "-D", "warnings"];
+    // one debug build, with the feature whose code the tests of the default build do not have
+    let debug = ["test", "--package", "sincro-sim", "--package", "sincro-compile", "--features", "sincro-sim/jit"];
+    let regressions = [&debug[..], &["--test", "regressions"]].concat();
+    let compiled = [&debug[..], &["--test", "jit", "--test", "compiled_equations"]].concat();
     let steps = [
         ("formatting", runs(&mut cargo(&["fmt", "--all", "--check"]))),
         ("tidy", tidy::check(&root())),
         ("lints", runs(&mut cargo(&lints))),
-        ("tests", runs(&mut cargo(&["test", "--workspace", "--release"]))),
+        ("tests", is_tested || runs(&mut cargo(&["test", "--workspace", "--release"]))),
         // the committed hashes were made by a release build
-        ("the same bits in a debug build", runs(&mut cargo(&debug_regressions))),
+        ("the same bits in a debug build", runs(cargo(&regressions).env("SINCRO_COMPILE", "off"))),
+        ("equations compiled in memory", runs(&mut cargo(&compiled))),
         ("packages", runs(&mut cargo(&package))),
         (
             "documentation",
