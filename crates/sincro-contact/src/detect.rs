@@ -3,7 +3,7 @@
 use super::broad_phase::{BroadPhase, Margin, are_close, center};
 use super::candidate::{ContactCandidate, Feature, Rim};
 use super::candidate_list::{CandidateList, SlotCandidate};
-use super::manifold::Manifolds;
+use super::manifold::{Manifolds, is_convex};
 use super::{Collider, Pair, PairKind, Surface};
 use crate::WORLD;
 use sincro_geometry::Shape;
@@ -12,6 +12,10 @@ use sincro_geometry::spatial::{Pose, Vec3};
 
 /// Sine of the tilt below which a cylinder on its end, or a torus, is held to stand on four points of its rim.
 const STANDS: f64 = 1e-6;
+
+/// Distances within which the candidate of one slot is looked for, one after the other `[m]`; of convex surfaces within
+/// the last alone.
+const LOCATED: [f64; 2] = [1e-3, 0.1];
 
 /// Contact detector; its memory grows to the largest manifold it has seen.
 #[derive(Clone, Debug)]
@@ -68,21 +72,27 @@ impl Detector {
         }
     }
 
-    /// Finds the contact candidates of pair `k` alone, where its surfaces are not farther apart than `margin` `[m]`:
-    /// those that [`Detector::detect`] finds of it with the same margin for all pairs, and no feature touched so far.
-    pub fn detect_alone(
+    /// Contact candidate of `slot`, which is one of pair `k`, wherever its surfaces are not farther apart than 0.1 m:
+    /// as [`Detector::detect`] finds it with that margin for all pairs and no feature touched so far. Of meshes and
+    /// height fields the parts within a millimetre are looked at first: there may be hundreds within the whole
+    /// distance. The pair's candidates are left in `found`.
+    pub fn candidate_of_slot(
         &mut self,
         (colliders, pairs): (&[Collider], &[Pair]),
-        k: usize,
+        (k, slot): (usize, usize),
         poses: &[Pose<f64>],
-        margin: f64,
         found: &mut CandidateList,
-    ) {
-        found.clear();
+    ) -> Option<ContactCandidate> {
         let pair = &pairs[k];
-        if !pair.is_ignored && self.is_near(pair, (&colliders[pair.a], &colliders[pair.b]), poses, margin) {
-            self.push_candidates((k, pair), colliders, poses, ContactKind::of(0), (margin, false), found);
-        }
+        let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
+        let margins = if is_convex(a) && is_convex(b) { &LOCATED[1..] } else { &LOCATED };
+        margins.iter().find_map(|margin| {
+            found.clear();
+            if !pair.is_ignored && self.is_near(pair, (a, b), poses, *margin) {
+                self.push_candidates((k, pair), colliders, poses, ContactKind::of(0), (*margin, false), found);
+            }
+            found.get(slot).copied()
+        })
     }
 
     /// Adds the candidates of pair `k` to those found.

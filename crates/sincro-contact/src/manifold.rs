@@ -148,7 +148,8 @@ fn fill(found: &mut Vec<Found>, slots: &mut [Option<ContactCandidate>]) {
     }
 }
 
-fn is_convex(c: &Collider) -> bool {
+/// Returns true if a pair of such surfaces has one manifold.
+pub(crate) fn is_convex(c: &Collider) -> bool {
     matches!(c.surface, Surface::Solid(_) | Surface::Hull(_) | Surface::HalfSpace)
 }
 

@@ -29,9 +29,6 @@ const PROJECTED_ROUGHLY: f64 = 1e-10;
 /// Iteration limit of a projection of positions.
 const MAX_PROJECTIONS: usize = 12;
 
-/// Distance within which the distances of open contacts guide the search for the instant at which they close `[m]`.
-const LOCATED: f64 = 0.1;
-
 /// Excess over a law, relative to the largest force or rate, up to which a contact may be at the change of its mode.
 const GRAZING: f64 = 1e-4;
 
@@ -309,11 +306,12 @@ impl Mechanism<f64> {
         if let Some(limit) = set.limits.get(slot) {
             return (limit.sign * (self.q[limit.coordinate] - limit.bound), limit.sign * v[limit.dof]);
         }
-        let (of_all, pair) = ((&set.colliders[..], &set.pairs[..]), pair_of(set, slot - set.limits.len()));
-        c.detector.detect_alone(of_all, pair, &self.scratch.poses, LOCATED, &mut c.later_candidates);
-        let Some(candidate) = c.later_candidates.get(slot - set.limits.len()) else { return (f64::NAN, f64::NAN) };
+        let (of_all, contact) = ((&set.colliders[..], &set.pairs[..]), slot - set.limits.len());
+        let (at, found) = ((pair_of(set, contact), contact), &mut c.later_candidates);
+        let candidate = c.detector.candidate_of_slot(of_all, at, &self.scratch.poses, found);
+        let Some(candidate) = candidate else { return (f64::NAN, f64::NAN) };
         let at = candidate.kinematics(&c.motions.at(&self.scratch));
-        (at.distance, normal_rate(&c.motions, candidate, &at))
+        (at.distance, normal_rate(&c.motions, &candidate, &at))
     }
 
     /// Applies an impact at the chart's origin: changes `v` and returns the energy lost `[J]`. Prescribed degrees of
