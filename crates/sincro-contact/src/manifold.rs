@@ -221,3 +221,45 @@ fn core(c: &Collider, p: Vec3<f64>, n: Vec3<f64>) -> Core {
         _ => Core { point: p, radius: 0.0, axis: None },
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WORLD;
+
+    #[test]
+    fn the_deepest_points_stay_in_the_order_found() {
+        let plane = Feature::Plane { origin: Vec3::zero(), normal: Vec3([0.0, 0.0, 1.0]) };
+        let mut state = 1_u64;
+        for n in 0..40 {
+            // few different distances, so that many are equal
+            let mut found: Vec<Found> = (0..n)
+                .map(|order| {
+                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                    let candidate = ContactCandidate {
+                        a: 0,
+                        b: WORLD,
+                        point: Vec3::zero(),
+                        radius: 0.0,
+                        radius_a: 0.0,
+                        rim: None,
+                        feature: plane,
+                        id: order,
+                    };
+                    Found { distance: (state >> 33) as f64 % 5.0, order, candidate }
+                })
+                .collect();
+            // one by one, the first of the shallowest goes
+            let mut left: Vec<(f64, u32)> = found.iter().map(|point| (point.distance, point.order)).collect();
+            while left.len() > 4 {
+                let deepest_last = |k: &usize, l: &usize| left[*k].0.total_cmp(&left[*l].0).then(l.cmp(k));
+                let shallowest = (0..left.len()).max_by(deepest_last).expect("there are more than four");
+                left.remove(shallowest);
+            }
+            let mut slots = [None; 4];
+            fill(&mut found, &mut slots);
+            let kept: Vec<u32> = slots.iter().flatten().map(|candidate| candidate.id).collect();
+            assert_eq!(kept, left.iter().map(|point| point.1).collect::<Vec<_>>(), "{n} points");
+        }
+    }
+}
