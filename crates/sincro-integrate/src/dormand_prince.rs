@@ -109,20 +109,27 @@ impl<R: Real> DormandPrince<R> {
             }
             system.slope(t + C[s] * h, &self.stage, &mut rest[0]);
         }
-        let n = self.error.len();
-        let slopes: [&[R]; 7] = std::array::from_fn(|j| &self.k[j][..n]);
-        for (i, error) in self.error.iter_mut().enumerate() {
-            let mut sum = R::zero();
-            for (slope, e) in slopes.iter().zip(E) {
-                sum += R::splat(e) * slope[i];
-            }
-            *error = R::splat(h) * sum;
-        }
+        find_error(&mut self.error, &self.k, h);
     }
 }
 
-/// `out = y + Σ (h a_j) k_j` over `S` slopes, added in their order, one unknown after the other.
-#[inline(always)]
+/// `error = h Σ e_j k_j`; one copy for all systems.
+#[inline(never)]
+fn find_error<R: Real>(error: &mut [R], k: &[Vec<R>; 7], h: f64) {
+    let n = error.len();
+    let slopes: [&[R]; 7] = std::array::from_fn(|j| &k[j][..n]);
+    for (i, error) in error.iter_mut().enumerate() {
+        let mut sum = R::zero();
+        for (slope, e) in slopes.iter().zip(E) {
+            sum += R::splat(e) * slope[i];
+        }
+        *error = R::splat(h) * sum;
+    }
+}
+
+/// `out = y + Σ (h a_j) k_j` over `S` slopes, added in their order, one unknown after the other; one copy for all
+/// systems.
+#[inline(never)]
 fn add_weighted<R: Real, const S: usize>(out: &mut [R], y: &[R], (k, a): (&[Vec<R>], &[f64]), h: f64) {
     let n = out.len();
     let y = &y[..n];
