@@ -32,6 +32,12 @@ const PARALLEL: f64 = 1e-6;
 const ALMOST_PARALLEL: f64 = 0.104_528_463;
 const ALMOST_ALONG: f64 = 0.994_521_895;
 
+/// The same for edges of a polytope that count as parallel when pairs of directions are looked at.
+const ONE_DIRECTION: f64 = 1e-12;
+
+/// Maximum number of pairs of edge directions that are looked at before pairs of edges: those of boxes and prisms.
+const MAX_DIRECTIONS: usize = 16;
+
 /// Maximum number of edges; hulls with more are left to the general algorithm, since all pairs of edges are tested.
 const MAX_EDGES: usize = 90;
 
@@ -47,6 +53,10 @@ struct Face {
 struct Edge {
     ends: [usize; 2],
     faces: [usize; 2],
+    /// Number by which features know it.
+    number: usize,
+    /// Number of its direction.
+    direction: usize,
 }
 
 /// Convex polytope in the frame of its link, prepared for [`FaceClipper::find`]: vertices, faces, edges.
@@ -56,6 +66,8 @@ pub struct Polytope {
     faces: Vec<Face>,
     loops: Vec<usize>,
     edges: Vec<Edge>,
+    /// First edge of each direction.
+    directions: Vec<usize>,
     center: Vec3<f64>,
 }
 
@@ -93,14 +105,28 @@ impl Polytope {
         };
         let outlines = convex_hull.faces().iter().map(|f| (f.first_vertex_or_edge, f.num_vertices_or_edges));
         let faces = outlines.map(|(first, len)| face(first as usize, len as usize)).collect();
-        let edges = convex_hull
-            .edges()
-            .iter()
-            .map(|e| Edge { ends: e.vertices.map(|k| k as usize), faces: e.faces.map(|k| k as usize) });
-        let edges = edges.collect();
+        let mut edges: Vec<Edge> = Vec::new();
+        let mut directions: Vec<usize> = Vec::new();
+        for (number, e) in convex_hull.edges().iter().enumerate() {
+            if e.faces[0] == e.faces[1] {
+                // between triangles that were joined to one face
+                continue;
+            }
+            let ends = e.vertices.map(|k| k as usize);
+            let along = |ends: [usize; 2]| vertices[ends[1]] - vertices[ends[0]];
+            let is_along = |k: &usize| {
+                let (u, w) = (along(ends), along(edges[*k].ends));
+                u.cross(w).norm() <= ONE_DIRECTION * u.norm() * w.norm()
+            };
+            let direction = directions.iter().position(is_along).unwrap_or(directions.len());
+            if direction == directions.len() {
+                directions.push(edges.len());
+            }
+            edges.push(Edge { ends, faces: e.faces.map(|k| k as usize), number, direction });
+        }
         let sum = vertices.iter().fold(Vec3::zero(), |a, b| a + *b);
         let center = sum.scale(1.0 / vertices.len() as f64);
-        Self { vertices, faces, loops, edges, center }
+        Self { vertices, faces, loops, edges, directions, center }
     }
 }
 
@@ -192,7 +218,7 @@ pub struct FaceClipper {
     normals: Vec<Vec3<f64>>,
     outline: Vec<Corner>,
     cut: Vec<Corner>,
-    projections: [Vec<f64>; 2],
+    sides: [Vec<Sides>; 2],
 }
 
 /// Vertices and normals of a polytope in a common frame.
@@ -221,13 +247,17 @@ impl Placed<'_> {
     /// Face with the largest separation from another polytope, and that separation.
     fn best_face(&self, other: &[Vec3<f64>]) -> (usize, f64) {
         let mut best = (0, f64::NEG_INFINITY);
-        for face in 0..self.shape.faces.len() {
+        'faces: for face in 0..self.shape.faces.len() {
             let n = self.normal(face);
             let level = n.dot(self.vertices[self.shape.loops[self.shape.faces[face].first]]);
-            let depth = other.iter().map(|v| n.dot(*v)).fold(f64::INFINITY, f64::min) - level;
-            if depth > best.1 {
-                best = (face, depth);
+            let mut nearest = f64::INFINITY;
+            for v in other {
+                nearest = nearest.min(n.dot(*v));
+                if nearest - level <= best.1 {
+                    continue 'faces;
+                }
             }
+            best = (face, nearest - level);
         }
         best
     }
@@ -250,7 +280,7 @@ impl FaceClipper {
         max_points: usize,
         mut emit: impl FnMut(PointOnPlane),
     ) {
-        let Self { vertices, normals, outline, cut, projections } = self;
+        let Self { vertices, normals, outline, cut, sides } = self;
         vertices.clear();
         vertices.extend(b.vertices.iter().map(|v| x_ab.point(*v)));
         normals.clear();
@@ -258,14 +288,16 @@ impl FaceClipper {
         let one = Placed { shape: a, vertices: &a.vertices, normals: &[] };
         let two = Placed { shape: b, vertices, normals };
         let (face_1, depth_1) = one.best_face(two.vertices);
-        let (face_2, depth_2) = two.best_face(one.vertices);
-        let of_faces = depth_1.max(depth_2);
-        if of_faces > margin {
+        if depth_1 > margin {
             return;
         }
+        let (face_2, depth_2) = two.best_face(one.vertices);
+        if depth_2 > margin {
+            return;
+        }
+        let of_faces = depth_1.max(depth_2);
         let face_normal = if depth_1 >= depth_2 { one.normal(face_1) } else { -two.normal(face_2) };
-        if let Some((edges, n, depth)) = best_edges(&one, &two, projections)
-            && depth > of_faces + edge_handicap(former)
+        if let Some((edges, n, depth)) = best_edges(&one, &two, of_faces + edge_handicap(former), sides)
             && !(former != ContactKind::Unknown && is_like_a_face(&one, &two, edges, n.dot(face_normal)))
         {
             if depth <= margin {
@@ -373,24 +405,81 @@ fn thin_out(points: &mut Vec<Corner>, max_points: usize) {
     }
 }
 
-/// Pair of edges with the largest separation: edges, normal from two to one, separation.
+/// Pair of edges with the largest separation, if that is above `least` `[m]`: edges, normal from two to one, separation.
 fn best_edges(
     one: &Placed<'_>,
     two: &Placed<'_>,
-    projections: &mut [Vec<f64>; 2],
+    least: f64,
+    sides: &mut [Vec<Sides>; 2],
 ) -> Option<([usize; 2], Vec3<f64>, f64)> {
-    let [on_one, on_two] = projections;
-    project_normals(two, one, on_one);
-    project_normals(one, two, on_two);
-    let (n_one, n_two) = (one.shape.faces.len(), two.shape.faces.len());
-    let mut best: Option<([usize; 2], Vec3<f64>, f64)> = None;
-    for ((i, e), of_u) in one.shape.edges.iter().enumerate().zip(on_one.chunks_exact(n_two)) {
+    if one.shape.directions.len() * two.shape.directions.len() > MAX_DIRECTIONS {
+        return best_edges_along(one, two, least, u64::MAX, sides);
+    }
+    let mut separations = [f64::NEG_INFINITY; MAX_DIRECTIONS];
+    find_separations(one, two, &mut separations);
+    let most = separations.iter().copied().filter(|x| x.is_finite()).fold(f64::NEG_INFINITY, f64::max);
+    // no pair of edges is separated by more than the polytopes are across their directions
+    let above =
+        |bound: f64| (0..MAX_DIRECTIONS).fold(0, |mask, k| mask | u64::from(separations[k] + 2.0 * ALIKE > bound) << k);
+    let found = best_edges_along(one, two, least, above(least.max(most)), sides);
+    match found {
+        Some((_, _, depth)) if depth > most - ALIKE => found,
+        _ if most + 2.0 * ALIKE <= least => found,
+        _ => best_edges_along(one, two, least, above(least), sides),
+    }
+}
+
+/// Separation of two polytopes across each pair of their edge directions `[m]`; infinite for those that are parallel or
+/// not to rounding, which each pair of edges decides for itself.
+fn find_separations(one: &Placed<'_>, two: &Placed<'_>, separations: &mut [f64; MAX_DIRECTIONS]) {
+    let n_two = two.shape.directions.len();
+    for (i, e) in one.shape.directions.iter().enumerate() {
+        let u = one.edge(&one.shape.edges[*e]);
+        for (j, f) in two.shape.directions.iter().enumerate() {
+            let w = two.edge(&two.shape.edges[*f]);
+            let across = u.cross(w);
+            let (size, parallel) = (across.norm(), PARALLEL * u.norm() * w.norm());
+            separations[i * n_two + j] = if size < 0.5 * parallel {
+                f64::NEG_INFINITY
+            } else if size < 2.0 * parallel {
+                f64::INFINITY
+            } else {
+                let n = across.scale(1.0 / size);
+                let ([from_1, to_1], [from_2, to_2]) = (extent(one, n), extent(two, n));
+                (from_2 - to_1).max(from_1 - to_2)
+            };
+        }
+    }
+}
+
+/// The same of the pairs of edges whose directions have a bit in `directions`.
+fn best_edges_along(
+    one: &Placed<'_>,
+    two: &Placed<'_>,
+    least: f64,
+    directions: u64,
+    sides: &mut [Vec<Sides>; 2],
+) -> Option<([usize; 2], Vec3<f64>, f64)> {
+    if directions == 0 {
+        return None;
+    }
+    let n_two = two.shape.directions.len();
+    let bit = |e: &Edge, f: &Edge| directions >> ((e.direction * n_two + f.direction) % MAX_DIRECTIONS) & 1 == 1;
+    let [on_one, on_two] = sides;
+    find_sides(two, one, |e| two.shape.directions.iter().any(|f| bit(e, &two.shape.edges[*f])), on_one);
+    find_sides(one, two, |f| one.shape.directions.iter().any(|e| bit(&one.shape.edges[*e], f)), on_two);
+    let mut best = None;
+    let mut known = least;
+    for ((i, e), of_u) in one.shape.edges.iter().enumerate().zip(on_one) {
+        if of_u.along == 0 {
+            continue;
+        }
         let (p, u) = (one.vertices[e.ends[0]], one.edge(e));
         let [a, b] = e.faces.map(|f| one.normal(f));
         let ba = b.cross(a);
-        for ((j, f), of_w) in two.shape.edges.iter().enumerate().zip(on_two.chunks_exact(n_one)) {
+        for ((j, f), of_w) in two.shape.edges.iter().enumerate().zip(&*on_two) {
             // only edges whose arcs on the Gauss map cross can touch; the arc from a to b has its pole along the edge
-            if of_u[f.faces[0]] * of_u[f.faces[1]] >= 0.0 || of_w[e.faces[0]] * of_w[e.faces[1]] >= 0.0 {
+            if !bit(e, f) || !of_u.lies_between(f.faces) || !of_w.lies_between(e.faces) {
                 continue;
             }
             let [c, d] = f.faces.map(|f| -two.normal(f));
@@ -408,8 +497,9 @@ fn best_edges(
             let n = across.scale(outwards / size);
             let depth = n.dot(q - p);
             // where arcs only touch, rounding says whether they cross: the edges must be the outermost ones along n
-            if best.is_none_or(|(_, _, known)| depth > known) && depth <= separation(one, two, n) + ALIKE {
+            if depth > known && depth <= separation(one, two, n) + ALIKE {
                 best = Some(([i, j], -n, depth));
+                known = depth;
             }
         }
     }
@@ -418,16 +508,50 @@ fn best_edges(
 
 /// Separation of two polytopes along a unit vector from the first one to the second.
 fn separation(one: &Placed<'_>, two: &Placed<'_>, n: Vec3<f64>) -> f64 {
-    let nearest = two.vertices.iter().map(|v| n.dot(*v)).fold(f64::INFINITY, f64::min);
-    nearest - one.vertices.iter().map(|v| n.dot(*v)).fold(f64::NEG_INFINITY, f64::max)
+    extent(two, n)[0] - extent(one, n)[1]
 }
 
-/// Scalar products of the face normals of one polytope with the edges of another, edge by edge.
-fn project_normals(of: &Placed<'_>, on: &Placed<'_>, products: &mut Vec<f64>) {
-    products.clear();
+/// Least and largest coordinate of a polytope along a vector.
+fn extent(of: &Placed<'_>, n: Vec3<f64>) -> [f64; 2] {
+    let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
+    for v in of.vertices {
+        let at = n.dot(*v);
+        extent = [if at < extent[0] { at } else { extent[0] }, if at > extent[1] { at } else { extent[1] }];
+    }
+    extent
+}
+
+/// Faces of a polytope whose normals point along an edge of another, and against it: a bit each. With [`MAX_EDGES`] it
+/// has 60 faces at most.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sides {
+    along: u64,
+    against: u64,
+}
+
+impl Sides {
+    /// Returns true if one of the faces points along the edge, and the other against it.
+    fn lies_between(self, [a, b]: [usize; 2]) -> bool {
+        (self.along >> a & self.against >> b | self.against >> a & self.along >> b) & 1 == 1
+    }
+}
+
+/// Sides of the faces of one polytope to those edges of another that are looked at; the others lie between no faces.
+fn find_sides(of: &Placed<'_>, on: &Placed<'_>, is_looked_at: impl Fn(&Edge) -> bool, sides: &mut Vec<Sides>) {
+    sides.clear();
     for edge in &on.shape.edges {
+        let mut found = Sides::default();
+        if !is_looked_at(edge) {
+            sides.push(found);
+            continue;
+        }
         let along = on.edge(edge);
-        products.extend((0..of.shape.faces.len()).map(|face| of.normal(face).dot(along)));
+        for face in 0..of.shape.faces.len() {
+            let product = of.normal(face).dot(along);
+            found.along |= u64::from(product > 0.0) << face;
+            found.against |= u64::from(product < 0.0) << face;
+        }
+        sides.push(found);
     }
 }
 
@@ -443,7 +567,8 @@ fn edge_point(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64
     let along = ((r.dot(u) * ww - r.dot(w) * uw) / (uu * ww - uw * uw)).clamp(0.0, 1.0);
     let point = p + u.scale(along);
     let own = |v: Vec3<f64>| x_ab.rot.tr_mul_vec(v);
-    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n), feature: edge_feature(edges) }
+    let feature = edge_feature([one.shape.edges[edges[0]].number, two.shape.edges[edges[1]].number]);
+    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n), feature }
 }
 
 #[cfg(test)]
@@ -563,6 +688,40 @@ mod tests {
             assert_eq!(first_leads(1e-5, kind), kind);
         }
         assert_eq!(first_leads(0.0, ContactKind::Unknown), ContactKind::FirstFace);
+    }
+
+    #[test]
+    fn the_best_edges_are_those_of_all_pairs() {
+        let prism: Vec<[f64; 3]> = (0..6)
+            .map(|k| [[0.1, 0.0], [-0.05, 0.08], [-0.06, -0.07]][k % 3])
+            .enumerate()
+            .map(|(k, [x, y])| [x, y, if k < 3 { -0.1 } else { 0.12 }])
+            .collect();
+        let prism = Polytope::new(&Surface::Hull(prism), &Pose::identity()).unwrap();
+        assert_eq!((brick().directions.len(), prism.directions.len()), (3, 4));
+        let (mut state, mut found) = (1_u64, 0);
+        let mut number = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for k in 0..20_000 {
+            let (a, b) = if k % 2 == 0 { (brick(), brick()) } else { (prism.clone(), brick()) };
+            // any rotation, or multiples of 30 degrees, where directions are parallel and separations equal
+            let angle = |x: f64| if k % 3 == 0 { std::f64::consts::PI * (12.0 * x).floor() / 6.0 } else { 6.3 * x };
+            let rot = (0..3).fold(Mat3::identity(), |r, axis| r.mul(&turned(axis, angle(number()), [0.0; 3]).rot));
+            let pos = Vec3(std::array::from_fn(|_| 0.3 * number() - 0.15));
+            let x_ab = Pose { rot, pos };
+            let vertices: Vec<_> = b.vertices.iter().map(|v| x_ab.point(*v)).collect();
+            let normals: Vec<_> = b.faces.iter().map(|f| x_ab.rot.mul_vec(f.normal)).collect();
+            let one = Placed { shape: &a, vertices: &a.vertices, normals: &[] };
+            let two = Placed { shape: &b, vertices: &vertices, normals: &normals };
+            let least = one.best_face(two.vertices).1.max(two.best_face(one.vertices).1);
+            let mut sides = Default::default();
+            let all = best_edges_along(&one, &two, least, u64::MAX, &mut sides);
+            assert_eq!(best_edges(&one, &two, least, &mut sides), all, "draw {k}: {x_ab:?}");
+            found += u32::from(all.is_some());
+        }
+        assert!((2_000..18_000).contains(&found), "{found} of 20000");
     }
 
     #[test]
