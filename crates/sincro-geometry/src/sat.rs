@@ -405,7 +405,8 @@ fn thin_out(points: &mut Vec<Corner>, max_points: usize) {
     }
 }
 
-/// Pair of edges with the largest separation, if that is above `least` `[m]`: edges, normal from two to one, separation.
+/// Pair of edges with the largest separation, if that is above `least` `[m]`: edges, normal from two to one, and
+/// separation.
 fn best_edges(
     one: &Placed<'_>,
     two: &Placed<'_>,

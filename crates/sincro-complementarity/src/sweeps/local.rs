@@ -5,13 +5,17 @@
 //! friction opposes the sliding rate, w_t + … = −s λ_t with s > 0. Eliminating the normal force, the friction of a slip
 //! is λ_t(s) = (A + s 1)⁻¹ r with the Schur complement A of the normal row, and s is the root of ‖λ_t(s)‖ = μ λₙ(s).
 //! The left side is larger at s = 0 (the contact does not stick), the right side for large s (it is closed), so that a
-//! root always exists; Newton's method finds it within a bracket, from that of the last sweep.
+//! root always exists; Newton's method comes near it within a bracket, from that of the last sweep: sweep by sweep to
+//! rounding. Forces are on the limit of friction at once.
 
 /// Iteration limit of Newton's method; a dozen bisections among them suffice.
 const MAX_ITERATIONS: usize = 40;
 
 /// Tolerance of the friction limit, relative to the friction.
 const TOLERANCE: f64 = 1e-10;
+
+/// The same after a step: the next sweep goes on from there, for another friction.
+const NEARLY: f64 = 1e-3;
 
 /// Amount added to the diagonal of a matrix that may be singular, relative to the largest entry of the problem: a
 /// contact that cannot be moved in a direction needs no exact force there.
@@ -51,30 +55,25 @@ impl TangentialProblem {
         if size <= limit {
             return x;
         }
-        let (x, _) = self.slip(r, |_| limit, |_| 0.0);
-        let size = (x[0] * x[0] + x[1] * x[1]).sqrt();
+        let Slip { x, size, .. } = self.slip(r, |_| limit, |_| 0.0);
         let share = if size > 0.0 { limit / size } else { 0.0 };
         [x[0] * share, x[1] * share]
     }
 
-    /// Finds x with ‖x‖ = limit(x), where ‖x‖ is larger for s = 0. `slope` is the derivative of the limit along a
-    /// change of x.
+    /// Finds x with ‖x‖ = limit(x), where ‖x‖ is larger for s = 0, from the root last found: to a thousandth, or better
+    /// where that is one already. `slope` is the derivative of the limit along a change of x.
     #[inline(always)]
-    pub fn slip(
-        &mut self,
-        r: [f64; 2],
-        limit: impl Fn([f64; 2]) -> f64,
-        slope: impl Fn([f64; 2]) -> f64,
-    ) -> ([f64; 2], f64) {
+    pub fn slip(&mut self, r: [f64; 2], limit: impl Fn([f64; 2]) -> f64, slope: impl Fn([f64; 2]) -> f64) -> Slip {
         let (mut low, mut high, mut s) = (0.0, f64::INFINITY, self.s);
-        let mut found = ([0.0; 2], 0.0);
+        let mut found = Slip { x: [0.0; 2], size: 0.0, limit: 0.0 };
+        let mut tolerance = TOLERANCE;
         for _ in 0..MAX_ITERATIONS {
             let (x, dx) = self.at(s, r);
             let size = (x[0] * x[0] + x[1] * x[1]).sqrt();
             let most = limit(x);
-            found = (x, most);
+            found = Slip { x, size, limit: most };
             let excess = size - most;
-            if excess.abs() <= TOLERANCE * size {
+            if excess.abs() <= tolerance * size {
                 break;
             }
             if excess > 0.0 {
@@ -82,8 +81,10 @@ impl TangentialProblem {
             } else {
                 high = s;
             }
-            let rate = (x[0] * dx[0] + x[1] * dx[1]) / size - slope(dx);
-            let newton = s - excess / rate;
+            // the rate of the excess, times the size
+            let rate = (x[0] * dx[0] + x[1] * dx[1]) - slope(dx) * size;
+            tolerance = NEARLY;
+            let newton = s - excess * size / rate;
             s = if newton > low && newton < high {
                 newton
             } else if high.is_finite() {
@@ -97,6 +98,16 @@ impl TangentialProblem {
     }
 }
 
+/// Solution of a problem in a plane on its limit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slip {
+    x: [f64; 2],
+    /// ‖x‖.
+    size: f64,
+    /// The limit at x.
+    limit: f64,
+}
+
 /// The problem of one contact with sliding friction.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ContactLocal {
@@ -104,6 +115,8 @@ pub(crate) struct ContactLocal {
     g: [f64; 6],
     /// Its inverse, in the same order.
     inverse: [f64; 6],
+    /// That of the normal row alone.
+    inverse_normal: f64,
     tangential: TangentialProblem,
 }
 
@@ -121,7 +134,12 @@ impl ContactLocal {
         let (i11, i12, i22) = (r * d, -q * d, p * d);
         let (c1, c2) = (n1 / nn, n2 / nn);
         let (t1, t2) = (i11 * c1 + i12 * c2, i12 * c1 + i22 * c2);
-        Self { g, inverse: [1.0 / nn + c1 * t1 + c2 * t2, -t1, -t2, i11, i12, i22], tangential }
+        Self {
+            g,
+            inverse: [1.0 / nn + c1 * t1 + c2 * t2, -t1, -t2, i11, i12, i22],
+            inverse_normal: 1.0 / nn,
+            tangential,
+        }
     }
 
     /// Trace of the own matrix.
@@ -146,14 +164,14 @@ impl ContactLocal {
         if stick[0] > 0.0 && stick[1] * stick[1] + stick[2] * stick[2] <= limit * limit {
             return stick;
         }
-        let [nn, n1, n2, ..] = self.g;
-        let inverse = 1.0 / nn;
+        let ([_, n1, n2, ..], inverse) = (self.g, self.inverse_normal);
         let (c1, c2) = (n1 * inverse, n2 * inverse);
         let r = [c1 * w[0] - w[1], c2 * w[0] - w[2]];
         let normal = move |x: [f64; 2]| -(w[0] * inverse + c1 * x[0] + c2 * x[1]);
-        let (x, most) = self.tangential.slip(r, |x| friction * normal(x), |dx| -friction * (c1 * dx[0] + c2 * dx[1]));
+        let Slip { x, size, limit } =
+            self.tangential.slip(r, |x| friction * normal(x), |dx| -friction * (c1 * dx[0] + c2 * dx[1]));
         // on the limit to the last digit
-        let (size, most) = ((x[0] * x[0] + x[1] * x[1]).sqrt(), most.max(0.0));
+        let most = limit.max(0.0);
         let share = if size > 0.0 { most / size } else { 0.0 };
         [most / friction, x[0] * share, x[1] * share]
     }
@@ -209,7 +227,8 @@ mod tests {
             let g = [dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)];
             let (friction, w) = (number().abs() + 1e-3, [number(), number(), number()]);
             let mut local = ContactLocal::new(g);
-            let force = local.solve(friction, w);
+            // as often as sweeps come by
+            let force = (0..6).map(|_| local.solve(friction, w)).last().expect("there are six");
             let pushed = local.times(force);
             let u: [f64; 3] = core::array::from_fn(|k| w[k] + pushed[k]);
             let (tangential, limit) = (force[1].hypot(force[2]), friction * force[0]);

@@ -10,14 +10,16 @@
 //! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
 //! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
 
+mod body_rows;
 pub mod islands;
 mod local;
 mod newton;
 pub mod rest;
 
-use sincro_math::{Real, Task};
+use sincro_math::{LaneVisitor, Real, lanes};
 
 use crate::solver::SolverReport;
+use body_rows::{Bodies, BodyRows, push_rows};
 use local::{ContactLocal, TangentialProblem};
 use newton::NewtonStep;
 
@@ -52,6 +54,9 @@ const NEXT_SWEEPS: usize = 12;
 
 /// Limit of Newton steps of an island; beyond it the best iterate is taken and its residual reported.
 const MAX_NEWTON_STEPS: usize = 12;
+
+/// The same where bodies move: the forces of hits, which soon are others, are left sooner.
+const MOVING_NEWTON_STEPS: usize = 5;
 
 /// Residual above which further sweeps follow the Newton steps, while they make it smaller: they need no guess of which
 /// contacts stick.
@@ -122,29 +127,11 @@ struct Block {
     index: usize,
     len: usize,
     bodies: Bodies,
-    b: [f64; 3],
+    /// Place of the rows by four lanes, where these are free bodies.
+    rows: usize,
+    /// Rates without any force, and a zero.
+    b: [f64; 4],
     local: Local,
-}
-
-/// Bodies that the rows of a block move, where they are free ones, with six velocities one after the other in z.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Bodies {
-    One(usize),
-    Two(usize, usize),
-    /// Any others.
-    Other,
-}
-
-impl Bodies {
-    /// The bodies with velocities at these places.
-    fn at(index: &[u32]) -> Self {
-        let first = |run: &[u32]| run.iter().zip(run[0]..).all(|(i, j)| *i == j).then_some(run[0] as usize);
-        match index.len() {
-            6 => first(index).map_or(Self::Other, Self::One),
-            12 => first(&index[..6]).zip(first(&index[6..])).map_or(Self::Other, |(one, two)| Self::Two(one, two)),
-            _ => Self::Other,
-        }
-    }
 }
 
 impl Block {
@@ -211,6 +198,8 @@ pub struct Sweeper {
     /// Force of each block.
     lambda: Vec<[f64; 3]>,
     values: Vec<f64>,
+    /// The rows of contacts of free bodies once more, by four lanes.
+    rows: Vec<[f64; 4]>,
     /// Places in z of the numbers of each row.
     index: Vec<u32>,
     islands: Vec<IslandRange>,
@@ -240,7 +229,7 @@ struct Solved {
     index: Vec<u32>,
     islands: Vec<IslandRange>,
     /// Law, first row, b and the forces to start from, of each block.
-    blocks: Vec<(Law, usize, [f64; 3], [f64; 3])>,
+    blocks: Vec<(Law, usize, [f64; 4], [f64; 3])>,
     forces: Vec<[f64; 3]>,
     /// One for each island.
     outcomes: Vec<Outcome>,
@@ -249,7 +238,6 @@ struct Solved {
 }
 
 const NONE: u32 = u32::MAX;
-
 /// Sum of the inverse masses and inertias of a block below which no force moves it [1/kg], [1/(kg·m²)].
 const IMMOBILE: f64 = 1e-24;
 
@@ -259,6 +247,7 @@ impl Sweeper {
         self.blocks.clear();
         self.lambda.clear();
         self.values.clear();
+        self.rows.clear();
         self.index.clear();
         self.islands.clear();
         self.place.clear();
@@ -306,8 +295,16 @@ impl Sweeper {
             }
             _ => Local::Contact(ContactLocal::new([dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)])),
         };
-        let bodies = Bodies::at(&self.index[index..]);
-        self.blocks.push(Block { law, row, n, values: first, index, len, bodies, b, local });
+        let bodies = match local {
+            Local::Contact(_) => Bodies::at(&self.index[index..]),
+            _ => Bodies::Other,
+        };
+        let rows = self.rows.len();
+        if bodies != Bodies::Other {
+            push_rows(&self.values[first..], &mut self.rows);
+        }
+        let b = [b[0], b[1], b[2], 0.0];
+        self.blocks.push(Block { law, row, n, values: first, index, len, bodies, rows, b, local });
         self.lambda.push(lambda);
     }
 
@@ -415,7 +412,18 @@ impl Sweeper {
 
     /// Rates of a block: b + y·z.
     #[inline(always)]
-    fn rates(&mut self, k: usize) -> [f64; 3] {
+    fn rates<V: Real>(&mut self, k: usize) -> [f64; 3] {
+        let Self { blocks, rows, z, .. } = self;
+        let Block { bodies, rows: first, b, .. } = &blocks[k];
+        match *bodies {
+            Bodies::One(one) => BodyRows::first_of(&rows[*first..], [one]).rates::<V>(b, z),
+            Bodies::Two(one, two) => BodyRows::first_of(&rows[*first..], [one, two]).rates::<V>(b, z),
+            Bodies::Other => self.rates_of_others(k),
+        }
+    }
+
+    #[inline(always)]
+    fn rates_of_others(&mut self, k: usize) -> [f64; 3] {
         let block = &self.blocks[k];
         let len = block.len;
         let index = &self.index[block.index..block.index + len];
@@ -423,41 +431,40 @@ impl Sweeper {
         for (along, i) in along.iter_mut().zip(index) {
             *along = self.z[*i as usize];
         }
-        let mut u = block.b;
+        let mut u = [block.b[0], block.b[1], block.b[2]];
         let y = &self.values[block.values..block.values + block.n * len];
-        match (len, block.n) {
-            (12, 3) => add_dots::<12>(y, along, &mut u),
-            (6, 3) => add_dots::<6>(y, along, &mut u),
-            _ => {
-                for (u, y) in u.iter_mut().zip(y.chunks_exact(len.max(1))) {
-                    *u += dot(y, along);
-                }
-            }
+        for (u, y) in u.iter_mut().zip(y.chunks_exact(len.max(1))) {
+            *u += dot(y, along);
         }
         u
     }
 
     /// Changes the forces of a block; the velocities along it are those last taken by [`Sweeper::rates`].
     #[inline(always)]
-    fn change(&mut self, k: usize, lambda: [f64; 3]) {
-        let block = &self.blocks[k];
+    fn change<V: Real>(&mut self, k: usize, lambda: [f64; 3]) {
         let d = minus(lambda, self.lambda[k]);
         self.lambda[k] = lambda;
         if d == [0.0; 3] {
             return;
         }
+        let Self { blocks, rows, z, .. } = self;
+        let Block { bodies, rows: first, .. } = &blocks[k];
+        match *bodies {
+            Bodies::One(one) => BodyRows::first_of(&rows[*first..], [one]).push::<V>(d, z),
+            Bodies::Two(one, two) => BodyRows::first_of(&rows[*first..], [one, two]).push::<V>(d, z),
+            Bodies::Other => self.change_others(k, d),
+        }
+    }
+
+    #[inline(always)]
+    fn change_others(&mut self, k: usize, d: [f64; 3]) {
+        let block = &self.blocks[k];
         let len = block.len;
         let along = &mut self.along[..len];
         let y = &self.values[block.values..block.values + block.n * len];
-        match (len, block.n) {
-            (12, 3) => add_rows::<12>(y, d, along),
-            (6, 3) => add_rows::<6>(y, d, along),
-            _ => {
-                for (d, y) in d.iter().zip(y.chunks_exact(len.max(1))) {
-                    for (along, y) in along.iter_mut().zip(y) {
-                        *along += y * d;
-                    }
-                }
+        for (d, y) in d.iter().zip(y.chunks_exact(len.max(1))) {
+            for (along, y) in along.iter_mut().zip(y) {
+                *along += y * d;
             }
         }
         for (along, i) in along.iter().zip(&self.index[block.index..block.index + len]) {
@@ -467,50 +474,12 @@ impl Sweeper {
 
     /// Gives a block the force that solves its own problem. Returns the squares of the change and of the force.
     #[inline(always)]
-    fn relax(&mut self, k: usize) -> [f64; 2] {
+    fn relax<V: Real>(&mut self, k: usize) -> [f64; 2] {
         let before = self.lambda[k];
-        match self.blocks[k].bodies {
-            Bodies::One(one) if matches!(self.blocks[k].local, Local::Contact(_)) => {
-                self.relax_contact::<6>(k, [one; 2])
-            }
-            Bodies::Two(one, two) if matches!(self.blocks[k].local, Local::Contact(_)) => {
-                self.relax_contact::<12>(k, [one, two]);
-            }
-            _ => {
-                let u = self.rates(k);
-                let lambda = self.own_force(k, u);
-                self.change(k, lambda);
-            }
-        }
-        let (d, lambda) = (minus(self.lambda[k], before), self.lambda[k]);
-        [square(d), square(lambda)]
-    }
-
-    /// The same for a contact of free bodies, whose velocities stand one after the other at these places in z.
-    #[inline(always)]
-    fn relax_contact<const N: usize>(&mut self, k: usize, at: [usize; 2]) {
-        let Block { values, b, law, local, .. } = &mut self.blocks[k];
-        let (Local::Contact(local), Law::Coulomb { friction }) = (local, *law) else { return };
-        let mut u = *b;
-        let y = &self.values[*values..*values + 3 * N];
-        let mut z = [0.0; N];
-        z[..6].copy_from_slice(&self.z[at[0]..at[0] + 6]);
-        if N == 12 {
-            z[6..].copy_from_slice(&self.z[at[1]..at[1] + 6]);
-        }
-        add_dots::<N>(y, &z, &mut u);
-        let lambda = &mut self.lambda[k];
-        let force = local.solve(friction, minus(u, local.times(*lambda)));
-        let d = minus(force, *lambda);
-        if d == [0.0; 3] {
-            return;
-        }
-        *lambda = force;
-        add_rows::<N>(y, d, &mut z);
-        self.z[at[0]..at[0] + 6].copy_from_slice(&z[..6]);
-        if N == 12 {
-            self.z[at[1]..at[1] + 6].copy_from_slice(&z[6..]);
-        }
+        let u = self.rates::<V>(k);
+        let lambda = self.own_force(k, u);
+        self.change::<V>(k, lambda);
+        [square(minus(lambda, before)), square(lambda)]
     }
 
     /// Force of a block that solves its own problem, for its present rates.
@@ -621,7 +590,7 @@ impl Island<'_> {
         let largest = forces.iter().map(|force| square(*force)).fold(0.0, f64::max).sqrt();
         start.clear();
         start.extend_from_slice(forces);
-        let (residual, _) = residual(self.sweeper, self.blocks.clone(), largest, true);
+        let (residual, _) = lanes::dispatch_four_lanes(FindResidual { island: &mut self, largest });
         if residual <= REST_TOLERANCE {
             return Outcome { residual, sweeps: 0, stands: true };
         }
@@ -647,7 +616,7 @@ impl Island<'_> {
         let mut stalls = 0;
         for step in 1..=MAX_NEWTON_STEPS {
             let last = best;
-            newton.make(self.sweeper, self.blocks.clone(), self.z.clone());
+            lanes::dispatch_four_lanes(newton.on(self.sweeper, self.blocks.clone(), self.z.clone()));
             let mut swept = self.sweep(next_sweeps);
             sweeps += swept.sweeps;
             if swept.residual >= best {
@@ -669,7 +638,8 @@ impl Island<'_> {
             // what hardly gets better is left, the sooner the smaller it is
             stalls += usize::from(best > 0.5 * last);
             let has_stalled = (best <= TOLERANCE && stalls > 1) || (best <= ROUGH_TOLERANCE && stalls > 3);
-            if best <= enough || has_stalled {
+            let has_moved_enough = swept.motion >= 1.0 && step >= MOVING_NEWTON_STEPS;
+            if best <= enough || has_stalled || has_moved_enough {
                 break;
             }
         }
@@ -694,12 +664,7 @@ impl Island<'_> {
 
     /// The velocities of the present forces.
     fn find_velocities(&mut self) {
-        self.sweeper.z[self.z.clone()].fill(0.0);
-        for k in self.blocks.clone() {
-            self.sweeper.rates(k);
-            let lambda = core::mem::take(&mut self.sweeper.lambda[k]);
-            self.sweeper.change(k, lambda);
-        }
+        lanes::dispatch_four_lanes(FindVelocities { island: self });
     }
 
     /// Keeps the present forces as the best ones.
@@ -717,7 +682,43 @@ impl Island<'_> {
 
     /// Makes up to `most` sweeps, fewer if they suffice.
     fn sweep(&mut self, most: usize) -> Swept {
-        f64::run_hot(Sweeps { island: self, most })
+        lanes::dispatch_four_lanes(Sweeps { island: self, most })
+    }
+}
+
+/// The velocities of the present forces of an island.
+struct FindVelocities<'a, 'b> {
+    island: &'a mut Island<'b>,
+}
+
+impl LaneVisitor for FindVelocities<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<V: Real>(self) {
+        let Island { sweeper, blocks, z, .. } = self.island;
+        sweeper.z[z.clone()].fill(0.0);
+        for k in blocks.clone() {
+            sweeper.rates::<V>(k);
+            let lambda = core::mem::take(&mut sweeper.lambda[k]);
+            sweeper.change::<V>(k, lambda);
+        }
+    }
+}
+
+/// Residual of an island in which nothing moves, with its largest force.
+struct FindResidual<'a, 'b> {
+    island: &'a mut Island<'b>,
+    largest: f64,
+}
+
+impl LaneVisitor for FindResidual<'_, '_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn visit<V: Real>(self) -> (f64, f64) {
+        let Island { sweeper, blocks, .. } = self.island;
+        residual::<V>(sweeper, blocks.clone(), self.largest, true)
     }
 }
 
@@ -727,11 +728,11 @@ struct Sweeps<'a, 'b> {
     most: usize,
 }
 
-impl Task for Sweeps<'_, '_> {
+impl LaneVisitor for Sweeps<'_, '_> {
     type Output = Swept;
 
     #[inline(always)]
-    fn run(self) -> Swept {
+    fn visit<V: Real>(self) -> Swept {
         let (Island { sweeper, blocks, z, rest_rate, stillness }, most) = (self.island, self.most);
         let mut last_square = 0.0;
         for sweep in 1..=most {
@@ -739,14 +740,14 @@ impl Task for Sweeps<'_, '_> {
             sweeper.before[blocks.clone()].copy_from_slice(&sweeper.lambda[blocks.clone()]);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for k in blocks.clone() {
-                let [of_change, of_force] = sweeper.relax(k);
+                let [of_change, of_force] = sweeper.relax::<V>(k);
                 change = if of_change > change { of_change } else { change };
                 largest = if of_force > largest { of_force } else { largest };
             }
             let is_last = sweep == most;
             if change <= TOLERANCE * TOLERANCE * largest || is_last || largest == 0.0 {
                 let (residual, fastest) =
-                    residual(sweeper, blocks.clone(), largest.sqrt(), *stillness != Stillness::Awake);
+                    residual::<V>(sweeper, blocks.clone(), largest.sqrt(), *stillness != Stillness::Awake);
                 let motion = fastest / *rest_rate;
                 let tolerance = if motion < 1.0 && sweep < REST_SWEEPS { REST_TOLERANCE } else { TOLERANCE };
                 if residual <= tolerance || is_last {
@@ -801,15 +802,17 @@ fn square_of_difference(x: &[f64], y: &[f64]) -> f64 {
 /// Residual of an island relative to its `largest` force, and the largest rate, of what carries a force if only what is
 /// `loaded` counts: surfaces that do not touch may have any.
 #[inline(always)]
-fn residual(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64, loaded: bool) -> (f64, f64) {
+fn residual<V: Real>(sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, largest: f64, loaded: bool) -> (f64, f64) {
     let (mut worst, mut fastest) = (0.0_f64, 0.0_f64);
     for k in blocks {
-        let u = sweeper.rates(k);
+        let u = sweeper.rates::<V>(k);
         let miss = sweeper.natural_map(k, u);
         // a maximum passes over what is not a number
         worst = if miss.is_nan() { f64::INFINITY } else { worst.max(miss) };
         if !loaded || sweeper.lambda[k] != [0.0; 3] {
-            fastest = u.iter().fold(fastest, |s, u| s.max(u.abs()));
+            for u in u {
+                fastest = fastest.max(u.abs());
+            }
         }
     }
     (if worst > 0.0 { worst / largest } else { 0.0 }, fastest)
@@ -867,40 +870,4 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
         sums[1] += x[1] * y[1];
     }
     sums[0] + sums[1]
-}
-
-/// Scalar product of two lists of a multiple of four numbers, in four lanes.
-#[inline(always)]
-fn dot_12(x: &[f64], y: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    for (x, y) in x.chunks_exact(4).zip(y.chunks_exact(4)) {
-        for c in 0..4 {
-            sums[c] += x[c] * y[c];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
-}
-
-#[inline(always)]
-fn fixed<const N: usize>(x: &[f64]) -> &[f64; N] {
-    x.try_into().expect("the length was looked at")
-}
-
-/// Adds the scalar products of three rows of `N` numbers, one after the other, with `z` to `sums`.
-#[inline(always)]
-fn add_dots<const N: usize>(y: &[f64], z: &[f64], sums: &mut [f64; 3]) {
-    let z = fixed::<N>(z);
-    for (k, sum) in sums.iter_mut().enumerate() {
-        let y = fixed::<N>(&y[k * N..(k + 1) * N]);
-        *sum += if N == 12 { dot_12(y, z) } else { dot(y, z) };
-    }
-}
-
-/// Adds three rows of `N` numbers, times `d`, to `z`.
-#[inline(always)]
-fn add_rows<const N: usize>(y: &[f64], d: [f64; 3], z: &mut [f64]) {
-    let (y, z) = (&y[..3 * N], &mut z[..N]);
-    for j in 0..N {
-        z[j] += y[j] * d[0] + y[N + j] * d[1] + y[2 * N + j] * d[2];
-    }
 }

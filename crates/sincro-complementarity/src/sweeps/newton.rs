@@ -14,10 +14,13 @@
 //! their laws, and sweeps follow each step, which find the next modes. Sources: keys `alart1991`, `acary2008`
 //! (section 13.4).
 
-use sincro_math::{Real, Task};
+use core::ops::Range;
 
+use sincro_math::{LaneVisitor, Real};
+
+use super::body_rows::{Bodies, BodyRows};
 use super::local::product;
-use super::{Law, Sweeper, dot};
+use super::{Law, Sweeper, minus};
 
 /// ρ, in units of that of the natural map.
 const RHO: f64 = 1e4;
@@ -28,8 +31,10 @@ const MAX_NUMBERS: usize = 1 << 22;
 /// Working memory of a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NewtonStep {
-    /// First column of each row of the matrix, and place of that entry; rows end with the diagonal.
+    /// First column of each row of the matrix, the one behind its last, and place of the first entry. Rows end with the
+    /// diagonal, or with the last velocity of a free body, of which the numbers beyond the diagonal are not used.
     first: Vec<usize>,
+    end: Vec<usize>,
     row: Vec<usize>,
     matrix: Vec<f64>,
     /// Right-hand side, then the change of the velocities.
@@ -49,66 +54,39 @@ struct LinearLaw {
 }
 
 impl NewtonStep {
-    /// Changes the forces of the `blocks` of an island with the velocities `z`, which follow them; those of an island
-    /// of hundreds of bodies stay.
-    #[inline(always)]
-    pub fn make(&mut self, sweeper: &mut Sweeper, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>) {
-        if !self.lay_out(sweeper, blocks.clone(), z.clone()) {
-            return;
-        }
-        self.x.clear();
-        self.x.extend(sweeper.z[z.clone()].iter().map(|z| -z));
-        self.laws.clear();
-        for k in blocks.clone() {
-            let u = sweeper.rates(k);
-            let law = LinearLaw::of(sweeper, k, u);
-            self.add(sweeper, k, z.start, &law);
-            self.laws.push(law);
-        }
-        f64::run_hot(Factor { step: self });
-        for (k, LinearLaw { force, slope, friction }) in blocks.zip(&self.laws) {
-            let block = &sweeper.blocks[k];
-            let mut growth = [0.0; 3];
-            let rows = sweeper.values[block.values..].chunks_exact(block.len.max(1));
-            for (growth, y) in growth.iter_mut().zip(rows).take(block.n) {
-                for (y, i) in y.iter().zip(&sweeper.index[block.index..]) {
-                    if let Some(i) = (*i as usize).checked_sub(z.start) {
-                        *growth += y * self.x[i];
-                    }
-                }
-            }
-            let lost = product(slope, growth);
-            let mut moved: [f64; 3] = core::array::from_fn(|c| force[c] - lost[c]);
-            if *friction > 0.0 {
-                let (old, limit) = (length(force[1], force[2]), friction * moved[0].max(0.0));
-                let share = if old > 0.0 { limit / old } else { 0.0 };
-                (moved[1], moved[2]) = (force[1] * share - lost[1], force[2] * share - lost[2]);
-            }
-            let admitted = sweeper.admitted(k, moved).0;
-            sweeper.rates(k);
-            sweeper.change(k, admitted);
-        }
+    /// A step from the present forces of the `blocks` of an island, with the velocities `z`.
+    pub fn on<'a>(&'a mut self, sweeper: &'a mut Sweeper, blocks: Range<usize>, z: Range<usize>) -> Step<'a> {
+        Step { step: self, sweeper, blocks, z }
     }
 
     /// Envelope of the matrix: a row begins with the first velocity that one of its blocks moves. Returns false if it
     /// has too many numbers.
-    #[inline(always)]
-    fn lay_out(&mut self, sweeper: &Sweeper, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>) -> bool {
+    fn lay_out(&mut self, sweeper: &Sweeper, blocks: Range<usize>, z: Range<usize>) -> bool {
         self.first.clear();
         self.first.extend(0..z.len());
+        self.end.clear();
+        self.end.extend(1..=z.len());
         for block in &sweeper.blocks[blocks] {
-            let index = &sweeper.index[block.index..block.index + block.len];
-            let places = || index.iter().filter_map(|i| (*i as usize).checked_sub(z.start));
-            let least = places().min().unwrap_or(0);
-            for i in places() {
-                self.first[i] = self.first[i].min(least);
+            match block.bodies {
+                Bodies::One(one) => self.lay_out_body(one - z.start, one - z.start),
+                Bodies::Two(one, two) => {
+                    let least = one.min(two) - z.start;
+                    self.lay_out_body(one - z.start, least);
+                    self.lay_out_body(two - z.start, least);
+                }
+                Bodies::Other => {
+                    let index = &sweeper.index[block.index..block.index + block.len];
+                    let places = || index.iter().filter_map(|i| (*i as usize).checked_sub(z.start));
+                    let least = places().min().unwrap_or(0);
+                    places().for_each(|i| self.first[i] = self.first[i].min(least));
+                }
             }
         }
         self.row.clear();
         let mut length = 0;
-        for (i, first) in self.first.iter().enumerate() {
+        for (end, first) in self.end.iter().zip(&self.first) {
             self.row.push(length);
-            length += i + 1 - first;
+            length += end - first;
         }
         if length > MAX_NUMBERS {
             return false;
@@ -121,9 +99,67 @@ impl NewtonStep {
         true
     }
 
+    /// Lets the rows of a free body begin at `least`, and end with its last velocity.
+    fn lay_out_body(&mut self, at: usize, least: usize) {
+        self.first[at..at + 6].iter_mut().for_each(|first| *first = least.min(*first));
+        self.end[at..at + 6].fill(at + 6);
+    }
+
     /// Adds a block to matrix and right-hand side.
     #[inline(always)]
-    fn add(&mut self, sweeper: &Sweeper, k: usize, start: usize, law: &LinearLaw) {
+    fn add<V: Real>(&mut self, sweeper: &Sweeper, k: usize, start: usize, law: &LinearLaw) {
+        let block = &sweeper.blocks[k];
+        let rows = &sweeper.rows[block.rows..];
+        match block.bodies {
+            Bodies::One(one) => self.add_bodies::<V, 1>(&BodyRows::first_of(rows, [one - start]), law),
+            Bodies::Two(one, two) => {
+                self.add_bodies::<V, 2>(&BodyRows::first_of(rows, [one - start, two - start]), law);
+            }
+            Bodies::Other => self.add_others(sweeper, k, start, law),
+        }
+    }
+
+    /// The same for a contact of free bodies.
+    #[inline(always)]
+    fn add_bodies<V: Real, const N: usize>(&mut self, rows: &BodyRows<'_, N>, law: &LinearLaw) {
+        rows.push::<V>(law.force, &mut self.x);
+        if law.slope == [0.0; 6] {
+            return;
+        }
+        let [a, b, c, d, e, f] = law.slope;
+        let slope = [
+            [V::splat(a), V::splat(b), V::splat(c)],
+            [V::splat(b), V::splat(d), V::splat(e)],
+            [V::splat(c), V::splat(e), V::splat(f)],
+        ];
+        // rows of D Y, packed
+        let mut pushed = [[V::zero(); 3]; 3];
+        for i in 0..=N {
+            for c in 0..3 {
+                pushed[i][c] = rows.part(i, slope[c]);
+            }
+        }
+        for s in 0..N {
+            for r in 0..6 {
+                let (i, column) = (rows.at[s] + r, rows.columns[6 * s + r]);
+                let column = [V::splat(column[0]), V::splat(column[1]), V::splat(column[2])];
+                let mut last = [0.0; 4];
+                combined(pushed[N], column).to_row(&mut last);
+                for t in 0..N {
+                    if rows.at[t] <= rows.at[s] {
+                        let from = self.row[i] + rows.at[t] - self.first[i];
+                        let entries = &mut self.matrix[from..from + 6];
+                        (V::from_row(entries) + combined(pushed[t], column)).to_row(entries);
+                        entries[4] += last[2 * t];
+                        entries[5] += last[2 * t + 1];
+                    }
+                }
+            }
+        }
+    }
+
+    /// The same for any rows.
+    fn add_others(&mut self, sweeper: &Sweeper, k: usize, start: usize, law: &LinearLaw) {
         let block = &sweeper.blocks[k];
         let (len, n) = (block.len, block.n);
         let y = &sweeper.values[block.values..block.values + n * len];
@@ -151,46 +187,109 @@ impl NewtonStep {
 
     /// Solves for the change of the velocities.
     #[inline(always)]
-    fn solve(&mut self) {
+    fn solve<V: Real>(&mut self) {
         let Self { first, row, matrix, x, .. } = self;
         for i in 0..first.len() {
             let (done, this) = matrix.split_at_mut(row[i]);
             let this = &mut this[..=i - first[i]];
             for j in first[i]..i {
-                let from = first[i].max(first[j]);
+                let from = if first[i] > first[j] { first[i] } else { first[j] };
                 let other = &done[row[j]..=row[j] + j - first[j]];
-                let sum = long_dot(&this[from - first[i]..j - first[i]], &other[from - first[j]..j - first[j]]);
+                let sum = dot::<V>(&this[from - first[i]..j - first[i]], &other[from - first[j]..j - first[j]]);
                 this[j - first[i]] = (this[j - first[i]] - sum) * other[j - first[j]];
             }
             let (left, diagonal) = this.split_at_mut(i - first[i]);
             // the inverse of the root stands on the diagonal; the matrix is at least the unit matrix
-            let inverse = 1.0 / (diagonal[0] - long_dot(left, left)).max(1.0).sqrt();
+            let square = diagonal[0] - dot::<V>(left, left);
+            let inverse = 1.0 / (if square > 1.0 { square } else { 1.0 }).sqrt();
             diagonal[0] = inverse;
-            x[i] = (x[i] - long_dot(left, &x[first[i]..i])) * inverse;
+            x[i] = (x[i] - dot::<V>(left, &x[first[i]..i])) * inverse;
         }
         for i in (0..first.len()).rev() {
             let this = &matrix[row[i]..=row[i] + i - first[i]];
             let (left, diagonal) = this.split_at(i - first[i]);
-            x[i] *= diagonal[0];
             let (before, rest) = x.split_at_mut(i);
-            for (x, l) in before[first[i]..].iter_mut().zip(left) {
-                *x -= l * rest[0];
-            }
+            rest[0] *= diagonal[0];
+            subtract::<V>(&mut before[first[i]..], left, rest[0]);
         }
     }
 }
 
-/// Factorisation and solution of a step.
-struct Factor<'a> {
+/// A step on an island: changes its forces, and the velocities, which follow them; those of an island of hundreds of
+/// bodies stay.
+pub(super) struct Step<'a> {
     step: &'a mut NewtonStep,
+    sweeper: &'a mut Sweeper,
+    blocks: Range<usize>,
+    z: Range<usize>,
 }
 
-impl Task for Factor<'_> {
+impl LaneVisitor for Step<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
-        self.step.solve();
+    fn visit<V: Real>(self) {
+        let Self { step, sweeper, blocks, z } = self;
+        if !step.lay_out(sweeper, blocks.clone(), z.clone()) {
+            return;
+        }
+        step.x.clear();
+        step.x.extend_from_slice(&sweeper.z[z.clone()]);
+        for x in &mut step.x {
+            *x = -*x;
+        }
+        step.laws.clear();
+        for k in blocks.clone() {
+            let u = sweeper.rates::<V>(k);
+            let law = LinearLaw::of(sweeper, k, u);
+            step.add::<V>(sweeper, k, z.start, &law);
+            step.laws.push(law);
+        }
+        step.solve::<V>();
+        for k in blocks.clone() {
+            let growth = step.growth::<V>(sweeper, k, z.start);
+            let LinearLaw { force, slope, friction } = &step.laws[k - blocks.start];
+            let lost = product(slope, growth);
+            let mut moved = minus(*force, lost);
+            if *friction > 0.0 {
+                let (old, limit) = (length(force[1], force[2]), if moved[0] > 0.0 { friction * moved[0] } else { 0.0 });
+                let share = if old > 0.0 { limit / old } else { 0.0 };
+                (moved[1], moved[2]) = (force[1] * share - lost[1], force[2] * share - lost[2]);
+            }
+            let admitted = sweeper.admitted(k, moved).0;
+            sweeper.rates::<V>(k);
+            sweeper.change::<V>(k, admitted);
+        }
+    }
+}
+
+impl NewtonStep {
+    /// Growth of the rates of a block with the change of the velocities.
+    #[inline(always)]
+    fn growth<V: Real>(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
+        let block = &sweeper.blocks[k];
+        let rows = &sweeper.rows[block.rows..];
+        match block.bodies {
+            Bodies::One(one) => BodyRows::first_of(rows, [one - start]).rates::<V>(&[0.0; 4], &self.x),
+            Bodies::Two(one, two) => {
+                BodyRows::first_of(rows, [one - start, two - start]).rates::<V>(&[0.0; 4], &self.x)
+            }
+            Bodies::Other => self.growth_of_others(sweeper, k, start),
+        }
+    }
+
+    fn growth_of_others(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
+        let block = &sweeper.blocks[k];
+        let mut growth = [0.0; 3];
+        let rows = sweeper.values[block.values..].chunks_exact(block.len.max(1));
+        for (growth, y) in growth.iter_mut().zip(rows).take(block.n) {
+            for (y, i) in y.iter().zip(&sweeper.index[block.index..]) {
+                if let Some(i) = (*i as usize).checked_sub(start) {
+                    *growth += y * self.x[i];
+                }
+            }
+        }
+        growth
     }
 }
 
@@ -201,7 +300,7 @@ impl LinearLaw {
         let block = &sweeper.blocks[k];
         let rho = RHO * block.step_length();
         let (force, slope) = sweeper.projected(k, u);
-        let held: [f64; 3] = core::array::from_fn(|c| sweeper.lambda[k][c] - rho * u[c]);
+        let held = minus(sweeper.lambda[k], [rho * u[0], rho * u[1], rho * u[2]]);
         if slope == [0.0; 6] {
             return Self { force, slope, friction: 0.0 };
         }
@@ -229,20 +328,45 @@ fn length(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Scalar product of two lists, in eight lanes and a rest.
+/// Combination of three rows.
 #[inline(always)]
-fn long_dot(x: &[f64], y: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (xs, ys) = (x.chunks_exact(8), y.chunks_exact(8));
-    let (x_rest, y_rest) = (xs.remainder(), ys.remainder());
-    for (x, y) in xs.zip(ys) {
-        for c in 0..8 {
-            sums[c] += x[c] * y[c];
-        }
+fn combined<V: Real>(rows: [V; 3], by: [V; 3]) -> V {
+    (rows[0] * by[0] + rows[1] * by[1]) + rows[2] * by[2]
+}
+
+/// Scalar product of two lists, in four lanes and a rest.
+#[inline(always)]
+fn dot<V: Real>(x: &[f64], y: &[f64]) -> f64 {
+    let (n, mut k) = (x.len(), 0);
+    let y = &y[..n];
+    let mut sums = V::zero();
+    while k + 4 <= n {
+        sums += V::from_row(&x[k..k + 4]) * V::from_row(&y[k..k + 4]);
+        k += 4;
     }
-    let rest: f64 = x_rest.iter().zip(y_rest).map(|(x, y)| x * y).sum();
-    let half: [f64; 4] = core::array::from_fn(|c| sums[c] + sums[c + 4]);
-    dot(&half, &[1.0; 4]) + rest
+    let mut lanes = [0.0; 4];
+    sums.to_row(&mut lanes);
+    let mut rest = 0.0;
+    while k < n {
+        rest += x[k] * y[k];
+        k += 1;
+    }
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + rest
+}
+
+/// Subtracts `y`, times `by`, from `x`.
+#[inline(always)]
+fn subtract<V: Real>(x: &mut [f64], y: &[f64], by: f64) {
+    let (n, mut k) = (y.len(), 0);
+    let (x, factor) = (&mut x[..n], V::splat(by));
+    while k + 4 <= n {
+        (V::from_row(&x[k..k + 4]) - V::from_row(&y[k..k + 4]) * factor).to_row(&mut x[k..k + 4]);
+        k += 4;
+    }
+    while k < n {
+        x[k] -= y[k] * by;
+        k += 1;
+    }
 }
 
 #[cfg(test)]
@@ -250,6 +374,7 @@ mod tests {
     use super::super::{Island, Law, Stillness, Sweeper, TOLERANCE};
     use super::NewtonStep;
     use crate::solver::SolverReport;
+    use sincro_math::lanes;
 
     /// Number in (−1, 1).
     fn number(seed: &mut u64) -> f64 {
@@ -314,7 +439,8 @@ mod tests {
             let residual = |with_step: bool| {
                 let (mut sweeper, blocks, z) = (solved.clone(), 0..40, 1..13);
                 if with_step {
-                    NewtonStep::default().make(&mut sweeper, blocks.clone(), z.clone());
+                    let mut newton = NewtonStep::default();
+                    lanes::dispatch_four_lanes(newton.on(&mut sweeper, blocks.clone(), z.clone()));
                 }
                 Island { sweeper: &mut sweeper, blocks, z, rest_rate: 0.0, stillness: Stillness::Awake }
                     .sweep(4)

@@ -55,6 +55,25 @@ pub fn dispatch_lanes<V: LaneVisitor>(visitor: V) -> V::Output {
     visitor.visit::<f64>()
 }
 
+/// Runs `visitor` on four lanes, whatever this processor has: sums over four lanes have the same bits everywhere.
+/// Returns the visitor's result.
+#[inline]
+pub fn dispatch_four_lanes<V: LaneVisitor>(visitor: V) -> V::Output {
+    #[cfg(target_arch = "x86_64")]
+    match x86::level() {
+        x86::Level::Avx512 => return x86::four_lanes_avx512(visitor),
+        x86::Level::Avx2 => return x86::lanes_avx2(visitor),
+        x86::Level::Baseline => {}
+    }
+    four_lanes_baseline(visitor)
+}
+
+/// Four lanes for every processor: one copy, whoever calls it.
+#[inline(never)]
+fn four_lanes_baseline<V: LaneVisitor>(visitor: V) -> V::Output {
+    visitor.visit::<Lanes<4>>()
+}
+
 /// Runs `task` compiled for the thirty-two registers of AVX-512 where there are (AVX2 alone brings a scalar nothing).
 #[inline]
 pub(crate) fn run_scalar<T: Task>(task: T) -> T::Output {
@@ -127,6 +146,25 @@ pub fn instruction_set() -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn four_lanes_have_the_same_bits_on_every_processor() {
+        struct Sum<'a>(&'a [f64]);
+        impl LaneVisitor for Sum<'_> {
+            type Output = [u64; 4];
+            #[inline(always)]
+            fn visit<R: Real>(self) -> [u64; 4] {
+                let (mut sum, mut lanes) = (R::zero(), [0.0; 4]);
+                for row in self.0.chunks_exact(4) {
+                    sum += R::from_row(row) * R::splat(row[0]).sqrt();
+                }
+                sum.to_row(&mut lanes);
+                lanes.map(f64::to_bits)
+            }
+        }
+        let numbers: Vec<f64> = (0..400).map(|k| 0.1 + (k * k % 17) as f64 / 3.0).collect();
+        assert_eq!(dispatch_four_lanes(Sum(&numbers)), Sum(&numbers).visit::<Lanes<4>>());
+    }
 
     #[test]
     fn rows_of_sines_have_the_bits_of_single_ones() {

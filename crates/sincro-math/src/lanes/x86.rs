@@ -74,6 +74,18 @@ pub(super) fn lanes_avx2<V: LaneVisitor>(visitor: V) -> V::Output {
     unsafe { run(visitor) }
 }
 
+/// Four lanes with the thirty-two registers of AVX-512.
+#[inline]
+pub(super) fn four_lanes_avx512<V: LaneVisitor>(visitor: V) -> V::Output {
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+    fn run<V: LaneVisitor>(visitor: V) -> V::Output {
+        visitor.visit::<F64x4>()
+    }
+    assert_eq!(level(), Level::Avx512);
+    // SAFETY: the instruction set is there
+    unsafe { run(visitor) }
+}
+
 #[inline]
 pub(super) fn scalar_avx512<T: Task>(task: T) -> T::Output {
     #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
