@@ -1,7 +1,7 @@
 //! Broad phase: pairs of surfaces whose bounding spheres are close, by sweep and prune along the x axis.
 //!
-//! The intervals of all bounded surfaces are sorted along x, and only those that overlap are looked at; a half-space is
-//! looked at with every surface. The pairs come in the order of their indices, so that nothing depends on the method.
+//! The intervals of all bounded surfaces are sorted along x, and only those that overlap, along y and z too, are looked
+//! at; a half-space is looked at with every surface. The pairs come in the order of their indices, so that nothing depends on the method.
 //! A few pairs are all looked at. Source: key `ericson2004`, section 7.5.
 
 use super::{Collider, Pair, Surface};
@@ -48,12 +48,24 @@ struct Ball {
     is_left_out: bool,
 }
 
-/// Interval of a surface along x.
+/// Interval of a surface along x, and what says whether two of them overlap along y and z.
 #[derive(Clone, Copy, Debug)]
 struct Interval {
     from: f64,
     to: f64,
+    y: f64,
+    z: f64,
+    reach: f64,
     collider: u32,
+}
+
+impl Interval {
+    /// Returns true if the intervals of two surfaces overlap along y and z.
+    #[inline]
+    fn overlaps(&self, other: &Self) -> bool {
+        let reach = self.reach + other.reach;
+        (self.y - other.y).abs() <= reach && (self.z - other.z).abs() <= reach
+    }
 }
 
 /// Broad phase with its working memory.
@@ -150,8 +162,8 @@ impl BroadPhase {
             if !unbounded.contains(&(k as u32)) {
                 // half of what a pair may be apart
                 let reach = ball.radius + 0.5 * margin.base + margin.time * (ball.velocity.norm() + ball.spin);
-                let x = ball.center[0];
-                intervals.push(Interval { from: x - reach, to: x + reach, collider: k as u32 });
+                let Vec3([x, y, z]) = ball.center;
+                intervals.push(Interval { from: x - reach, to: x + reach, y, z, reach, collider: k as u32 });
             }
         }
         intervals.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.collider.cmp(&b.collider)));
@@ -166,7 +178,9 @@ impl BroadPhase {
         };
         for (i, one) in intervals.iter().enumerate() {
             for two in intervals[i + 1..].iter().take_while(|two| two.from <= one.to) {
-                look(one.collider, two.collider);
+                if one.overlaps(two) {
+                    look(one.collider, two.collider);
+                }
             }
             for fixed in unbounded.iter() {
                 look(one.collider, *fixed);

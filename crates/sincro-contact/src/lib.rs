@@ -30,7 +30,7 @@ pub use broad_phase::Margin;
 pub use collider::{Collider, WORLD};
 pub use detect::Detector;
 pub use material::{Material, PairLaw};
-pub use pair::{Pair, pairs};
+pub use pair::{Pair, pair_of_slot, pairs};
 pub use sincro_geometry::Surface;
 
 use pair::PairKind;

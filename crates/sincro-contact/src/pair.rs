@@ -53,6 +53,29 @@ impl Pair {
     }
 }
 
+/// Index of the pair that has `slot` among its slots, or the number of pairs if none has.
+///
+/// Most pairs of a scene have as many slots: the search begins at the slot's share of all slots, and goes on in steps
+/// that double. Of 80,000 pairs a binary search would read seventeen from all over the memory.
+#[must_use]
+pub fn pair_of_slot(pairs: &[Pair], slot: usize) -> usize {
+    let ends_before = |k: usize| pairs[k].first + pairs[k].slots <= slot;
+    let n_slots = pairs.last().map_or(0, |last| last.first + last.slots);
+    if slot >= n_slots {
+        return pairs.len();
+    }
+    let guess = slot * pairs.len() / n_slots;
+    let (mut low, mut high, mut step) = (guess, guess, 1);
+    while low > 0 && !ends_before(low - 1) {
+        (high, low, step) = (low - 1, low.saturating_sub(step), 2 * step);
+    }
+    step = 1;
+    while ends_before(high) {
+        (low, high, step) = (high + 1, (high + step).min(pairs.len() - 1), 2 * step);
+    }
+    low + pairs[low..high].partition_point(|pair| pair.first + pair.slots <= slot)
+}
+
 /// Pairs of the colliders that can touch, by increasing indices; `joined` says of two links whether a joint joins them
 /// directly, `law` gives the law of two colliders that have one of their own.
 #[must_use]
@@ -120,4 +143,29 @@ fn arrange(
         _ if is_polytope[a] && is_polytope[b] => (a, b, PairKind::Polytopes, MANIFOLD),
         _ => (a, b, PairKind::General, MANIFOLD),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_slot_has_the_pair_that_a_binary_search_finds() {
+        for few in [0, 1, 3, 70, 100] {
+            // pairs with one slot, many or none, in any order
+            let mut pairs: Vec<Pair> = Vec::new();
+            for k in 0..100_usize {
+                let slots = if k < few { 1 } else { k * k % 9 };
+                let first = pairs.last().map_or(0, |last| last.first + last.slots);
+                let material = Material::default();
+                pairs.push(Pair { a: 0, b: 1, material, is_ignored: false, first, slots, kind: PairKind::General });
+            }
+            let n_slots = pairs.last().map_or(0, |last| last.first + last.slots);
+            for slot in 0..n_slots + 3 {
+                let wanted = pairs.partition_point(|pair| pair.first + pair.slots <= slot);
+                assert_eq!(pair_of_slot(&pairs, slot), wanted, "slot {slot} of {n_slots}");
+            }
+        }
+        assert_eq!(pair_of_slot(&[], 0), 0);
+    }
 }

@@ -56,7 +56,7 @@ pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, 
 pub use active_rows::{ActiveRow, ActiveSource};
 pub use sincro_complementarity::SolverReport;
 
-use crate::contact::{Detector, Pair, candidate::ContactCandidate, candidate_list::CandidateList};
+use crate::contact::{Detector, Pair, candidate::ContactCandidate, candidate_list::CandidateList, pair_of_slot};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
@@ -558,5 +558,5 @@ impl<R: Real> Constraints<R> {
 
 /// The pair that a contact slot belongs to.
 pub(crate) fn pair_of(set: &ConstraintSet, slot: usize) -> usize {
-    set.pairs.partition_point(|p| p.first + p.slots <= slot)
+    pair_of_slot(&set.pairs, slot)
 }

@@ -172,11 +172,11 @@ impl<R: Real> Constraints<R> {
         self.b.clear();
         self.b.extend(self.rows.iter().map(|row| self.motions.placed_rate(row, &self.velocity_change)));
         let set = &*model.params.constraints;
-        let pair = |slot: usize| slot.checked_sub(set.limits.len()).map(|contact| pair_of(set, contact));
+        let pair = |slot: usize| slot.checked_sub(set.limits.len()).map(|contact| &set.pairs[pair_of(set, contact)]);
         let mut k = 0;
         while let Some(first) = self.blocks.get(k).filter(|block| !block.is_drive()) {
-            let of_pair = pair(first.slot);
-            let is_same = |block: &&UnilateralConstraint<R>| of_pair.is_some() && pair(block.slot) == of_pair;
+            let of_pair = first.slot..pair(first.slot).map_or(0, |pair| set.limits.len() + pair.first + pair.slots);
+            let is_same = |block: &&UnilateralConstraint<R>| of_pair.contains(&block.slot);
             let more = self.blocks[k + 1..].iter().take_while(|block| !block.is_drive()).take_while(is_same).count();
             let manifold = k..k + 1 + more;
             k = manifold.end;
