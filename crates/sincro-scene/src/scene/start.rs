@@ -114,8 +114,7 @@ impl Start<'_> {
         for overlap in overlaps.into_iter().filter(|o| o.depth > OVERLAP) {
             let message =
                 format!("`{}` and `{}` overlap at the start by {:.6e} m", overlap.a, overlap.b, overlap.depth);
-            let help = "move one of them, give both the same `group` in `contact`, or set allow_overlap = true at the top \
-                        of the scene";
+            let help = "move one, give both the same `group` in `contact`, or set allow_overlap = true for the scene";
             let at = self.of_object(&[&overlap.a, &overlap.b]);
             diagnostics.push(Diagnostic::error(&at, message).with_help(help));
         }
