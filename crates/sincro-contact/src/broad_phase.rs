@@ -1,8 +1,8 @@
 //! Broad phase: pairs of surfaces whose bounding spheres are close, by sweep and prune along the x axis.
 //!
 //! The intervals of all bounded surfaces are sorted along x, and only those that overlap, along y and z too, are looked
-//! at; a half-space is looked at with every surface. The pairs come in the order of their indices, so that nothing depends on the method.
-//! A few pairs are all looked at. Source: key `ericson2004`, section 7.5.
+//! at; a half-space is looked at with every surface. The pairs come in the order of their indices, so that nothing
+//! depends on the method. A few pairs are all looked at. Source: key `ericson2004`, section 7.5.
 
 use super::{Collider, Pair, Surface};
 use crate::WORLD;
