@@ -48,7 +48,7 @@ struct Ball {
     is_left_out: bool,
 }
 
-/// Interval of a surface along x, and what says whether two of them overlap along y and z.
+/// Interval of a surface along x, with its centre and reach along y and z `[m]`.
 #[derive(Clone, Copy, Debug)]
 struct Interval {
     from: f64,

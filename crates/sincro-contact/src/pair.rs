@@ -55,8 +55,8 @@ impl Pair {
 
 /// Index of the pair that has `slot` among its slots, or the number of pairs if none has.
 ///
-/// Most pairs of a scene have as many slots: the search begins at the slot's share of all slots, and goes on in steps
-/// that double. Of 80,000 pairs a binary search would read seventeen from all over the memory.
+/// Most pairs of a scene have the same number of slots: the search begins at the slot's share of all slots, and goes on
+/// in steps that double. Of 80,000 pairs a binary search would read seventeen from all over the memory.
 #[must_use]
 pub fn pair_of_slot(pairs: &[Pair], slot: usize) -> usize {
     let ends_before = |k: usize| pairs[k].first + pairs[k].slots <= slot;
@@ -64,8 +64,8 @@ pub fn pair_of_slot(pairs: &[Pair], slot: usize) -> usize {
     if slot >= n_slots {
         return pairs.len();
     }
-    let guess = slot * pairs.len() / n_slots;
-    let (mut low, mut high, mut step) = (guess, guess, 1);
+    let start = slot * pairs.len() / n_slots;
+    let (mut low, mut high, mut step) = (start, start, 1);
     while low > 0 && !ends_before(low - 1) {
         (high, low, step) = (low - 1, low.saturating_sub(step), 2 * step);
     }
@@ -151,11 +151,14 @@ mod tests {
 
     #[test]
     fn every_slot_has_the_pair_that_a_binary_search_finds() {
-        for few in [0, 1, 3, 70, 100] {
-            // pairs with one slot, many or none, in any order
+        // pairs with one slot before or behind those with many or none; where they are behind one with very many, the
+        // search begins far above
+        for (few, is_first) in [0, 1, 3, 70, 100].into_iter().flat_map(|few| [(few, true), (few, false)]) {
             let mut pairs: Vec<Pair> = Vec::new();
             for k in 0..100_usize {
-                let slots = if k < few { 1 } else { k * k % 9 };
+                let is_one_of_few = if is_first { k < few } else { k >= 100 - few };
+                let slots = if is_one_of_few { 1 } else { k * k % 9 };
+                let slots = if k == 99 && is_first { 1000 } else { slots };
                 let first = pairs.last().map_or(0, |last| last.first + last.slots);
                 let material = Material::default();
                 pairs.push(Pair { a: 0, b: 1, material, is_ignored: false, first, slots, kind: PairKind::General });

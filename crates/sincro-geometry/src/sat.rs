@@ -32,13 +32,14 @@ const PARALLEL: f64 = 1e-6;
 const ALMOST_PARALLEL: f64 = 0.104_528_463;
 const ALMOST_ALONG: f64 = 0.994_521_895;
 
-/// The same for edges of a polytope that count as parallel when pairs of directions are looked at.
+/// Sine of the angle between two edges of one polytope below which they count as one direction.
 const ONE_DIRECTION: f64 = 1e-12;
 
-/// Maximum number of pairs of edge directions that are looked at before pairs of edges: those of boxes and prisms.
+/// Maximum number of pairs of edge directions that are looked at before pairs of edges: those of boxes and prisms with
+/// few sides.
 const MAX_DIRECTIONS: usize = 16;
 
-/// Maximum number of edges; hulls with more are left to the general algorithm, since all pairs of edges are tested.
+/// Maximum number of edges; hulls with more are left to the general algorithm, since all pairs of edges may be tested.
 const MAX_EDGES: usize = 90;
 
 #[derive(Clone, Copy, Debug)]
@@ -425,13 +426,14 @@ fn best_edges(
     let found = best_edges_along(one, two, least, above(least.max(most)), sides);
     match found {
         Some((_, _, depth)) if depth > most - ALIKE => found,
-        _ if most + 2.0 * ALIKE <= least => found,
+        // the search was that of all that may be better
+        _ if most <= least => found,
         _ => best_edges_along(one, two, least, above(least), sides),
     }
 }
 
-/// Separation of two polytopes across each pair of their edge directions `[m]`; infinite for those that are parallel or
-/// not to rounding, which each pair of edges decides for itself.
+/// Separation of two polytopes across each pair of their edge directions `[m]`; −∞ for those that are parallel, ∞ where
+/// rounding says whether they are, which each pair of edges decides for itself.
 fn find_separations(one: &Placed<'_>, two: &Placed<'_>, separations: &mut [f64; MAX_DIRECTIONS]) {
     let n_two = two.shape.directions.len();
     for (i, e) in one.shape.directions.iter().enumerate() {
@@ -461,6 +463,10 @@ fn best_edges_along(
     directions: u64,
     sides: &mut [Vec<Sides>; 2],
 ) -> Option<([usize; 2], Vec3<f64>, f64)> {
+    for list in sides.iter_mut() {
+        list.clear();
+        list.reserve(MAX_EDGES);
+    }
     if directions == 0 {
         return None;
     }
@@ -706,7 +712,11 @@ mod tests {
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         for k in 0..20_000 {
-            let (a, b) = if k % 2 == 0 { (brick(), brick()) } else { (prism.clone(), brick()) };
+            let (a, b) = match k % 4 {
+                0 | 2 => (brick(), brick()),
+                1 => (prism.clone(), brick()),
+                _ => (prism.clone(), prism.clone()),
+            };
             // any rotation, or multiples of 30 degrees, where directions are parallel and separations equal
             let angle = |x: f64| if k % 3 == 0 { std::f64::consts::PI * (12.0 * x).floor() / 6.0 } else { 6.3 * x };
             let rot = (0..3).fold(Mat3::identity(), |r, axis| r.mul(&turned(axis, angle(number()), [0.0; 3]).rot));
@@ -716,7 +726,9 @@ mod tests {
             let normals: Vec<_> = b.faces.iter().map(|f| x_ab.rot.mul_vec(f.normal)).collect();
             let one = Placed { shape: &a, vertices: &a.vertices, normals: &[] };
             let two = Placed { shape: &b, vertices: &vertices, normals: &normals };
-            let least = one.best_face(two.vertices).1.max(two.best_face(one.vertices).1);
+            let former = [ContactKind::Unknown, ContactKind::FirstFace, ContactKind::Edges][k / 12 % 3];
+            let of_faces = one.best_face(two.vertices).1.max(two.best_face(one.vertices).1);
+            let least = of_faces + edge_handicap(former);
             let mut sides = Default::default();
             let all = best_edges_along(&one, &two, least, u64::MAX, &mut sides);
             assert_eq!(best_edges(&one, &two, least, &mut sides), all, "draw {k}: {x_ab:?}");

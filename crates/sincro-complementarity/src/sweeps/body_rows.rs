@@ -1,4 +1,4 @@
-//! Rows of contacts of free bodies, whose velocities are six numbers one after the other: products by four lanes.
+//! Rows of contacts of bodies with six velocities one after the other, such as free ones: products by four lanes.
 //!
 //! A contact has three rows yᵢ, with six numbers for each of its one or two bodies. They stand twice: column by column,
 //! which takes the rates y·z without a sum across lanes, and row by row, which takes z + Σ yᵢ dᵢ so. Rows are packed:
@@ -6,7 +6,8 @@
 
 use sincro_math::Real;
 
-/// Bodies that the rows of a block move, where they are free ones of a contact with sliding friction.
+/// Bodies that the rows of a contact with sliding friction move, where each has six velocities one after the other: free
+/// ones, and links of robots with so many joints before them. The velocities of two contacts may overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bodies {
     /// First velocity of one body.
@@ -82,7 +83,7 @@ impl<'a, const N: usize> BodyRows<'a, N> {
 
     /// Adds Σ yᵢ dᵢ to z.
     #[inline(always)]
-    pub fn push<V: Real>(&self, d: [f64; 3], z: &mut [f64]) {
+    pub fn add_to<V: Real>(&self, d: [f64; 3], z: &mut [f64]) {
         let d = [V::splat(d[0]), V::splat(d[1]), V::splat(d[2])];
         let mut last = [0.0; 4];
         self.part(N, d).to_row(&mut last);
@@ -111,7 +112,7 @@ mod tests {
         let rows = BodyRows::first_of(&list, places);
         let at: Vec<usize> = (13..19).chain(1..7).collect();
         let (mut moved, mut wanted) = (z.clone(), z.clone());
-        rows.push::<Lanes<4>>(d, &mut moved);
+        rows.add_to::<Lanes<4>>(d, &mut moved);
         let u = rows.rates::<Lanes<4>>(&b, &z);
         for k in 0..3 {
             // whole numbers: any order of sums has the same result
@@ -124,7 +125,7 @@ mod tests {
         push_rows(&y[..18], &mut list);
         let rows = BodyRows::first_of(&list, [2]);
         let (mut moved, mut wanted) = (z.clone(), z.clone());
-        rows.push::<Lanes<4>>(d, &mut moved);
+        rows.add_to::<Lanes<4>>(d, &mut moved);
         (0..18).for_each(|k| wanted[2 + k % 6] += y[k] * d[k / 6]);
         assert_eq!(moved, wanted);
     }

@@ -1,4 +1,4 @@
-//! Exact solution of the problem of one contact, all other forces given.
+//! Solution of the problem of one contact, all other forces given: exact where it is open or sticks.
 //!
 //! With the own matrix G (normal first) and the rates w that the contact has without its own force, w + G λ and λ obey
 //! Signorini's condition and Coulomb's law in one of three modes: open, λ = 0; stick, λ = −G⁻¹ w; slip, where the
@@ -14,8 +14,8 @@ const MAX_ITERATIONS: usize = 40;
 /// Tolerance of the friction limit, relative to the friction.
 const TOLERANCE: f64 = 1e-10;
 
-/// The same after a step: the next sweep goes on from there, for another friction.
-const NEARLY: f64 = 1e-3;
+/// Tolerance once Newton's method has made a step, relative to the friction: the next sweep goes on from there.
+const SLIP_TOLERANCE: f64 = 1e-3;
 
 /// Amount added to the diagonal of a matrix that may be singular, relative to the largest entry of the problem: a
 /// contact that cannot be moved in a direction needs no exact force there.
@@ -83,7 +83,7 @@ impl TangentialProblem {
             }
             // the rate of the excess, times the size
             let rate = (x[0] * dx[0] + x[1] * dx[1]) - slope(dx) * size;
-            tolerance = NEARLY;
+            tolerance = SLIP_TOLERANCE;
             let newton = s - excess * size / rate;
             s = if newton > low && newton < high {
                 newton

@@ -1,6 +1,7 @@
 //! Nonsmooth nonlinear conjugate gradient method on block Gauss–Seidel sweeps, island by island.
 //!
-//! A sweep solves each contact's own problem exactly, one after the other (`local`). Its change of all forces
+//! A sweep solves each contact's own problem, one after the other (`local`): exactly where it is open or sticks, a slip to
+//! a thousandth of its friction, from sweep to sweep better. Its change of all forces
 //! is taken for a descent direction: with ∇ the change and β = ‖∇_k‖²/‖∇_{k−1}‖² the forces are moved further along the
 //! last direction, p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖:
 //! they weigh forces and torques by their effect. Source: key `silcowitz2010`.
@@ -238,6 +239,7 @@ struct Solved {
 }
 
 const NONE: u32 = u32::MAX;
+
 /// Sum of the inverse masses and inertias of a block below which no force moves it [1/kg], [1/(kg·m²)].
 const IMMOBILE: f64 = 1e-24;
 
@@ -450,8 +452,8 @@ impl Sweeper {
         let Self { blocks, rows, z, .. } = self;
         let Block { bodies, rows: first, .. } = &blocks[k];
         match *bodies {
-            Bodies::One(one) => BodyRows::first_of(&rows[*first..], [one]).push::<V>(d, z),
-            Bodies::Two(one, two) => BodyRows::first_of(&rows[*first..], [one, two]).push::<V>(d, z),
+            Bodies::One(one) => BodyRows::first_of(&rows[*first..], [one]).add_to::<V>(d, z),
+            Bodies::Two(one, two) => BodyRows::first_of(&rows[*first..], [one, two]).add_to::<V>(d, z),
             Bodies::Other => self.change_others(k, d),
         }
     }
@@ -616,7 +618,7 @@ impl Island<'_> {
         let mut stalls = 0;
         for step in 1..=MAX_NEWTON_STEPS {
             let last = best;
-            lanes::dispatch_four_lanes(newton.on(self.sweeper, self.blocks.clone(), self.z.clone()));
+            lanes::dispatch_four_lanes(newton.prepare(self.sweeper, self.blocks.clone(), self.z.clone()));
             let mut swept = self.sweep(next_sweeps);
             sweeps += swept.sweeps;
             if swept.residual >= best {
@@ -638,8 +640,8 @@ impl Island<'_> {
             // what hardly gets better is left, the sooner the smaller it is
             stalls += usize::from(best > 0.5 * last);
             let has_stalled = (best <= TOLERANCE && stalls > 1) || (best <= ROUGH_TOLERANCE && stalls > 3);
-            let has_moved_enough = swept.motion >= 1.0 && step >= MOVING_NEWTON_STEPS;
-            if best <= enough || has_stalled || has_moved_enough {
+            let is_at_moving_limit = swept.motion >= 1.0 && step >= MOVING_NEWTON_STEPS;
+            if best <= enough || has_stalled || is_at_moving_limit {
                 break;
             }
         }

@@ -32,7 +32,7 @@ const MAX_NUMBERS: usize = 1 << 22;
 #[derive(Clone, Debug, Default)]
 pub(super) struct NewtonStep {
     /// First column of each row of the matrix, the one behind its last, and place of the first entry. Rows end with the
-    /// diagonal, or with the last velocity of a free body, of which the numbers beyond the diagonal are not used.
+    /// diagonal, or with the last velocity of their body, and numbers beyond the diagonal are not used.
     first: Vec<usize>,
     end: Vec<usize>,
     row: Vec<usize>,
@@ -54,9 +54,14 @@ struct LinearLaw {
 }
 
 impl NewtonStep {
-    /// A step from the present forces of the `blocks` of an island, with the velocities `z`.
-    pub fn on<'a>(&'a mut self, sweeper: &'a mut Sweeper, blocks: Range<usize>, z: Range<usize>) -> Step<'a> {
-        Step { step: self, sweeper, blocks, z }
+    /// Prepares a step from the present forces of the `blocks` of an island, with the velocities `z`.
+    pub fn prepare<'a>(
+        &'a mut self,
+        sweeper: &'a mut Sweeper,
+        blocks: Range<usize>,
+        z: Range<usize>,
+    ) -> IslandStep<'a> {
+        IslandStep { step: self, sweeper, blocks, z }
     }
 
     /// Envelope of the matrix: a row begins with the first velocity that one of its blocks moves. Returns false if it
@@ -99,10 +104,11 @@ impl NewtonStep {
         true
     }
 
-    /// Lets the rows of a free body begin at `least`, and end with its last velocity.
+    /// Lets the rows of six velocities begin at `least` or before, and end with the last of them or behind: those of two
+    /// contacts of a robot may overlap.
     fn lay_out_body(&mut self, at: usize, least: usize) {
         self.first[at..at + 6].iter_mut().for_each(|first| *first = least.min(*first));
-        self.end[at..at + 6].fill(at + 6);
+        self.end[at..at + 6].iter_mut().for_each(|end| *end = (at + 6).max(*end));
     }
 
     /// Adds a block to matrix and right-hand side.
@@ -122,7 +128,7 @@ impl NewtonStep {
     /// The same for a contact of free bodies.
     #[inline(always)]
     fn add_bodies<V: Real, const N: usize>(&mut self, rows: &BodyRows<'_, N>, law: &LinearLaw) {
-        rows.push::<V>(law.force, &mut self.x);
+        rows.add_to::<V>(law.force, &mut self.x);
         if law.slope == [0.0; 6] {
             return;
         }
@@ -195,15 +201,15 @@ impl NewtonStep {
             for j in first[i]..i {
                 let from = if first[i] > first[j] { first[i] } else { first[j] };
                 let other = &done[row[j]..=row[j] + j - first[j]];
-                let sum = dot::<V>(&this[from - first[i]..j - first[i]], &other[from - first[j]..j - first[j]]);
+                let sum = long_dot::<V>(&this[from - first[i]..j - first[i]], &other[from - first[j]..j - first[j]]);
                 this[j - first[i]] = (this[j - first[i]] - sum) * other[j - first[j]];
             }
             let (left, diagonal) = this.split_at_mut(i - first[i]);
             // the inverse of the root stands on the diagonal; the matrix is at least the unit matrix
-            let square = diagonal[0] - dot::<V>(left, left);
+            let square = diagonal[0] - long_dot::<V>(left, left);
             let inverse = 1.0 / (if square > 1.0 { square } else { 1.0 }).sqrt();
             diagonal[0] = inverse;
-            x[i] = (x[i] - dot::<V>(left, &x[first[i]..i])) * inverse;
+            x[i] = (x[i] - long_dot::<V>(left, &x[first[i]..i])) * inverse;
         }
         for i in (0..first.len()).rev() {
             let this = &matrix[row[i]..=row[i] + i - first[i]];
@@ -213,18 +219,46 @@ impl NewtonStep {
             subtract::<V>(&mut before[first[i]..], left, rest[0]);
         }
     }
+
+    /// Growth of the rates of a block with the change of the velocities.
+    #[inline(always)]
+    fn growth<V: Real>(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
+        let block = &sweeper.blocks[k];
+        let rows = &sweeper.rows[block.rows..];
+        match block.bodies {
+            Bodies::One(one) => BodyRows::first_of(rows, [one - start]).rates::<V>(&[0.0; 4], &self.x),
+            Bodies::Two(one, two) => {
+                BodyRows::first_of(rows, [one - start, two - start]).rates::<V>(&[0.0; 4], &self.x)
+            }
+            Bodies::Other => self.growth_of_others(sweeper, k, start),
+        }
+    }
+
+    fn growth_of_others(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
+        let block = &sweeper.blocks[k];
+        let mut growth = [0.0; 3];
+        let rows = sweeper.values[block.values..].chunks_exact(block.len.max(1));
+        for (growth, y) in growth.iter_mut().zip(rows).take(block.n) {
+            for (y, i) in y.iter().zip(&sweeper.index[block.index..]) {
+                if let Some(i) = (*i as usize).checked_sub(start) {
+                    *growth += y * self.x[i];
+                }
+            }
+        }
+        growth
+    }
 }
 
 /// A step on an island: changes its forces, and the velocities, which follow them; those of an island of hundreds of
 /// bodies stay.
-pub(super) struct Step<'a> {
+pub(super) struct IslandStep<'a> {
     step: &'a mut NewtonStep,
     sweeper: &'a mut Sweeper,
     blocks: Range<usize>,
     z: Range<usize>,
 }
 
-impl LaneVisitor for Step<'_> {
+impl LaneVisitor for IslandStep<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -260,36 +294,6 @@ impl LaneVisitor for Step<'_> {
             sweeper.rates::<V>(k);
             sweeper.change::<V>(k, admitted);
         }
-    }
-}
-
-impl NewtonStep {
-    /// Growth of the rates of a block with the change of the velocities.
-    #[inline(always)]
-    fn growth<V: Real>(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
-        let block = &sweeper.blocks[k];
-        let rows = &sweeper.rows[block.rows..];
-        match block.bodies {
-            Bodies::One(one) => BodyRows::first_of(rows, [one - start]).rates::<V>(&[0.0; 4], &self.x),
-            Bodies::Two(one, two) => {
-                BodyRows::first_of(rows, [one - start, two - start]).rates::<V>(&[0.0; 4], &self.x)
-            }
-            Bodies::Other => self.growth_of_others(sweeper, k, start),
-        }
-    }
-
-    fn growth_of_others(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
-        let block = &sweeper.blocks[k];
-        let mut growth = [0.0; 3];
-        let rows = sweeper.values[block.values..].chunks_exact(block.len.max(1));
-        for (growth, y) in growth.iter_mut().zip(rows).take(block.n) {
-            for (y, i) in y.iter().zip(&sweeper.index[block.index..]) {
-                if let Some(i) = (*i as usize).checked_sub(start) {
-                    *growth += y * self.x[i];
-                }
-            }
-        }
-        growth
     }
 }
 
@@ -336,7 +340,7 @@ fn combined<V: Real>(rows: [V; 3], by: [V; 3]) -> V {
 
 /// Scalar product of two lists, in four lanes and a rest.
 #[inline(always)]
-fn dot<V: Real>(x: &[f64], y: &[f64]) -> f64 {
+fn long_dot<V: Real>(x: &[f64], y: &[f64]) -> f64 {
     let (n, mut k) = (x.len(), 0);
     let y = &y[..n];
     let mut sums = V::zero();
@@ -371,10 +375,11 @@ fn subtract<V: Real>(x: &mut [f64], y: &[f64], by: f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Island, Law, Stillness, Sweeper, TOLERANCE};
-    use super::NewtonStep;
+    use sincro_math::{LaneVisitor, Lanes, Real, lanes};
+
+    use super::super::{Island, Law, Stillness, Sweeper, Sweeps, TOLERANCE};
+    use super::{Bodies, NewtonStep};
     use crate::solver::SolverReport;
-    use sincro_math::lanes;
 
     /// Number in (−1, 1).
     fn number(seed: &mut u64) -> f64 {
@@ -440,7 +445,7 @@ mod tests {
                 let (mut sweeper, blocks, z) = (solved.clone(), 0..40, 1..13);
                 if with_step {
                     let mut newton = NewtonStep::default();
-                    lanes::dispatch_four_lanes(newton.on(&mut sweeper, blocks.clone(), z.clone()));
+                    lanes::dispatch_four_lanes(newton.prepare(&mut sweeper, blocks.clone(), z.clone()));
                 }
                 Island { sweeper: &mut sweeper, blocks, z, rest_rate: 0.0, stillness: Stillness::Awake }
                     .sweep(4)
@@ -505,6 +510,60 @@ mod tests {
                     let kink = (plus[c] + minus[c] - 2.0 * sweeper.admitted(k, x).0[c]).abs() > 1e-10;
                     assert!(kink || (found - wanted[c]).abs() < 1e-10, "{law:?}: {found:e} for {:e}", wanted[c]);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_and_sweeps_have_the_same_bits_on_every_processor() {
+        struct Both<'a>(&'a mut Sweeper);
+        impl LaneVisitor for Both<'_> {
+            type Output = Vec<u64>;
+            #[inline(always)]
+            fn visit<V: Real>(self) -> Vec<u64> {
+                let (blocks, z) = (0..40, 1..13);
+                NewtonStep::default().prepare(self.0, blocks.clone(), z.clone()).visit::<V>();
+                let mut island = Island { sweeper: self.0, blocks, z, rest_rate: 0.0, stillness: Stillness::Awake };
+                Sweeps { island: &mut island, most: 6 }.visit::<V>();
+                let numbers = self.0.lambda.as_flattened().iter().chain(&self.0.z);
+                numbers.map(|x| x.to_bits()).collect()
+            }
+        }
+        for seed in 1..50 {
+            let mut solved = plates(20, seed);
+            solved.solve(0.01, &mut SolverReport::default());
+            for block in &mut solved.blocks {
+                block.b.iter_mut().for_each(|b| *b *= 1.1);
+            }
+            let baseline = Both(&mut solved.clone()).visit::<Lanes<4>>();
+            assert_eq!(lanes::dispatch_four_lanes(Both(&mut solved.clone())), baseline, "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn runs_of_velocities_that_overlap_have_the_same_step_as_any_others() {
+        let mut seed = 3;
+        for _ in 0..50 {
+            let mut sweeper = Sweeper::default();
+            sweeper.clear(14);
+            // two links of a chain, three of another, and a row of all
+            for dofs in [0..12, 3..9, 2..8, 8..14] {
+                let dofs: Vec<u32> = dofs.collect();
+                let values: Vec<f64> = (0..3 * dofs.len()).map(|_| number(&mut seed)).collect();
+                let b = [-1.0 - number(&mut seed), number(&mut seed), number(&mut seed)];
+                sweeper.add(Law::Coulomb { friction: 0.5 }, 0, 3, &dofs, &values, b, [0.1, 0.0, 0.0]);
+            }
+            sweeper.end_island(Stillness::Awake);
+            assert!(sweeper.blocks.iter().all(|block| block.bodies != Bodies::Other));
+            let mut others = sweeper.clone();
+            others.blocks.iter_mut().for_each(|block| block.bodies = Bodies::Other);
+            let forces = [&mut sweeper, &mut others].map(|sweeper| {
+                sweeper.resize_buffers();
+                lanes::dispatch_four_lanes(NewtonStep::default().prepare(sweeper, 0..4, 1..15));
+                sweeper.lambda.as_flattened().to_vec()
+            });
+            for (one, other) in forces[0].iter().zip(&forces[1]) {
+                assert!((one - other).abs() <= 1e-6 * (1.0 + other.abs()), "{forces:?}");
             }
         }
     }

@@ -1,8 +1,8 @@
-//! Several worlds side by side in the lanes of vector registers.
+//! Several worlds side by side, or numbers of one, in the lanes of vector registers.
 //!
 //! A computation that wants lanes is a [`LaneVisitor`]: generic over the number type, all of it `#[inline(always)]`.
 //! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has. A
-//! portable binary so gets vector speed.
+//! portable binary so gets vector speed. [`dispatch_four_lanes`] does so with four lanes on every processor.
 //!
 //! The vector types are not nameable outside: whoever holds one has come through the dispatch, on a processor that has
 //! it.
@@ -16,7 +16,7 @@ pub use array::Lanes;
 use crate::Real;
 use crate::real::Task;
 
-/// Computation over any kind of number, to be run by [`dispatch_lanes`]. Its `visit` must be `#[inline(always)]`, and
+/// Computation over any kind of number, to be run by [`dispatch_lanes`] or [`dispatch_four_lanes`]. Its `visit` must be `#[inline(always)]`, and
 /// so must everything that it calls, to be compiled for the instruction set that runs it.
 ///
 /// ```
@@ -163,7 +163,12 @@ mod tests {
             }
         }
         let numbers: Vec<f64> = (0..400).map(|k| 0.1 + (k * k % 17) as f64 / 3.0).collect();
-        assert_eq!(dispatch_four_lanes(Sum(&numbers)), Sum(&numbers).visit::<Lanes<4>>());
+        let baseline = four_lanes_baseline(Sum(&numbers));
+        assert_eq!(dispatch_four_lanes(Sum(&numbers)), baseline);
+        #[cfg(target_arch = "x86_64")]
+        if x86::level() != x86::Level::Baseline {
+            assert_eq!(x86::lanes_avx2(Sum(&numbers)), baseline);
+        }
     }
 
     #[test]

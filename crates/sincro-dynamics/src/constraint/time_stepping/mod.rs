@@ -7,8 +7,8 @@
 //! is wᵢ = bᵢ + yᵢ·z: a sweep over all contacts costs as much as the rows are long, for free bodies and robots alike.
 //!
 //! Bodies that touch each other directly or through others form an *island*; islands do not depend on each other and
-//! are solved one by one ([`sincro_complementarity::sweeps`]): Gauss–Seidel sweeps with the exact solution of each
-//! contact's own problem, accelerated by a nonsmooth nonlinear conjugate gradient method. The residual of the Coulomb
+//! are solved one by one ([`sincro_complementarity::sweeps`]): Gauss–Seidel sweeps with the solution of each contact's
+//! own problem, accelerated by a nonsmooth nonlinear conjugate gradient method. The residual of the Coulomb
 //! law is the test of convergence, and reported where it misses the tolerance.
 //!
 //! The constraint residual enters the vector b: a distance is used up within the step; a penetration beyond
