@@ -1,8 +1,8 @@
 //! Several worlds side by side, or numbers of one, in the lanes of vector registers.
 //!
 //! A computation that wants lanes is a [`LaneVisitor`]: generic over the number type, all of it `#[inline(always)]`.
-//! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has. A
-//! portable binary so gets vector speed. [`dispatch_four_lanes`] does so with four lanes on every processor.
+//! [`dispatch_lanes`] compiles it for each vector instruction set and runs the widest that this processor has;
+//! [`dispatch_four_lanes`] does so with four lanes on every processor. A portable binary so gets vector speed.
 //!
 //! The vector types are not nameable outside: whoever holds one has come through the dispatch, on a processor that has
 //! it.
@@ -16,8 +16,8 @@ pub use array::Lanes;
 use crate::Real;
 use crate::real::Task;
 
-/// Computation over any kind of number, to be run by [`dispatch_lanes`] or [`dispatch_four_lanes`]. Its `visit` must be `#[inline(always)]`, and
-/// so must everything that it calls, to be compiled for the instruction set that runs it.
+/// Computation over any kind of number, to be run by [`dispatch_lanes`] or [`dispatch_four_lanes`]. Its `visit` must be
+/// `#[inline(always)]`, and so must everything that it calls, to be compiled for the instruction set that runs it.
 ///
 /// ```
 /// use sincro_math::{LaneVisitor, Real, lanes};
