@@ -6,8 +6,8 @@
 
 use sincro_math::Real;
 
-/// Bodies that the rows of a contact with sliding friction move, where each has six velocities one after the other: free
-/// ones, and links of robots with so many joints before them. The velocities of two contacts may overlap.
+/// Bodies that the rows of a contact with sliding friction move, where each has six velocities one after the other:
+/// free ones, and links of robots with so many joints before them. The velocities of two contacts may overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bodies {
     /// First velocity of one body.

@@ -1,10 +1,10 @@
 //! Nonsmooth nonlinear conjugate gradient method on block Gauss–Seidel sweeps, island by island.
 //!
-//! A sweep solves each contact's own problem, one after the other (`local`): exactly where it is open or sticks, a slip to
-//! a thousandth of its friction, from sweep to sweep better. Its change of all forces
-//! is taken for a descent direction: with ∇ the change and β = ‖∇_k‖²/‖∇_{k−1}‖² the forces are moved further along the
-//! last direction, p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖:
-//! they weigh forces and torques by their effect. Source: key `silcowitz2010`.
+//! A sweep solves each contact's own problem, one after the other (`local`): exactly where it is open or sticks, a slip
+//! to a thousandth of its friction, from sweep to sweep better. Its change of all forces is taken for a descent
+//! direction: with ∇ the change and β = ‖∇_k‖²/‖∇_{k−1}‖² the forces are moved further along the last direction,
+//! p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖: they weigh forces
+//! and torques by their effect. Source: key `silcowitz2010`.
 //!
 //! Where that converges slowly, Newton steps for all forces of the island together take turns with sweeps (`newton`).
 //!

@@ -104,8 +104,8 @@ impl NewtonStep {
         true
     }
 
-    /// Lets the rows of six velocities begin at `least` or before, and end with the last of them or behind: those of two
-    /// contacts of a robot may overlap.
+    /// Lets the rows of six velocities begin at `least` or before, and end with the last of them or behind: those of
+    /// two contacts of a robot may overlap.
     fn lay_out_body(&mut self, at: usize, least: usize) {
         self.first[at..at + 6].iter_mut().for_each(|first| *first = least.min(*first));
         self.end[at..at + 6].iter_mut().for_each(|end| *end = (at + 6).max(*end));
