@@ -151,14 +151,17 @@ mod tests {
 
     #[test]
     fn every_slot_has_the_pair_that_a_binary_search_finds() {
-        // pairs with one slot before or behind those with many or none; where they are behind one with very many, the
-        // search begins far above
+        // pairs with one slot before or behind those with many or none; behind one with very many the search begins far
+        // above, before one far below
         for (few, is_first) in [0, 1, 3, 70, 100].into_iter().flat_map(|few| [(few, true), (few, false)]) {
             let mut pairs: Vec<Pair> = Vec::new();
             for k in 0..100_usize {
-                let is_one_of_few = if is_first { k < few } else { k >= 100 - few };
-                let slots = if is_one_of_few { 1 } else { k * k % 9 };
-                let slots = if k == 99 && is_first { 1000 } else { slots };
+                let (is_one_of_few, is_large) = if is_first { (k < few, k == 99) } else { (k >= 100 - few, k == 0) };
+                let slots = match k {
+                    _ if is_large => 1000,
+                    _ if is_one_of_few => 1,
+                    _ => k * k % 9,
+                };
                 let first = pairs.last().map_or(0, |last| last.first + last.slots);
                 let material = Material::default();
                 pairs.push(Pair { a: 0, b: 1, material, is_ignored: false, first, slots, kind: PairKind::General });

@@ -546,7 +546,7 @@ mod tests {
         for _ in 0..50 {
             let mut sweeper = Sweeper::default();
             sweeper.clear(14);
-            // two links of a chain, three of another, and a row of all
+            // runs of six velocities that overlap without being the same
             for dofs in [0..12, 3..9, 2..8, 8..14] {
                 let dofs: Vec<u32> = dofs.collect();
                 let values: Vec<f64> = (0..3 * dofs.len()).map(|_| number(&mut seed)).collect();
