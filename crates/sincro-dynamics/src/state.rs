@@ -4,10 +4,11 @@
 //! parameters of the model ([`ModelParams`](crate::model::ModelParams)) are values of their own, which a snapshot keeps
 //! beside the state.
 
+use sincro_complementarity::{RESERVED_SLOTS, SLOT_LEN};
 use sincro_math::Real;
 
 use crate::joint::StageKind;
-use crate::model::{Model, RESERVED_SLOTS, SLOT_LEN};
+use crate::model::Model;
 use crate::spatial::{Quat, Vec3};
 
 /// State of a world: generalized coordinates and velocities, commands, modes, warm start, totals.

@@ -26,7 +26,6 @@
 //! | `impact` | impacts, contact points |
 //! | `projection` | projection of positions and velocities |
 //! | `active_rows` | equations that hold at a state, for analysis |
-//! | `warm_start` | multipliers and contact modes kept between evaluations; fallback for Zeno behaviour |
 //!
 //! What the world asks of a constrained mechanism (detect contacts, apply an impact, project) is in `crate::mechanism`.
 //!
@@ -43,12 +42,12 @@ mod projection;
 pub(crate) mod rank;
 pub(crate) mod row;
 mod time_stepping;
-pub(crate) mod warm_start;
 
 pub(crate) use sincro_complementarity::HeldLaw;
 use sincro_complementarity::sweeps::rest::Rest;
 use sincro_complementarity::{
-    ContactMode, ContactProblem, HELD_RATE, Load, SlowSliding, Solution, Solver, UnilateralConstraint, is_observable,
+    ContactMode, ContactProblem, HELD_RATE, Load, SlowSliding, Solution, Solver, UnilateralConstraint, WarmStart,
+    is_observable,
 };
 use sincro_math::{Real, dot};
 
@@ -66,7 +65,6 @@ use kink::{Kink, drive_groups};
 use row::{Motions, Row};
 pub(crate) use time_stepping::DIRECT_ROWS;
 use time_stepping::TimeStepping;
-use warm_start::WarmStart;
 
 /// Signed distance below which a constraint counts as closed `[m]` or `[rad]`; projection leaves a thousandth of it.
 pub(crate) const CLOSED_DISTANCE: f64 = 1e-9;

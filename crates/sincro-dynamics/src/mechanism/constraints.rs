@@ -1,10 +1,10 @@
 //! Operations of a constrained mechanism between integration steps: contact detection, impacts, projection, zero
 //! crossings of contacts.
 
+use sincro_complementarity::WarmStart;
 use sincro_math::Real;
 
 use crate::constraint::row::Motions;
-use crate::constraint::warm_start::WarmStart;
 use crate::constraint::{
     CLOSED_DISTANCE, ConstraintSet, Constraints, DIRECT_ROWS, HeldLaw, LEAST_ZERO_SPEED, LOCATED_DISTANCE,
     MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED, pair_of,

@@ -1,16 +1,10 @@
 //! Constraints of a model as they are declared: loop joints, gears, joint limits, colliders and their pairs.
 
+use sincro_complementarity::SLOT_LEN;
 use sincro_math::Real;
 
 use crate::contact::{Collider, Pair};
 use crate::spatial::Pose;
-
-/// Length of a slot's record in [`crate::state::State::contacts`] after the slot's index: six multipliers (normal, two
-/// of friction, two of rolling, one of spinning) and the contact mode.
-pub const SLOT_LEN: usize = 7;
-
-/// Number of slots for which memory is reserved beforehand.
-pub(crate) const RESERVED_SLOTS: usize = 64;
 
 /// Frame fixed in a link or the world: one end of a [`LoopJoint`].
 #[derive(Clone, Debug, PartialEq)]

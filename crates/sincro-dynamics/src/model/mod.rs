@@ -33,12 +33,12 @@ pub use builder::{
     BodySpec, BushingSpec, DragSpec, ElasticGearSpec, ForceSpec, GearSpec, JointSpec, LoopJointSpec, ModelBuilder,
     NodeId, PathSpec, REST_SPEED, RotorDrive, RotorSpec, SpringDamperSpec,
 };
-pub(crate) use constraints::RESERVED_SLOTS;
-pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind, SLOT_LEN};
+pub use constraints::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, LoopJointKind};
 pub use diagnostic::{BuildError, Diagnostic, Severity};
 pub use names::{Attached, FrameInfo, JointInfo, Names, SensorInfo};
 pub use pack::PackError;
 pub use parameters::ModelParams;
+pub use sincro_complementarity::SLOT_LEN;
 pub use structure::Structure;
 
 use crate::actuation::Drive;

@@ -1,9 +1,10 @@
 //! Constraints within a tick: impacts at the start of a sub-step, events that end it, projection after it, and steps at
 //! velocity level as a fallback for Zeno behaviour.
 
+use sincro_complementarity::{WarmStart, ZenoFallback};
+
 use super::{Method, Stop, World};
 use crate::actuation::DriveKind;
-use crate::constraint::warm_start::{WarmStart, ZenoFallback};
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, SemiImplicitEuler};
 use crate::mechanism::constraints::{ActivationRule, ProjectedRows};

@@ -4,8 +4,9 @@
 //! problem ([`crate::constraint::kink`]), and one solution decides all modes. Elsewhere the drives are decided among
 //! themselves ([`super::switching`]).
 
+use sincro_complementarity::WarmStart;
+
 use super::World;
-use crate::constraint::warm_start::WarmStart;
 use crate::coupled::CoupledSystem;
 
 /// Relative difference of accelerations above which solutions are different motions.

@@ -1,8 +1,9 @@
 //! Sub-steps of a tick: as many as the method and the events need, and what ends storms of events.
 
+use sincro_complementarity::ZenoFallback;
+
 use super::contacts::{MAX_CONTACT_EVENTS, MAX_EVENTS_AGAIN};
 use super::{Method, SAME_INSTANT, Stop, World};
-use crate::constraint::warm_start::ZenoFallback;
 use crate::constraint::{ModeRule, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Control, Failure, FixedStep, System};

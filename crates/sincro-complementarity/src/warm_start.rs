@@ -8,10 +8,16 @@
 //!
 //! In the state stands the [`ZenoFallback`], then one record a slot that has been solved: its index and these numbers.
 
-use sincro_complementarity::{ContactMode, UnilateralConstraint};
 use sincro_math::Real;
 
-use crate::model::{RESERVED_SLOTS, SLOT_LEN};
+use super::cone::{ContactMode, UnilateralConstraint};
+
+/// Numbers of a slot behind its index: six multipliers (normal, two of sliding friction, two of rolling, one of
+/// spinning) and the code of its modes.
+pub const SLOT_LEN: usize = 7;
+
+/// Number of slots that there is room for from the start; more take memory once they are closed.
+pub const RESERVED_SLOTS: usize = 64;
 
 /// Numbers of a slot in the state: its index, then its multipliers and code.
 const RECORD_LEN: usize = 1 + SLOT_LEN;
@@ -23,8 +29,10 @@ const FEATURE: f64 = 32.0;
 /// velocity level without event location, `left` of which remain. The pause doubles until a tick succeeds; a heap that
 /// comes to rest would otherwise cost a hundred located events a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct ZenoFallback {
+pub struct ZenoFallback {
+    /// Number of ticks without event location after a tick with too many events.
     pub pause: u32,
+    /// Number of those that remain.
     pub left: u32,
 }
 
@@ -33,6 +41,7 @@ impl ZenoFallback {
     const MOST: u32 = 32;
 
     /// Fallback after one more tick with too many events.
+    #[must_use]
     pub fn lost(self) -> Self {
         let pause = (2 * self.pause).clamp(1, Self::MOST);
         Self { pause, left: pause }
@@ -96,7 +105,7 @@ impl<R: Real> Entry<R> {
 
 /// Entries of the slots that are closed or were, in increasing order of slots.
 #[derive(Clone, Debug)]
-pub(crate) struct WarmStart<R> {
+pub struct WarmStart<R> {
     entries: Vec<Entry<R>>,
     /// Entries before the classification that is being made.
     former: Vec<Entry<R>>,
@@ -114,6 +123,8 @@ pub(crate) struct WarmStart<R> {
 }
 
 impl<R: Real> WarmStart<R> {
+    /// Nothing kept yet, for a mechanism with `n_slots` contacts and limits.
+    #[must_use]
     pub fn new(n_slots: usize) -> Self {
         let usual = n_slots.min(RESERVED_SLOTS);
         Self {
@@ -191,16 +202,19 @@ impl<R: Real> WarmStart<R> {
         self.entries.iter_mut().for_each(|entry| entry.start = [R::zero(); SLOT_LEN]);
     }
 
+    /// Fallback for Zeno behaviour, part of the state.
     pub fn zeno_fallback(&self) -> ZenoFallback {
         self.zeno_fallback
     }
 
+    /// Sets the fallback for Zeno behaviour.
     pub fn set_zeno_fallback(&mut self, zeno_fallback: ZenoFallback) {
         if self.has_slots {
             self.zeno_fallback = zeno_fallback;
         }
     }
 
+    /// Returns true if a slot was last classified as closed.
     pub fn is_closed(&self, slot: usize) -> bool {
         self.entry(slot).is_some_and(|entry| entry.closed)
     }
@@ -225,10 +239,12 @@ impl<R: Real> WarmStart<R> {
         core::mem::take(&mut self.entry_mut(slot).is_new)
     }
 
+    /// Returns true if a friction group of a slot was last classified as sliding.
     pub fn is_sliding(&self, slot: usize, group: usize) -> bool {
         self.entry(slot).is_some_and(|entry| entry.is_sliding[group])
     }
 
+    /// Direction of the friction of a group of a slot.
     pub fn direction(&self, slot: usize, group: usize) -> [R; 2] {
         self.entry(slot).map_or([R::zero(); 2], |entry| entry.directions[group])
     }
