@@ -97,6 +97,8 @@ pub struct Solver<R> {
     pub report: SolverReport,
     /// Report at the start of the trial step that is being made, none outside of one.
     trial: Option<SolverReport>,
+    /// True if the last problem was left as ADMM solved it, with friction that is a little within its limit.
+    pub is_approximate: bool,
     /// Rank tolerance of corrections.
     pub rank: f64,
     /// Smallest scaled pivot of the last linear system.
@@ -150,6 +152,7 @@ impl<R: Real> Solver<R> {
 
     /// Finds λ, which holds the warm start (or zeros) before, and the contact modes.
     pub fn solve(&mut self, problem: &ContactProblem<'_, R>, blocks: &mut [UnilateralConstraint<R>], lambda: &mut [R]) {
+        self.is_approximate = false;
         if self.solve_nearby(problem, blocks, lambda) {
             return;
         }
@@ -181,6 +184,7 @@ impl<R: Real> Solver<R> {
                     break;
                 }
                 // feasible, only not exact
+                self.is_approximate = true;
                 lambda.copy_from_slice(&self.start);
                 blocks.copy_from_slice(&all_active);
                 self.active_set.take(problem.n_free, blocks, lambda);

@@ -27,14 +27,14 @@ const MAX_ROWS: usize = 48;
 
 impl<R: Real> Solver<R> {
     /// Returns true if other modes than those of the solution `blocks`, `lambda` keep all laws as well and give other
-    /// rates. The solution stays as it is.
+    /// rates. The solution stays as it is; one that is approximate has no other.
     pub fn has_other_solution(
         &mut self,
         problem: &ContactProblem<'_, R>,
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) -> bool {
-        if blocks.is_empty() || problem.m() > MAX_ROWS {
+        if blocks.is_empty() || problem.m() > MAX_ROWS || self.is_approximate {
             return false;
         }
         let report = self.report;

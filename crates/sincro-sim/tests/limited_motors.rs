@@ -13,6 +13,7 @@ use sincro_sim::results::Status;
 use sincro_sim::run::LockStep;
 use sincro_sim::{Extensions, load};
 use sincro_testing::SceneFolder;
+use sincro_testing::random::Draw;
 
 fn campaign(scene: &str, duration: f64) -> Campaign {
     campaign_of(scene, duration, "energy.balance")
@@ -262,28 +263,6 @@ fn a_robot_that_rolls_at_the_speed_of_its_wheels_has_no_impacts() {
     // once when the command jumps
     assert!(run.statistics.impacts <= 1, "{:?}", run.statistics);
     assert!((run.energy.kinetic_end - 0.171).abs() < 1e-9, "{:?}", run.energy);
-}
-
-/// Numbers of a linear congruential generator in [0, 1).
-struct Draw(u64);
-
-impl Draw {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn decade(&mut self, low: f64, high: f64) -> f64 {
-        libm::pow(10.0, self.between(low, high))
-    }
-
-    fn one_of<T: Copy>(&mut self, of: &[T]) -> T {
-        of[((self.unit() * of.len() as f64) as usize).min(of.len() - 1)]
-    }
 }
 
 /// An arm of two to four links above a floor that its last link reaches, with limited motors, joint limits, friction.

@@ -7,11 +7,13 @@
 //! and torques by their effect. Source: key `silcowitz2010`.
 //!
 //! Where that converges slowly, Newton steps for all forces of the island together take turns with sweeps (`newton`).
+//! Wherever sweeps would end, limited drives are settled beside the contact forces found (`drives`).
 //!
 //! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
 //! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
 
 mod body_rows;
+mod drives;
 pub mod islands;
 mod local;
 mod newton;
@@ -21,6 +23,7 @@ use sincro_math::{LaneVisitor, Real, lanes};
 
 use crate::solver::SolverReport;
 use body_rows::{Bodies, BodyRows, push_rows};
+use drives::Drives;
 use local::{ContactLocal, TangentialProblem};
 use newton::NewtonStep;
 
@@ -66,6 +69,10 @@ const LARGEST_RESIDUAL: f64 = 3e-3;
 /// Number of these sweeps at a time, and how often they are made.
 const LAST_SWEEPS: usize = 200;
 const MAX_LAST_ROUNDS: usize = 20;
+
+/// Shares of the change of each force that such sweeps make, one after the other where they get no further: friction
+/// that several contacts of one light mechanism share may go round in circles.
+const DAMPED: [f64; 4] = [1.0, 0.7, 0.3, 0.1];
 
 /// Residual below which one Newton step must do, unless the island hardly moves: bodies that hit each other share
 /// forces that soon are others, and those at rest would creep.
@@ -114,6 +121,17 @@ impl Law {
             Self::Coulomb { .. } | Self::Interval { .. } | Self::Disc { .. } => free.clamp(-limit, limit),
         }
     }
+}
+
+/// Meaning of the forces given with the blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GivenForces {
+    /// Guess to start from.
+    #[default]
+    Start,
+    /// Solution for the contacts, which stands in islands that never rest: drives and bilateral rows alone are solved
+    /// beside them.
+    Solution,
 }
 
 /// Rows with one law.
@@ -219,6 +237,7 @@ pub struct Sweeper {
     /// Forces that an island starts from in which nothing moves.
     start: Vec<[f64; 3]>,
     newton: NewtonStep,
+    drives: Drives,
     last: Solved,
 }
 
@@ -329,13 +348,13 @@ impl Sweeper {
         self.last.outcomes[island].stands
     }
 
-    /// Solves all islands of a step of length `h` `[s]` from the forces given as a start.
-    pub fn solve(&mut self, h: f64, report: &mut SolverReport) {
+    /// Solves all islands of a step of length `h` `[s]` from the forces given with the blocks.
+    pub fn solve(&mut self, h: f64, given: GivenForces, report: &mut SolverReport) {
         if self.is_last(h) {
             self.lambda.clone_from(&self.last.forces);
         } else {
             self.keep_problem(h);
-            self.solve_islands(h);
+            self.solve_islands(h, given);
             self.last.forces.clone_from(&self.lambda);
         }
         let SolverReport { islands, sweeps, unconverged_islands, worst_island, .. } = self.last.report;
@@ -370,14 +389,18 @@ impl Sweeper {
         last.blocks.extend(blocks.iter().zip(lambda).map(|(block, force)| (block.law, block.row, block.b, *force)));
     }
 
-    fn solve_islands(&mut self, h: f64) {
+    fn solve_islands(&mut self, h: f64, given: GivenForces) {
         let mut report = SolverReport::default();
         self.resize_buffers();
         self.last.outcomes.clear();
         for k in 0..self.islands.len() {
             let IslandRange { blocks, z, stillness } = self.islands[k];
             let (blocks, z) = (blocks.0..blocks.1, z.0..z.1);
-            let outcome = Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h, stillness }.solve();
+            let island = Island { sweeper: self, blocks, z, rest_rate: REST_SPEED / h, stillness };
+            let outcome = match (given, stillness) {
+                (GivenForces::Solution, Stillness::Awake) => island.settle(),
+                _ => island.solve(),
+            };
             self.last.outcomes.push(outcome);
             let Outcome { residual, sweeps, .. } = outcome;
             report.islands += 1;
@@ -386,6 +409,27 @@ impl Sweeper {
             report.worst_island = report.worst_island.max(residual);
         }
         self.last.report = report;
+    }
+
+    /// Takes the drives of an island ([`Drives::collect`]).
+    fn collect_drives(&mut self, blocks: core::ops::Range<usize>, z: core::ops::Range<usize>, all: bool) {
+        let mut drives = core::mem::take(&mut self.drives);
+        drives.collect(self, blocks, z, all);
+        self.drives = drives;
+    }
+
+    /// Settles the drives last taken ([`Drives::settle`]).
+    fn settle_drives(&mut self) {
+        let mut drives = core::mem::take(&mut self.drives);
+        drives.settle(self);
+        self.drives = drives;
+    }
+
+    /// Places in z of the numbers of the first row of a block, and these.
+    fn first_row(&self, k: usize) -> impl Iterator<Item = (usize, f64)> {
+        let block = &self.blocks[k];
+        let index = &self.index[block.index..block.index + block.len];
+        index.iter().map(|i| *i as usize).zip(self.values[block.values..].iter().copied())
     }
 
     /// Working memory for the present problem.
@@ -474,12 +518,17 @@ impl Sweeper {
         }
     }
 
-    /// Gives a block the force that solves its own problem. Returns the squares of the change and of the force.
+    /// Changes the force of a block by a `share` of what would solve its own problem, of contacts and limits; all of it
+    /// for others. Returns the squares of the change and of the force.
     #[inline(always)]
-    fn relax<V: Real>(&mut self, k: usize) -> [f64; 2] {
+    fn relax<V: Real>(&mut self, k: usize, share: f64) -> [f64; 2] {
         let before = self.lambda[k];
         let u = self.rates::<V>(k);
-        let lambda = self.own_force(k, u);
+        let mut lambda = self.own_force(k, u);
+        if share < 1.0 && matches!(self.blocks[k].law, Law::Coulomb { .. } | Law::Unilateral) {
+            let change = minus(lambda, before);
+            lambda = minus(before, [-share * change[0], -share * change[1], -share * change[2]]);
+        }
         self.change::<V>(k, lambda);
         [square(minus(lambda, before)), square(lambda)]
     }
@@ -583,6 +632,7 @@ struct Island<'a> {
 
 impl Island<'_> {
     fn solve(mut self) -> Outcome {
+        self.sweeper.collect_drives(self.blocks.clone(), self.z.clone(), false);
         self.find_velocities();
         if self.stillness != Stillness::Still {
             return self.improve();
@@ -647,21 +697,34 @@ impl Island<'_> {
         }
         self.restore();
         self.sweeper.newton = newton;
+        let mut shares = DAMPED.into_iter();
+        let mut share = shares.next();
         for _ in 0..MAX_LAST_ROUNDS {
-            if best <= LARGEST_RESIDUAL {
-                break;
-            }
+            let Some(damped) = share.filter(|_| best > LARGEST_RESIDUAL) else { break };
             self.find_velocities();
-            let swept = self.sweep(LAST_SWEEPS);
+            let swept = self.sweep_damped(damped, LAST_SWEEPS);
             sweeps += swept.sweeps;
-            if swept.residual >= best {
-                break;
+            if swept.residual < best {
+                best = swept.residual;
+                self.keep();
+            } else {
+                self.restore();
+                share = shares.next();
             }
-            best = swept.residual;
-            self.keep();
         }
         self.restore();
         Outcome { residual: best, sweeps, stands: false }
+    }
+
+    /// Settles drives and bilateral rows beside the present forces of contacts, which stand.
+    fn settle(mut self) -> Outcome {
+        self.sweeper.collect_drives(self.blocks.clone(), self.z.clone(), true);
+        self.find_velocities();
+        self.sweeper.settle_drives();
+        let forces = &self.sweeper.lambda[self.blocks.clone()];
+        let largest = forces.iter().map(|force| square(*force)).fold(0.0, f64::max).sqrt();
+        let (residual, _) = lanes::dispatch_four_lanes(FindResidual { island: &mut self, largest });
+        Outcome { residual, sweeps: 0, stands: false }
     }
 
     /// The velocities of the present forces.
@@ -684,7 +747,12 @@ impl Island<'_> {
 
     /// Makes up to `most` sweeps, fewer if they suffice.
     fn sweep(&mut self, most: usize) -> Swept {
-        lanes::dispatch_four_lanes(Sweeps { island: self, most })
+        self.sweep_damped(1.0, most)
+    }
+
+    /// The same, making a share of the change of each force.
+    fn sweep_damped(&mut self, share: f64, most: usize) -> Swept {
+        lanes::dispatch_four_lanes(Sweeps { island: self, share, most })
     }
 }
 
@@ -727,6 +795,8 @@ impl LaneVisitor for FindResidual<'_, '_> {
 /// Sweeps over an island, at most so many.
 struct Sweeps<'a, 'b> {
     island: &'a mut Island<'b>,
+    /// Share of the change of each force; below 1 without acceleration.
+    share: f64,
     most: usize,
 }
 
@@ -735,19 +805,20 @@ impl LaneVisitor for Sweeps<'_, '_> {
 
     #[inline(always)]
     fn visit<V: Real>(self) -> Swept {
-        let (Island { sweeper, blocks, z, rest_rate, stillness }, most) = (self.island, self.most);
+        let Self { island: Island { sweeper, blocks, z, rest_rate, stillness }, share, most } = self;
         let mut last_square = 0.0;
         for sweep in 1..=most {
             sweeper.z_before[z.clone()].copy_from_slice(&sweeper.z[z.clone()]);
             sweeper.before[blocks.clone()].copy_from_slice(&sweeper.lambda[blocks.clone()]);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for k in blocks.clone() {
-                let [of_change, of_force] = sweeper.relax::<V>(k);
+                let [of_change, of_force] = sweeper.relax::<V>(k, share);
                 change = if of_change > change { of_change } else { change };
                 largest = if of_force > largest { of_force } else { largest };
             }
             let is_last = sweep == most;
             if change <= TOLERANCE * TOLERANCE * largest || is_last || largest == 0.0 {
+                sweeper.settle_drives();
                 let (residual, fastest) =
                     residual::<V>(sweeper, blocks.clone(), largest.sqrt(), *stillness != Stillness::Awake);
                 let motion = fastest / *rest_rate;
@@ -760,7 +831,7 @@ impl LaneVisitor for Sweeps<'_, '_> {
             let square = square_of_difference(&sweeper.z[z.clone()], &sweeper.z_before[z.clone()]);
             let beta = if last_square > 0.0 { square / last_square } else { f64::INFINITY };
             last_square = square;
-            let beta = if beta <= 1.0 { beta } else { 0.0 };
+            let beta = if beta <= 1.0 && share == 1.0 { beta } else { 0.0 };
             let Sweeper { z: v, z_before, direction_z, lambda, before, direction, .. } = &mut **sweeper;
             go_on(beta, &mut v[z.clone()], &z_before[z.clone()], &mut direction_z[z.clone()]);
             go_on(

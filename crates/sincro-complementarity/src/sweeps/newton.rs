@@ -377,7 +377,7 @@ fn subtract<V: Real>(x: &mut [f64], y: &[f64], by: f64) {
 mod tests {
     use sincro_math::{LaneVisitor, Lanes, Real, lanes};
 
-    use super::super::{Island, Law, Stillness, Sweeper, Sweeps, TOLERANCE};
+    use super::super::{GivenForces, Island, Law, Stillness, Sweeper, Sweeps, TOLERANCE};
     use super::{Bodies, NewtonStep};
     use crate::solver::SolverReport;
 
@@ -425,7 +425,7 @@ mod tests {
         for seed in 1..200 {
             let mut sweeper = plates(20, seed);
             let mut report = SolverReport::default();
-            sweeper.solve(0.01, &mut report);
+            sweeper.solve(0.01, GivenForces::Start, &mut report);
             assert_eq!(report.unconverged_islands, 0, "seed {seed}: {report:?}");
             assert!(report.worst_island <= TOLERANCE, "seed {seed}: {report:?}");
         }
@@ -436,7 +436,7 @@ mod tests {
         let mut better = 0;
         for seed in 1..200 {
             let mut solved = plates(20, seed);
-            solved.solve(0.01, &mut SolverReport::default());
+            solved.solve(0.01, GivenForces::Start, &mut SolverReport::default());
             for block in &mut solved.blocks {
                 // the same modes, other forces
                 block.b.iter_mut().for_each(|b| *b *= 1.01);
@@ -464,19 +464,19 @@ mod tests {
             forces
         };
         let (mut sweeper, mut once) = (plates(8, 3), SolverReport::default());
-        sweeper.solve(0.01, &mut once);
+        sweeper.solve(0.01, GivenForces::Start, &mut once);
         let first = forces(&sweeper);
         let start = plates(8, 3);
         sweeper.blocks.clone_from(&start.blocks);
         sweeper.lambda.clone_from(&start.lambda);
         let mut twice = once;
-        sweeper.solve(0.01, &mut twice);
+        sweeper.solve(0.01, GivenForces::Start, &mut twice);
         assert_eq!(forces(&sweeper), first);
         assert_eq!((twice.islands, twice.sweeps), (2 * once.islands, 2 * once.sweeps));
         // another one is solved anew
         (sweeper.blocks, sweeper.lambda) = (start.blocks, start.lambda);
         sweeper.blocks[0].b[0] -= 1.0;
-        sweeper.solve(0.01, &mut once);
+        sweeper.solve(0.01, GivenForces::Start, &mut once);
         assert_ne!(forces(&sweeper), first);
     }
 
@@ -524,14 +524,14 @@ mod tests {
                 let (blocks, z) = (0..40, 1..13);
                 NewtonStep::default().prepare(self.0, blocks.clone(), z.clone()).visit::<V>();
                 let mut island = Island { sweeper: self.0, blocks, z, rest_rate: 0.0, stillness: Stillness::Awake };
-                Sweeps { island: &mut island, most: 6 }.visit::<V>();
+                Sweeps { island: &mut island, share: 1.0, most: 6 }.visit::<V>();
                 let numbers = self.0.lambda.as_flattened().iter().chain(&self.0.z);
                 numbers.map(|x| x.to_bits()).collect()
             }
         }
         for seed in 1..50 {
             let mut solved = plates(20, seed);
-            solved.solve(0.01, &mut SolverReport::default());
+            solved.solve(0.01, GivenForces::Start, &mut SolverReport::default());
             for block in &mut solved.blocks {
                 block.b.iter_mut().for_each(|b| *b *= 1.1);
             }

@@ -44,6 +44,7 @@ pub(crate) mod row;
 mod time_stepping;
 
 pub(crate) use sincro_complementarity::HeldLaw;
+use sincro_complementarity::sweeps::GivenForces;
 use sincro_complementarity::sweeps::rest::Rest;
 use sincro_complementarity::{
     ContactMode, ContactProblem, HELD_RATE, Load, SlowSliding, Solution, Solver, UnilateralConstraint, WarmStart,
@@ -209,6 +210,8 @@ pub(crate) struct Constraints<R> {
     contact_torque: Vec<R>,
     /// True while problems at velocity level are solved by sweeps ([`time_stepping`]).
     pub sweeps: bool,
+    /// Meaning of the contact forces kept, for sweeps.
+    pub given_forces: GivenForces,
     /// True if the forces last found are those of sweeps.
     is_swept: bool,
 }
@@ -264,6 +267,7 @@ impl<R: Real> Constraints<R> {
             wrenches: vec![Force::zero(); model.links.len()],
             contact_torque: vec![R::zero(); model.n_v()],
             sweeps: false,
+            given_forces: GivenForces::Start,
             is_swept: false,
         };
         // more contacts than this at once enlarge the memory, once for every new maximum
@@ -401,6 +405,7 @@ impl<R: Real> Constraints<R> {
         let held = holds && self.solver.hold(&problem, &mut self.blocks, &mut self.lambda, load);
         self.lost_modes = holds && !held;
         if held {
+            self.solver.is_approximate = false;
             if self.mode_rule != ModeRule::Held {
                 self.check_held_modes();
             }

@@ -2,6 +2,7 @@
 //! crossings of contacts.
 
 use sincro_complementarity::WarmStart;
+use sincro_complementarity::sweeps::GivenForces;
 use sincro_math::Real;
 
 use crate::constraint::row::Motions;
@@ -184,12 +185,22 @@ impl Mechanism<f64> {
         self.constraints.is_some() && !self.model.has_lines() && self.model.params.constraints.max_rows() > DIRECT_ROWS
     }
 
+    /// Returns true if problems at velocity level can be solved by sweeps, which know no forces of lines at the new
+    /// state.
+    pub(crate) fn can_sweep(&self) -> bool {
+        self.constraints.is_some() && !self.model.has_lines()
+    }
+
     /// Sets whether problems at velocity level are solved by sweeps in the evaluations that follow.
     pub(crate) fn set_sweeps(&mut self, sweeps: bool) {
         if let Some(c) = &mut self.constraints {
-            // sweeps know no forces of lines at the new state
             c.sweeps = sweeps && !self.model.has_lines();
         }
+    }
+
+    /// Sets what the contact forces last found by sweeps are for the problems that follow.
+    pub(crate) fn set_given_forces(&mut self, given: GivenForces) {
+        self.constraints.iter_mut().for_each(|c| c.given_forces = given);
     }
 
     /// Sets the treatment of contact modes in the evaluations that follow.

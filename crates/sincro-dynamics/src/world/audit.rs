@@ -17,8 +17,9 @@
 //! \|p\| is the largest distance of a link from the world's origin. The scales are those of the local error that error
 //! control allows, max(\|y\|, 1), so that a tolerance times a scale is the largest residual that an accuracy allows.
 //!
-//! Drives are audited at the end of a tick only, under the target velocities of that tick; their forces not where an
-//! input jumps at that instant, since a drive changes its mode at the start of the next tick.
+//! Drives are audited at the end of a tick only, under the target velocities and the modes of that tick; their forces,
+//! in the modes that these forces were found with, not where an input jumps at that instant, since a drive changes its
+//! mode at the start of the next tick.
 
 use super::Observation;
 use crate::constraint::{Constraints, pair_of};
@@ -286,7 +287,8 @@ impl Observation<'_> {
     }
 
     fn add_drives(&self, scales: &Scales, found: &mut LawResiduals) {
-        let (model, modes) = (self.model(), &self.mechanism.drives);
+        // modes of the step that ends here, and those of the present forces
+        let (model, modes, present) = (self.model(), &self.state.drives, &self.mechanism.drives);
         let reaction = |dof: usize| self.mechanism.scratch.reaction[dof];
         let largest = model.params.drives.iter().map(|drive| reaction(drive.dof).abs()).fold(0.0, f64::max);
         for (k, drive) in model.params.drives.iter().enumerate() {
@@ -299,7 +301,11 @@ impl Observation<'_> {
                 continue;
             }
             found.add(Law::DriveVelocity, missing.abs(), scales.speed, kind, element);
-            let limits = model.params.drives.iter().zip(modes).filter(|(d, mode)| d.dof == drive.dof && **mode == 0.0);
+            if present[k] != 0.0 {
+                continue;
+            }
+            let limits =
+                model.params.drives.iter().zip(present).filter(|(d, mode)| d.dof == drive.dof && **mode == 0.0);
             let limit = limits.map(|(d, _)| self.mechanism.limit(d)).try_fold(0.0, |sum, limit| Some(sum + limit?));
             let (Some(limit), true) = (limit, self.inputs_are_continuous) else { continue };
             let excess = (reaction(drive.dof).abs() - limit).max(0.0);

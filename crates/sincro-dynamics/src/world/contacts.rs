@@ -5,6 +5,7 @@ use sincro_complementarity::{WarmStart, ZenoFallback};
 
 use super::{Method, Stop, World};
 use crate::actuation::DriveKind;
+use crate::constraint::SolverReport;
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, SemiImplicitEuler};
 use crate::mechanism::constraints::{ActivationRule, ProjectedRows};
@@ -139,6 +140,7 @@ impl World {
         let is_new = !core::mem::take(&mut self.knows_step_forces) || self.mechanism.is_all_at_rest();
         let mut is_large = self.detect_step_contacts(h, is_semi_implicit && is_new);
         self.drives_before.clone_from(&self.mechanism.drives);
+        let before = self.solver_report();
         self.try_step(t, h, is_large, system);
         if self.mechanism.has_woken() {
             // a force on what rests has changed: as if the step had not been tried
@@ -146,6 +148,16 @@ impl World {
             self.mechanism.drives.copy_from_slice(&self.drives_before);
             self.mechanism.undo_classification();
             is_large = self.detect_step_contacts(h, false);
+            self.try_step(t, h, is_large, system);
+        }
+        if let (false, Some(before)) = (is_large, before.filter(|before| self.has_failed_since(before))) {
+            // few constraints, whose modes were not found: sweeps need none
+            self.restore();
+            self.mechanism.drives.copy_from_slice(&self.drives_before);
+            self.discard_failures(&before);
+            self.mechanism.undo_classification();
+            self.detect_step_contacts(h, false);
+            is_large = true;
             self.try_step(t, h, is_large, system);
         }
         self.statistics.steps += 1;
@@ -170,6 +182,12 @@ impl World {
             self.handle_coupled_events(t + h, system)?;
         }
         Ok(())
+    }
+
+    /// Returns true if a constraint problem was left unsolved since `before` that sweeps may solve.
+    fn has_failed_since(&self, before: &SolverReport) -> bool {
+        let count = self.solver_report().map_or(0, |report| report.not_converged);
+        count > before.not_converged && self.mechanism.can_sweep()
     }
 
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is

@@ -17,6 +17,14 @@ const EVENT_RESOLUTION: f64 = 1e-13;
 /// Error of the state by the width to which the instant of an event is located, relative to the accuracy.
 const EVENT_ACCURACY: f64 = 1e-4;
 
+/// Largest width, relative to the step, to which the instant is located at which a force reaches its bound, where slow
+/// states would allow more: what is at rest shows nothing of the forces on it, and begins to move with an acceleration
+/// that grows from zero.
+const FORCE_RESOLUTION: f64 = 1e-9;
+
+/// The same of an event of the coupled system, from which any acceleration may follow at once.
+const COUPLED_RESOLUTION: f64 = 1e-11;
+
 /// Value of a zero crossing that is as good as zero, relative to its terms.
 const VALUE_RESOLUTION: f64 = 1e-14;
 
@@ -234,7 +242,7 @@ impl World {
         // of the step's own time: t itself may be too coarse
         let resolution = h * EVENT_RESOLUTION;
         self.mechanism.set_locating(true);
-        let at = self.narrow(t, (bad, resolution), crossing, control, system);
+        let at = self.narrow(t, (bad, h), crossing, control, system);
         self.mechanism.set_locating(false);
         let (at, crossing) = at?;
         self.mode_changes += u32::from(!matches!(crossing, Crossing::Contact(ContactEvent::Closing(_))));
@@ -289,12 +297,12 @@ impl World {
         }
     }
 
-    /// Time after `t` of the first zero crossing, known to have happened at `bad`, to a `resolution` `[s]`, and which
-    /// one it is; the state is that of this instant.
+    /// Time after `t` of the first zero crossing, known to have happened at `bad` of the sub-step of length `h`, and
+    /// which one it is; the state is that of this instant.
     fn narrow(
         &mut self,
         t: f64,
-        (bad, resolution): (f64, f64),
+        (bad, h): (f64, f64),
         mut crossing: Crossing,
         control: Option<Control>,
         system: &mut dyn CoupledSystem<f64>,
@@ -302,10 +310,18 @@ impl World {
         let after = self.crossing_sample(crossing);
         let before = self.sample_at_start(t, crossing, system);
         let mut bracket = Bracket::new((0.0, bad), (before, after));
-        let resolution = resolution.max(self.time_resolution(control));
+        let of_states = self.time_resolution(control);
+        let width = |crossing: Crossing| {
+            let most = match crossing {
+                Crossing::Contact(ContactEvent::Law(_)) | Crossing::Overload(_) => FORCE_RESOLUTION * h,
+                Crossing::Coupled(_) => COUPLED_RESOLUTION * h,
+                Crossing::Contact(_) | Crossing::Target(_) => f64::INFINITY,
+            };
+            of_states.min(most).max(EVENT_RESOLUTION * h)
+        };
         let mut last = f64::INFINITY;
-        while bracket.width() > resolution {
-            let at = bracket.next(resolution);
+        while bracket.width() > width(crossing) {
+            let at = bracket.next(width(crossing));
             self.repeat_step(t, at, control, system)?;
             let has_happened = self.find_crossings(t + at, system).is_some();
             let unlocated = if has_happened { self.unlocated_crossing() } else { None };

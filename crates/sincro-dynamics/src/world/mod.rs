@@ -596,6 +596,7 @@ impl World {
         self.mechanism.mark_modes();
         let own = self.mechanism.dim();
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
+        self.decide_locks_now(t);
         let State { v, rotors, .. } = &self.state;
         self.mechanism.find_motor_torques((v, rotors), v, (0.0, 0.0));
         let velocities = self.layout().velocities();
@@ -613,8 +614,6 @@ impl World {
         }
         let State { v, rotors, .. } = &self.state;
         self.mechanism.find_motor_torques((v, rotors), v, (self.next_step, 0.0));
-        // the modes are those of the step that has been made
-        self.mechanism.drives.copy_from_slice(&self.state.drives);
         (&self.accelerations, self.mechanism.motor_torque())
     }
 

@@ -5,12 +5,17 @@
 //! themselves ([`super::switching`]).
 
 use sincro_complementarity::WarmStart;
+use sincro_complementarity::sweeps::GivenForces;
 
 use super::World;
 use crate::coupled::CoupledSystem;
 
 /// Relative difference of accelerations above which solutions are different motions.
 const OTHER_MOTION: f64 = 1e-9;
+
+/// Multiples of the look-ahead that are tried one after the other while the problem there is not solved exactly: of
+/// what begins to move, the forces may still be at their bounds to within the tolerance of the solver.
+const FURTHER_AHEAD: [f64; 2] = [1.0, 100.0];
 
 /// Maximum number of events of one step after which another solution is sought: a search costs as much as an event.
 const MAX_SEARCHES: u32 = 16;
@@ -138,7 +143,9 @@ impl World {
         self.write_modes();
         self.mark_targets(h);
         self.mechanism.pose_kinks(self.kinks.iter().filter(|kink| kink.saturation == 0.0));
+        self.mechanism.set_given_forces(GivenForces::Solution);
         step(self);
+        self.mechanism.set_given_forces(GivenForces::Start);
     }
 
     /// Returns true if the modes of the kinks differ from those at the present instant.
@@ -151,12 +158,20 @@ impl World {
     fn look_ahead_at_contacts(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let report = self.solver_report();
         self.present_kinks.clone_from(&self.kinks);
-        let ahead = self.move_ahead(t, h);
-        let layout = self.layout();
-        for kink in &self.kinks {
-            self.y[layout.velocity(kink.dof)] = kink.target;
+        for factor in FURTHER_AHEAD {
+            let ahead = self.move_ahead(t, factor * h);
+            let layout = self.layout();
+            for kink in &self.kinks {
+                self.y[layout.velocity(kink.dof)] = kink.target;
+            }
+            self.decide_kinks(ahead, system);
+            let is_exact = self.mechanism.constraints.as_ref().is_none_or(|c| !c.solver.is_approximate);
+            if is_exact || factor == FURTHER_AHEAD[FURTHER_AHEAD.len() - 1] {
+                break;
+            }
+            self.y.copy_from_slice(&self.present);
+            self.kinks.clone_from(&self.present_kinks);
         }
-        self.decide_kinks(ahead, system);
         self.n_searches += 1;
         if self.n_searches <= MAX_SEARCHES && self.mechanism.has_other_solution() {
             self.ambiguous_events.note(t);

@@ -18,9 +18,9 @@
 
 use std::cmp::Ordering;
 
-use super::World;
+use super::{Method, World};
 use crate::constraint::kink::Kink;
-use crate::coupled::CoupledSystem;
+use crate::coupled::{CoupledSystem, NoCoupling};
 
 /// Distance of a velocity from its target, relative to 1 + |v|, within which drives reach their targets at one event.
 const SIMULTANEOUS: f64 = 1e-13;
@@ -304,6 +304,33 @@ impl World {
             self.separate_kinks();
         }
         self.statistics.undecided_modes += 1;
+    }
+
+    /// Decides anew which of the drives that were locked over a step at velocity level are so at its end, time `t`, in
+    /// the state last evaluated; slope and forces are then those of the new modes, the modes of the step stay in the
+    /// state. Such a step keeps the laws of its drives in the mean, and a load that grows may be beyond the limit of a
+    /// lock at its end. Beside closed contacts the evaluation decides that itself.
+    pub(super) fn decide_locks_now(&mut self, t: f64) {
+        if !matches!(self.method, Method::SemiImplicitEuler) || self.mechanism.couples_drives() {
+            return;
+        }
+        self.kinks.clear();
+        for i in 0..self.target_velocities.len() {
+            self.kink_of[i] = NO_KINK;
+            let dof = self.mechanism.model.params.drives[i].dof;
+            if self.mechanism.drives[i] == 0.0 && !self.is_unlimited(i) && !self.model().is_held(dof) {
+                let known = self.kinks.iter().position(|kink| kink.dof == dof);
+                self.add_to_kink(i, known);
+            }
+        }
+        if self.kinks.is_empty() || self.mark_infeasible(Law::Acceleration) == 0 {
+            return;
+        }
+        let (undecided, report) = (self.statistics.undecided_modes, self.solver_report());
+        self.solve_modes(t, &mut NoCoupling);
+        // nothing of the run depends on it
+        self.statistics.undecided_modes = undecided;
+        report.into_iter().for_each(|before| self.discard_failures(&before));
     }
 
     /// Collects all limited drives, with their present modes.

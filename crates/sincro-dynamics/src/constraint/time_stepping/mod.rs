@@ -128,7 +128,7 @@ impl<R: Real> Constraints<R> {
         self.find_islands(model, scratch, &mut sweeps.islands);
         self.rest.begin_solution(v, v_dot, &sweeps.islands);
         self.collect_blocks(model, &mut sweeps);
-        sweeps.sweeper.solve(h, &mut self.solver.report);
+        sweeps.sweeper.solve(h, self.given_forces, &mut self.solver.report);
         self.read_blocks(&sweeps);
         self.memory.keep(&self.blocks, &self.lambda);
         let n_limits = model.params.constraints.limits.len();
