@@ -15,6 +15,7 @@
 
 use core::ops::Range;
 
+use super::disjoint_sets::DisjointSets;
 use super::{Law, Local, Sweeper};
 
 /// ε, relative to the diagonal of the matrix.
@@ -32,16 +33,16 @@ const MAX_PASSES: usize = 8;
 /// Changes of all infeasible rows without progress before single ones.
 const BLOCK_CHANGES: usize = 3;
 
-/// Drives and bilateral rows of an island, by mechanism; grows to the largest island it has seen.
+/// Drives and bilateral rows of an island, by group; grows to the largest island it has seen.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drives {
-    /// Index of the block of each row, mechanism by mechanism.
+    /// Index of the block of each row, group by group.
     blocks: Vec<usize>,
-    mechanisms: Vec<Mechanism>,
-    /// Matrices of all mechanisms.
+    groups: Vec<Group>,
+    /// Matrices of all groups.
     a: Vec<f64>,
-    /// For each velocity of the island another one of the same mechanism, itself if it stands for it.
-    parent: Vec<u32>,
+    /// Velocities of the island that rows couple.
+    velocities: DisjointSets,
     /// One row, by place in z.
     row: Vec<f64>,
     problem: BoundedProblem,
@@ -49,7 +50,7 @@ pub(super) struct Drives {
 
 /// Rows of drives and loops that act on each other.
 #[derive(Clone, Debug)]
-struct Mechanism {
+struct Group {
     /// Velocity that stands for it.
     root: u32,
     /// Rows in the list of all.
@@ -64,14 +65,14 @@ impl Drives {
     /// `all` every bilateral row.
     pub fn collect(&mut self, sweeper: &Sweeper, blocks: Range<usize>, z: Range<usize>, all: bool) {
         self.blocks.clear();
-        self.mechanisms.clear();
+        self.groups.clear();
         self.a.clear();
         let is_wanted = |law: Law| matches!(law, Law::Interval { .. }) || (all && law == Law::Bilateral);
         if !sweeper.blocks[blocks.clone()].iter().any(|block| is_wanted(block.law)) {
             return;
         }
-        self.parent.clear();
-        self.parent.extend(0..z.len() as u32);
+        self.velocities.clear();
+        self.velocities.extend_to(z.len());
         let rows = |blocks: Range<usize>| {
             blocks.filter(|k| {
                 let block = &sweeper.blocks[*k];
@@ -84,59 +85,50 @@ impl Drives {
         for k in rows(blocks.clone()) {
             let mut places = places(k);
             let Some(first) = places.next() else { continue };
-            let first = self.root(first as u32);
-            for place in places {
-                let other = self.root(place as u32);
-                self.parent[other as usize] = first;
-            }
+            places.for_each(|place| self.velocities.join(first as u32, place as u32));
         }
         for k in rows(blocks.clone()) {
             let Some(place) = places(k).next() else { continue };
-            let root = self.root(place as u32);
+            let root = self.velocities.root(place as u32);
             let is_drive = matches!(sweeper.blocks[k].law, Law::Interval { .. });
-            match self.mechanisms.iter_mut().find(|mechanism| mechanism.root == root) {
+            match self.groups.iter_mut().find(|group| group.root == root) {
                 Some(known) => known.has_drive |= is_drive,
-                None => self.mechanisms.push(Mechanism { root, rows: 0..0, a: 0, has_drive: is_drive }),
+                None => self.groups.push(Group { root, rows: 0..0, a: 0, has_drive: is_drive }),
             }
         }
-        self.mechanisms.retain(|mechanism| all || mechanism.has_drive);
-        for m in 0..self.mechanisms.len() {
-            let (first, root) = (self.blocks.len(), self.mechanisms[m].root);
+        self.groups.retain(|group| all || group.has_drive);
+        for m in 0..self.groups.len() {
+            let (first, root) = (self.blocks.len(), self.groups[m].root);
             for k in rows(blocks.clone()) {
-                if places(k).next().is_some_and(|place| self.root(place as u32) == root) {
+                if places(k).next().is_some_and(|place| self.velocities.root(place as u32) == root) {
                     self.blocks.push(k);
                 }
             }
             let a = self.a.len();
-            let of_mechanism = &self.blocks[first..];
+            let of_group = &self.blocks[first..];
             self.row.clear();
             self.row.resize(z.end, 0.0);
-            for i in of_mechanism {
+            for i in of_group {
                 sweeper.first_row(*i).for_each(|(place, y)| self.row[place] = y);
                 let entry = |j: &usize| sweeper.first_row(*j).map(|(place, y)| y * self.row[place]).sum::<f64>();
-                self.a.extend(of_mechanism.iter().map(entry));
+                self.a.extend(of_group.iter().map(entry));
                 sweeper.first_row(*i).for_each(|(place, _)| self.row[place] = 0.0);
             }
-            let mechanism = &mut self.mechanisms[m];
-            (mechanism.rows, mechanism.a) = (first..self.blocks.len(), a);
+            let group = &mut self.groups[m];
+            (group.rows, group.a) = (first..self.blocks.len(), a);
         }
     }
 
-    /// Velocity that stands for the mechanism of another one; ways are shortened.
-    fn root(&mut self, mut place: u32) -> u32 {
-        while self.parent[place as usize] != place {
-            let above = self.parent[self.parent[place as usize] as usize];
-            self.parent[place as usize] = above;
-            place = above;
-        }
-        place
+    /// Returns true if there are none.
+    pub fn is_empty(&self) -> bool {
+        self.groups.is_empty()
     }
 
     /// Solves the problems of all drives under the present forces of contacts.
     pub fn settle(&mut self, sweeper: &mut Sweeper) {
-        let Self { blocks, mechanisms, a, problem, .. } = self;
-        for mechanism in &*mechanisms {
-            let blocks = &blocks[mechanism.rows.clone()];
+        let Self { blocks, groups, a, problem, .. } = self;
+        for group in &*groups {
+            let blocks = &blocks[group.rows.clone()];
             problem.clear();
             for k in blocks {
                 let limit = match sweeper.blocks[*k].law {
@@ -145,7 +137,7 @@ impl Drives {
                 };
                 problem.add(sweeper.rates_of_others(*k)[0], sweeper.lambda[*k][0], limit);
             }
-            if !problem.solve(&a[mechanism.a..]) {
+            if !problem.solve(&a[group.a..]) {
                 continue;
             }
             for (k, force) in blocks.iter().zip(&problem.x) {
@@ -161,7 +153,7 @@ impl Drives {
     }
 }
 
-/// Problem with bounds of one mechanism.
+/// Problem with bounds of one group.
 #[derive(Clone, Debug, Default)]
 struct BoundedProblem {
     /// Rates at the forces `centre`, then c.

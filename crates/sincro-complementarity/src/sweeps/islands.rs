@@ -4,14 +4,16 @@
 //! through others. Islands and the constraints in them come in the order of their first constraint, which depends on
 //! the model alone and not on how the sets were joined.
 
+use super::disjoint_sets::DisjointSets;
+
 /// In the place of a tree: none, the world.
 pub const NO_TREE: u32 = u32::MAX;
 
 /// Constraints by island.
 #[derive(Clone, Debug, Default)]
 pub struct Islands {
-    /// Parent of each tree in its set.
-    parent: Vec<u32>,
+    /// Trees that belong together.
+    trees: DisjointSets,
     /// Island of each root.
     island: Vec<u32>,
     /// Items in the order of islands, and the first of each island.
@@ -28,19 +30,17 @@ impl Islands {
     /// Finds the islands of constraints, the `items`, each given by the trees that it acts on, by the index of their
     /// first link; [`NO_TREE`] for none.
     pub fn find(&mut self, items: impl Iterator<Item = [u32; 2]> + Clone) {
-        self.parent.clear();
+        self.trees.clear();
         for [one, two] in items.clone() {
             for tree in [one, two].into_iter().filter(|tree| *tree != NO_TREE) {
-                let known = self.parent.len() as u32;
-                self.parent.extend(known..known.max(tree + 1));
+                self.trees.extend_to(tree as usize + 1);
             }
             if one != NO_TREE && two != NO_TREE {
-                let (one, two) = (self.root(one), self.root(two));
-                self.parent[one.max(two) as usize] = one.min(two);
+                self.trees.join(one, two);
             }
         }
         self.island.clear();
-        self.island.resize(self.parent.len(), NONE);
+        self.island.resize(self.trees.len(), NONE);
         self.of_item.clear();
         self.first.clear();
         for [one, two] in items {
@@ -48,7 +48,7 @@ impl Islands {
                 // a constraint that moves nothing is an island of its own
                 self.first.len() as u32
             } else {
-                let root = self.root(if one == NO_TREE { two } else { one }) as usize;
+                let root = self.trees.root(if one == NO_TREE { two } else { one }) as usize;
                 if self.island[root] == NONE {
                     self.island[root] = self.first.len() as u32;
                 }
@@ -75,22 +75,9 @@ impl Islands {
         }
     }
 
-    /// Root of the set of a tree; ways are shortened.
-    fn root(&mut self, mut tree: u32) -> u32 {
-        while self.parent[tree as usize] != tree {
-            let above = self.parent[self.parent[tree as usize] as usize];
-            self.parent[tree as usize] = above;
-            tree = above;
-        }
-        tree
-    }
-
-    /// Root of the set of a tree, without a change; `None` if no constraint acts on it.
-    fn known_root(&self, mut tree: u32) -> Option<u32> {
-        while *self.parent.get(tree as usize)? != tree {
-            tree = self.parent[tree as usize];
-        }
-        (self.island[tree as usize] != NONE).then_some(tree)
+    /// Tree that stands for the set of another one; `None` if no constraint acts on it.
+    fn known_root(&self, tree: u32) -> Option<u32> {
+        self.trees.known_root(tree).filter(|root| self.island[*root as usize] != NONE)
     }
 
     /// Island of a tree, given by the index of its first link; `None` if no constraint acts on it.

@@ -13,6 +13,7 @@
 //! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
 
 mod body_rows;
+mod disjoint_sets;
 mod drives;
 pub mod islands;
 mod local;
@@ -420,6 +421,9 @@ impl Sweeper {
 
     /// Settles the drives last taken ([`Drives::settle`]).
     fn settle_drives(&mut self) {
+        if self.drives.is_empty() {
+            return;
+        }
         let mut drives = core::mem::take(&mut self.drives);
         drives.settle(self);
         self.drives = drives;
@@ -638,11 +642,9 @@ impl Island<'_> {
             return self.improve();
         }
         let Sweeper { start, lambda, .. } = &mut *self.sweeper;
-        let forces = &lambda[self.blocks.clone()];
-        let largest = forces.iter().map(|force| square(*force)).fold(0.0, f64::max).sqrt();
         start.clear();
-        start.extend_from_slice(forces);
-        let (residual, _) = lanes::dispatch_four_lanes(FindResidual { island: &mut self, largest });
+        start.extend_from_slice(&lambda[self.blocks.clone()]);
+        let residual = self.residual();
         if residual <= REST_TOLERANCE {
             return Outcome { residual, sweeps: 0, stands: true };
         }
@@ -721,10 +723,14 @@ impl Island<'_> {
         self.sweeper.collect_drives(self.blocks.clone(), self.z.clone(), true);
         self.find_velocities();
         self.sweeper.settle_drives();
+        Outcome { residual: self.residual(), sweeps: 0, stands: false }
+    }
+
+    /// Residual of the present forces, relative to the largest.
+    fn residual(&mut self) -> f64 {
         let forces = &self.sweeper.lambda[self.blocks.clone()];
         let largest = forces.iter().map(|force| square(*force)).fold(0.0, f64::max).sqrt();
-        let (residual, _) = lanes::dispatch_four_lanes(FindResidual { island: &mut self, largest });
-        Outcome { residual, sweeps: 0, stands: false }
+        lanes::dispatch_four_lanes(FindResidual { island: self, largest })
     }
 
     /// The velocities of the present forces.
@@ -776,19 +782,19 @@ impl LaneVisitor for FindVelocities<'_, '_> {
     }
 }
 
-/// Residual of an island in which nothing moves, with its largest force.
+/// Residual of an island, with its largest force.
 struct FindResidual<'a, 'b> {
     island: &'a mut Island<'b>,
     largest: f64,
 }
 
 impl LaneVisitor for FindResidual<'_, '_> {
-    type Output = (f64, f64);
+    type Output = f64;
 
     #[inline(always)]
-    fn visit<V: Real>(self) -> (f64, f64) {
+    fn visit<V: Real>(self) -> f64 {
         let Island { sweeper, blocks, .. } = self.island;
-        residual::<V>(sweeper, blocks.clone(), self.largest, true)
+        residual::<V>(sweeper, blocks.clone(), self.largest, true).0
     }
 }
 

@@ -175,27 +175,26 @@ impl Mechanism<f64> {
         }
     }
 
-    /// Returns true if the constraints last classified as closed make a problem that is solved by sweeps.
-    pub(crate) fn is_large_contact_problem(&self) -> bool {
-        !self.model.has_lines() && self.constraints.as_ref().is_some_and(|c| c.is_large(&self.model))
-    }
-
-    /// Returns true if contacts and limits can be so many that a problem at velocity level is solved by sweeps.
-    pub(crate) fn can_have_many_contacts(&self) -> bool {
-        self.constraints.is_some() && !self.model.has_lines() && self.model.params.constraints.max_rows() > DIRECT_ROWS
-    }
-
     /// Returns true if problems at velocity level can be solved by sweeps, which know no forces of lines at the new
     /// state.
     pub(crate) fn can_sweep(&self) -> bool {
         self.constraints.is_some() && !self.model.has_lines()
     }
 
+    /// Returns true if the constraints last classified as closed make a problem that is solved by sweeps.
+    pub(crate) fn is_large_contact_problem(&self) -> bool {
+        self.can_sweep() && self.constraints.as_ref().is_some_and(|c| c.is_large(&self.model))
+    }
+
+    /// Returns true if contacts and limits can be so many that a problem at velocity level is solved by sweeps.
+    pub(crate) fn can_have_many_contacts(&self) -> bool {
+        self.can_sweep() && self.model.params.constraints.max_rows() > DIRECT_ROWS
+    }
+
     /// Sets whether problems at velocity level are solved by sweeps in the evaluations that follow.
     pub(crate) fn set_sweeps(&mut self, sweeps: bool) {
-        if let Some(c) = &mut self.constraints {
-            c.sweeps = sweeps && !self.model.has_lines();
-        }
+        let sweeps = sweeps && self.can_sweep();
+        self.constraints.iter_mut().for_each(|c| c.sweeps = sweeps);
     }
 
     /// Sets what the contact forces last found by sweeps are for the problems that follow.

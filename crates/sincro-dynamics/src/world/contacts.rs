@@ -5,7 +5,6 @@ use sincro_complementarity::{WarmStart, ZenoFallback};
 
 use super::{Method, Stop, World};
 use crate::actuation::DriveKind;
-use crate::constraint::SolverReport;
 use crate::coupled::{Coupled, CoupledSystem};
 use crate::integrate::{Failure, FixedStep, SemiImplicitEuler};
 use crate::mechanism::constraints::{ActivationRule, ProjectedRows};
@@ -140,23 +139,15 @@ impl World {
         let is_new = !core::mem::take(&mut self.knows_step_forces) || self.mechanism.is_all_at_rest();
         let mut is_large = self.detect_step_contacts(h, is_semi_implicit && is_new);
         self.drives_before.clone_from(&self.mechanism.drives);
-        let before = self.solver_report();
         self.try_step(t, h, is_large, system);
         if self.mechanism.has_woken() {
-            // a force on what rests has changed: as if the step had not been tried
-            self.restore();
-            self.mechanism.drives.copy_from_slice(&self.drives_before);
-            self.mechanism.undo_classification();
-            is_large = self.detect_step_contacts(h, false);
+            // a force on what rests has changed
+            is_large = self.undo_try(h);
             self.try_step(t, h, is_large, system);
         }
-        if let (false, Some(before)) = (is_large, before.filter(|before| self.has_failed_since(before))) {
+        if !is_large && self.has_unsolved_try() {
             // few constraints, whose modes were not found: sweeps need none
-            self.restore();
-            self.mechanism.drives.copy_from_slice(&self.drives_before);
-            self.discard_failures(&before);
-            self.mechanism.undo_classification();
-            self.detect_step_contacts(h, false);
+            self.undo_try(h);
             is_large = true;
             self.try_step(t, h, is_large, system);
         }
@@ -184,10 +175,19 @@ impl World {
         Ok(())
     }
 
-    /// Returns true if a constraint problem was left unsolved since `before` that sweeps may solve.
-    fn has_failed_since(&self, before: &SolverReport) -> bool {
-        let count = self.solver_report().map_or(0, |report| report.not_converged);
-        count > before.not_converged && self.mechanism.can_sweep()
+    /// Goes back to the start of a step of length `h` as if it had not been tried, and detects its contacts anew, with
+    /// everything that rests; returns true if they are solved by sweeps.
+    fn undo_try(&mut self, h: f64) -> bool {
+        self.restore();
+        self.mechanism.drives.copy_from_slice(&self.drives_before);
+        self.mechanism.undo_classification();
+        self.detect_step_contacts(h, false)
+    }
+
+    /// Returns true if the step last tried left a constraint problem unsolved that sweeps may solve.
+    fn has_unsolved_try(&self) -> bool {
+        let unsolved = self.solver_report().map_or(0, |report| report.not_converged);
+        unsolved > self.report_before.not_converged && self.mechanism.can_sweep()
     }
 
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is

@@ -13,9 +13,9 @@ use crate::coupled::CoupledSystem;
 /// Relative difference of accelerations above which solutions are different motions.
 const OTHER_MOTION: f64 = 1e-9;
 
-/// Multiples of the look-ahead that are tried one after the other while the problem there is not solved exactly: of
-/// what begins to move, the forces may still be at their bounds to within the tolerance of the solver.
-const FURTHER_AHEAD: [f64; 2] = [1.0, 100.0];
+/// Multiple of the look-ahead that is tried where the problem there is not solved exactly: of what begins to move, the
+/// forces may still be at their bounds to within the tolerance of the solver.
+const FURTHER_AHEAD: f64 = 100.0;
 
 /// Maximum number of events of one step after which another solution is sought: a search costs as much as an event.
 const MAX_SEARCHES: u32 = 16;
@@ -153,24 +153,27 @@ impl World {
         self.kinks.iter().zip(&self.present_kinks).any(|(kink, present)| kink.saturation != present.saturation)
     }
 
+    /// Moves the state a little ahead of `t`, for a step of `h`, with the kinks at their targets, and decides the kinks
+    /// there; the state at `t` is kept in `present`.
+    fn decide_ahead(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
+        let ahead = self.move_ahead(t, h);
+        let layout = self.layout();
+        for kink in &self.kinks {
+            self.y[layout.velocity(kink.dof)] = kink.target;
+        }
+        self.decide_kinks(ahead, system);
+    }
+
     /// Takes the modes a little later than `t` for those at `t`, where they hold as well but for the change of a mode
     /// that is due; state and time stay.
     fn look_ahead_at_contacts(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let report = self.solver_report();
         self.present_kinks.clone_from(&self.kinks);
-        for factor in FURTHER_AHEAD {
-            let ahead = self.move_ahead(t, factor * h);
-            let layout = self.layout();
-            for kink in &self.kinks {
-                self.y[layout.velocity(kink.dof)] = kink.target;
-            }
-            self.decide_kinks(ahead, system);
-            let is_exact = self.mechanism.constraints.as_ref().is_none_or(|c| !c.solver.is_approximate);
-            if is_exact || factor == FURTHER_AHEAD[FURTHER_AHEAD.len() - 1] {
-                break;
-            }
+        self.decide_ahead(t, h, system);
+        if self.mechanism.constraints.as_ref().is_some_and(|c| c.solver.is_approximate) {
             self.y.copy_from_slice(&self.present);
             self.kinks.clone_from(&self.present_kinks);
+            self.decide_ahead(t, FURTHER_AHEAD * h, system);
         }
         self.n_searches += 1;
         if self.n_searches <= MAX_SEARCHES && self.mechanism.has_other_solution() {
