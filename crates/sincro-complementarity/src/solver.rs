@@ -511,9 +511,9 @@ pub(crate) fn turn_impending_slip<R: Real>(
     let limit = group.coefficient * normal;
     let (force, rate) = (pair(group, lambda), pair(group, rates));
     let (size, speed) = (norm(force), norm(rate));
+    let beyond = size > limit + small.force * group.slack;
     if speed <= small.rate {
         // at its limit without a rate; a direction that can turn must not have turned beyond the limit
-        let beyond = size > limit + small.force * group.slack;
         // and a compliant direction must not creep
         let creeps = group.compliance.is_some() && speed > small.none && size > 0.0;
         if beyond || creeps {
@@ -529,7 +529,7 @@ pub(crate) fn turn_impending_slip<R: Real>(
     let turned = norm([rate[0] + speed * d[0], rate[1] + speed * d[1]]);
     let compliance = Some(speed / limit).filter(|c| c.is_finite());
     // without a normal force nothing tells how contacts share the load: that is left to ADMM
-    if compliance.is_some() && turned <= SLACK * speed {
+    if compliance.is_some() && turned <= SLACK * speed && !beyond {
         return Some(false);
     }
     group.slip(rate.map(|x| R::splat(-x / speed)), compliance.map(R::splat));

@@ -6,7 +6,9 @@
 //! p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖: they weigh forces
 //! and torques by their effect. Source: key `silcowitz2010`.
 //!
-//! Where that converges slowly, Newton steps for all forces of the island together take turns with sweeps (`newton`).
+//! Where that converges slowly, Newton steps for all forces of the island together take turns with sweeps (`newton`);
+//! where both leave much, the forces are split into those that obey the equations of motion and those that the laws
+//! admit (`splitting`).
 //! Wherever sweeps would end, limited drives are settled beside the contact forces found (`drives`).
 //!
 //! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
@@ -19,6 +21,7 @@ pub mod islands;
 mod local;
 mod newton;
 pub mod rest;
+mod splitting;
 
 use sincro_math::{LaneVisitor, Real, lanes};
 
@@ -27,6 +30,7 @@ use body_rows::{Bodies, BodyRows, push_rows};
 use drives::Drives;
 use local::{ContactLocal, TangentialProblem};
 use newton::NewtonStep;
+use splitting::Splitting;
 
 /// Residual at which an island counts as solved.
 const TOLERANCE: f64 = 1e-6;
@@ -63,17 +67,13 @@ const MAX_NEWTON_STEPS: usize = 12;
 /// The same where bodies move: the forces of hits, which soon are others, are left sooner.
 const MOVING_NEWTON_STEPS: usize = 5;
 
-/// Residual above which further sweeps follow the Newton steps, while they make it smaller: they need no guess of which
-/// contacts stick.
+/// Residual above which the alternating direction method follows, and above which further sweeps follow that one, while
+/// they make it smaller: they need no matrix.
 const LARGEST_RESIDUAL: f64 = 3e-3;
 
 /// Number of these sweeps at a time, and how often they are made.
 const LAST_SWEEPS: usize = 200;
 const MAX_LAST_ROUNDS: usize = 20;
-
-/// Shares of the change of each force that such sweeps make, one after the other where they get no further: friction
-/// that several contacts of one light mechanism share may go round in circles.
-const DAMPED: [f64; 4] = [1.0, 0.7, 0.3, 0.1];
 
 /// Residual below which one Newton step must do, unless the island hardly moves: bodies that hit each other share
 /// forces that soon are others, and those at rest would creep.
@@ -238,6 +238,7 @@ pub struct Sweeper {
     /// Forces that an island starts from in which nothing moves.
     start: Vec<[f64; 3]>,
     newton: NewtonStep,
+    splitting: Splitting,
     drives: Drives,
     last: Solved,
 }
@@ -522,17 +523,12 @@ impl Sweeper {
         }
     }
 
-    /// Changes the force of a block by a `share` of what would solve its own problem, of contacts and limits; all of it
-    /// for others. Returns the squares of the change and of the force.
+    /// Solves a block's own problem. Returns the squares of the change and of the force.
     #[inline(always)]
-    fn relax<V: Real>(&mut self, k: usize, share: f64) -> [f64; 2] {
+    fn relax<V: Real>(&mut self, k: usize) -> [f64; 2] {
         let before = self.lambda[k];
         let u = self.rates::<V>(k);
-        let mut lambda = self.own_force(k, u);
-        if share < 1.0 && matches!(self.blocks[k].law, Law::Coulomb { .. } | Law::Unilateral) {
-            let change = minus(lambda, before);
-            lambda = minus(before, [-share * change[0], -share * change[1], -share * change[2]]);
-        }
+        let lambda = self.own_force(k, u);
         self.change::<V>(k, lambda);
         [square(minus(lambda, before)), square(lambda)]
     }
@@ -698,21 +694,22 @@ impl Island<'_> {
             }
         }
         self.restore();
+        if best > LARGEST_RESIDUAL {
+            best = self.split(&mut newton, best);
+        }
         self.sweeper.newton = newton;
-        let mut shares = DAMPED.into_iter();
-        let mut share = shares.next();
         for _ in 0..MAX_LAST_ROUNDS {
-            let Some(damped) = share.filter(|_| best > LARGEST_RESIDUAL) else { break };
-            self.find_velocities();
-            let swept = self.sweep_damped(damped, LAST_SWEEPS);
-            sweeps += swept.sweeps;
-            if swept.residual < best {
-                best = swept.residual;
-                self.keep();
-            } else {
-                self.restore();
-                share = shares.next();
+            if best <= LARGEST_RESIDUAL {
+                break;
             }
+            self.find_velocities();
+            let swept = self.sweep(LAST_SWEEPS);
+            sweeps += swept.sweeps;
+            if swept.residual >= best {
+                break;
+            }
+            best = swept.residual;
+            self.keep();
         }
         self.restore();
         Outcome { residual: best, sweeps, stands: false }
@@ -753,12 +750,7 @@ impl Island<'_> {
 
     /// Makes up to `most` sweeps, fewer if they suffice.
     fn sweep(&mut self, most: usize) -> Swept {
-        self.sweep_damped(1.0, most)
-    }
-
-    /// The same, making a share of the change of each force.
-    fn sweep_damped(&mut self, share: f64, most: usize) -> Swept {
-        lanes::dispatch_four_lanes(Sweeps { island: self, share, most })
+        lanes::dispatch_four_lanes(Sweeps { island: self, most })
     }
 }
 
@@ -801,8 +793,6 @@ impl LaneVisitor for FindResidual<'_, '_> {
 /// Sweeps over an island, at most so many.
 struct Sweeps<'a, 'b> {
     island: &'a mut Island<'b>,
-    /// Share of the change of each force; below 1 without acceleration.
-    share: f64,
     most: usize,
 }
 
@@ -811,14 +801,14 @@ impl LaneVisitor for Sweeps<'_, '_> {
 
     #[inline(always)]
     fn visit<V: Real>(self) -> Swept {
-        let Self { island: Island { sweeper, blocks, z, rest_rate, stillness }, share, most } = self;
+        let Self { island: Island { sweeper, blocks, z, rest_rate, stillness }, most } = self;
         let mut last_square = 0.0;
         for sweep in 1..=most {
             sweeper.z_before[z.clone()].copy_from_slice(&sweeper.z[z.clone()]);
             sweeper.before[blocks.clone()].copy_from_slice(&sweeper.lambda[blocks.clone()]);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for k in blocks.clone() {
-                let [of_change, of_force] = sweeper.relax::<V>(k, share);
+                let [of_change, of_force] = sweeper.relax::<V>(k);
                 change = if of_change > change { of_change } else { change };
                 largest = if of_force > largest { of_force } else { largest };
             }
@@ -837,7 +827,7 @@ impl LaneVisitor for Sweeps<'_, '_> {
             let square = square_of_difference(&sweeper.z[z.clone()], &sweeper.z_before[z.clone()]);
             let beta = if last_square > 0.0 { square / last_square } else { f64::INFINITY };
             last_square = square;
-            let beta = if beta <= 1.0 && share == 1.0 { beta } else { 0.0 };
+            let beta = if beta <= 1.0 { beta } else { 0.0 };
             let Sweeper { z: v, z_before, direction_z, lambda, before, direction, .. } = &mut **sweeper;
             go_on(beta, &mut v[z.clone()], &z_before[z.clone()], &mut direction_z[z.clone()]);
             go_on(

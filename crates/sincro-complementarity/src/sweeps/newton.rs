@@ -191,10 +191,45 @@ impl NewtonStep {
         }
     }
 
-    /// Solves for the change of the velocities.
+    /// Lays out the matrix 1 + Yᵀ D Y of an island, with D `scale` times the step lengths of the blocks, and factors
+    /// it. Returns false if it has too many numbers.
     #[inline(always)]
-    fn solve<V: Real>(&mut self) {
-        let Self { first, row, matrix, x, .. } = self;
+    pub fn factor_scaled<V: Real>(
+        &mut self,
+        sweeper: &Sweeper,
+        blocks: Range<usize>,
+        z: Range<usize>,
+        scale: f64,
+    ) -> bool {
+        if !self.lay_out(sweeper, blocks.clone(), z.clone()) {
+            return false;
+        }
+        self.x.clear();
+        self.x.resize(z.len(), 0.0);
+        for k in blocks {
+            let d = scale * sweeper.blocks[k].step_length();
+            let law = LinearLaw { force: [0.0; 3], slope: [d, 0.0, 0.0, d, 0.0, d], friction: 0.0 };
+            self.add::<V>(sweeper, k, z.start, &law);
+        }
+        self.factor::<V>();
+        true
+    }
+
+    /// Clears the right-hand side.
+    pub fn clear_right_hand_side(&mut self) {
+        self.x.fill(0.0);
+    }
+
+    /// Adds Yᵀ f of a block to the right-hand side.
+    #[inline(always)]
+    pub fn push<V: Real>(&mut self, sweeper: &Sweeper, k: usize, start: usize, f: [f64; 3]) {
+        self.add::<V>(sweeper, k, start, &LinearLaw { force: f, slope: [0.0; 6], friction: 0.0 });
+    }
+
+    /// Factors the matrix.
+    #[inline(always)]
+    fn factor<V: Real>(&mut self) {
+        let Self { first, row, matrix, .. } = self;
         for i in 0..first.len() {
             let (done, this) = matrix.split_at_mut(row[i]);
             let this = &mut this[..=i - first[i]];
@@ -207,9 +242,18 @@ impl NewtonStep {
             let (left, diagonal) = this.split_at_mut(i - first[i]);
             // the inverse of the root stands on the diagonal; the matrix is at least the unit matrix
             let square = diagonal[0] - long_dot::<V>(left, left);
-            let inverse = 1.0 / (if square > 1.0 { square } else { 1.0 }).sqrt();
-            diagonal[0] = inverse;
-            x[i] = (x[i] - long_dot::<V>(left, &x[first[i]..i])) * inverse;
+            diagonal[0] = 1.0 / (if square > 1.0 { square } else { 1.0 }).sqrt();
+        }
+    }
+
+    /// Solves for the change of the velocities, from the right-hand side and the factored matrix.
+    #[inline(always)]
+    pub fn substitute<V: Real>(&mut self) {
+        let Self { first, row, matrix, x, .. } = self;
+        for i in 0..first.len() {
+            let this = &matrix[row[i]..=row[i] + i - first[i]];
+            let (left, diagonal) = this.split_at(i - first[i]);
+            x[i] = (x[i] - long_dot::<V>(left, &x[first[i]..i])) * diagonal[0];
         }
         for i in (0..first.len()).rev() {
             let this = &matrix[row[i]..=row[i] + i - first[i]];
@@ -222,7 +266,7 @@ impl NewtonStep {
 
     /// Growth of the rates of a block with the change of the velocities.
     #[inline(always)]
-    fn growth<V: Real>(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
+    pub fn growth<V: Real>(&self, sweeper: &Sweeper, k: usize, start: usize) -> [f64; 3] {
         let block = &sweeper.blocks[k];
         let rows = &sweeper.rows[block.rows..];
         match block.bodies {
@@ -279,7 +323,8 @@ impl LaneVisitor for IslandStep<'_> {
             step.add::<V>(sweeper, k, z.start, &law);
             step.laws.push(law);
         }
-        step.solve::<V>();
+        step.factor::<V>();
+        step.substitute::<V>();
         for k in blocks.clone() {
             let growth = step.growth::<V>(sweeper, k, z.start);
             let LinearLaw { force, slope, friction } = &step.laws[k - blocks.start];
@@ -432,6 +477,23 @@ mod tests {
     }
 
     #[test]
+    fn splitting_alone_finds_how_points_share_a_load() {
+        for seed in 1..200 {
+            let mut sweeper = plates(20, seed);
+            sweeper.resize_buffers();
+            let (blocks, z) = (0..40, 1..13);
+            let mut island = Island { sweeper: &mut sweeper, blocks, z, rest_rate: 0.0, stillness: Stillness::CanRest };
+            island.keep();
+            let residual = island.split(&mut NewtonStep::default(), f64::INFINITY);
+            assert!(residual <= TOLERANCE, "seed {seed}: {residual:e}");
+            assert_eq!(residual.to_bits(), {
+                island.find_velocities();
+                island.residual().to_bits()
+            });
+        }
+    }
+
+    #[test]
     fn a_newton_step_follows_a_changed_load_better_than_sweeps() {
         let mut better = 0;
         for seed in 1..200 {
@@ -524,7 +586,7 @@ mod tests {
                 let (blocks, z) = (0..40, 1..13);
                 NewtonStep::default().prepare(self.0, blocks.clone(), z.clone()).visit::<V>();
                 let mut island = Island { sweeper: self.0, blocks, z, rest_rate: 0.0, stillness: Stillness::Awake };
-                Sweeps { island: &mut island, share: 1.0, most: 6 }.visit::<V>();
+                Sweeps { island: &mut island, most: 6 }.visit::<V>();
                 let numbers = self.0.lambda.as_flattened().iter().chain(&self.0.z);
                 numbers.map(|x| x.to_bits()).collect()
             }
