@@ -10,7 +10,7 @@ use sincro_sim::campaign::{Campaign, run_campaign};
 use sincro_sim::run::LockStep;
 use sincro_sim::snapshot::Snapshot;
 use sincro_testing::SceneFolder;
-use sincro_testing::random::uniform;
+use sincro_testing::random::{Draw, uniform};
 
 const G: f64 = 9.81;
 const STEP: f64 = 0.005;
@@ -229,4 +229,76 @@ fn what_sleeps_does_not_move_and_the_floor_carries_it() {
         }
     }
     assert!(bits(&world) == before, "what sleeps has moved");
+}
+
+/// Three bodies in a row along x, 1 to 10 mm apart, that a heavy one flies at from behind; in front of them a wall, or
+/// a stop of the joint along which the last of them slides. All of it is turned about z, and falls.
+fn row_before_a_stop(r: &mut Draw, shape: &str, is_stop: bool) -> String {
+    let angle = r.between(-3.0, 3.0);
+    let (cos, sin) = (libm::cos(angle), libm::sin(angle));
+    let turned = [libm::cos(0.5 * angle), 0.0, 0.0, libm::sin(0.5 * angle)];
+    let mut gap = || r.between(1e-3, 1e-2);
+    let (last_gap, mut behind, mut text) = (gap(), -0.05, FLOOR.to_owned());
+    let mut add = |name: &str, joint: &str, at: f64, velocity: f64, density: f64| {
+        let position = [at * cos, at * sin, 1.0];
+        let _ = write!(text, "[[joint]]\nname = \"{name}\"\n");
+        let _ = match joint {
+            "free" => {
+                let [x, y, z] = position;
+                let [a, b, c, d] = turned;
+                // velocities of a free joint are those in the axes of the body
+                writeln!(
+                    text,
+                    "kind = \"free\"\ninitial = {{ position = [{x}, {y}, {z}, {a}, {b}, {c}, {d}], \
+                     velocity = [0.0, 0.0, 0.0, {velocity}, 0.0, 0.0] }}"
+                )
+            }
+            _ => writeln!(
+                text,
+                "kind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\nposition = {position:?}\nquaternion_wxyz = {turned:?}\n\
+                 limits = {{ lower = -0.5, upper = {last_gap} }}"
+            ),
+        };
+        let _ = write!(
+            text,
+            "[[body]]\nname = \"body\"\nparent = \"/{name}\"\ndensity = {density}\nshape = [{{ {shape} }}]\n\
+             contact = {{ friction = 0.3 }}\n"
+        );
+    };
+    let mut last = if is_stop { "prismatic" } else { "free" };
+    for k in 0..3 {
+        add(&format!("row{k}"), last, behind - last_gap, 0.0, 300.0);
+        last = "free";
+        behind -= 0.1 + gap();
+    }
+    add("striker", "free", behind - last_gap, 4.0, 8000.0);
+    if !is_stop {
+        let wall = [0.5 * cos, 0.5 * sin, 1.0];
+        let _ = write!(
+            text,
+            "[[body]]\nname = \"wall\"\nposition = {wall:?}\nquaternion_wxyz = {turned:?}\n\
+             shape = [{{ cuboid = {{ size = [1.0, 2.0, 2.0] }} }}]\ncontact = {{ friction = 0.3 }}\n"
+        );
+    }
+    text
+}
+
+#[test]
+fn what_a_blow_moves_does_not_pass_what_lies_in_its_way() {
+    let mut r = Draw(7);
+    for (shape, law) in [
+        ("sphere = { radius = 0.05 }", "penetration"),
+        ("cuboid = { size = [0.1, 0.1, 0.1] }", "penetration"),
+        ("sphere = { radius = 0.05 }", "joint-limit"),
+        ("cuboid = { size = [0.1, 0.1, 0.1] }", "joint-limit"),
+    ] {
+        for draw in 0..6 {
+            let done = run(&row_before_a_stop(&mut r, shape, law == "joint-limit"), 0.04, "\"energy.kinetic\"");
+            assert!(done.main.audit.ok, "{shape}, {law}, draw {draw}: {:?}", done.main.audit.findings);
+            let checked = done.main.audit.laws.iter().find(|checked| checked.law == law);
+            let passed = checked.unwrap_or_else(|| panic!("no {law}")).value;
+            // twice what gravity adds within a step
+            assert!(passed < 2.0 * G * STEP * STEP, "{shape}, {law}, draw {draw}: {passed:e}");
+        }
+    }
 }

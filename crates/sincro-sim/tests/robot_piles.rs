@@ -98,15 +98,37 @@ fn number(name: &str, default: u64) -> u64 {
 
 /// Demands that random piles keep all laws.
 fn all_keep_the_laws(seed: u64, of_joint: impl Fn(&mut Draw) -> String) {
-    let (draws, mut r) = (number("SINCRO_DRAWS", 16), Draw(seed + number("SINCRO_SEED", 0)));
-    let missed: Vec<String> = (0..draws)
+    let every: Vec<u64> = (0..number("SINCRO_DRAWS", 16)).collect();
+    these_keep_the_laws(seed + number("SINCRO_SEED", 0), &every, of_joint);
+}
+
+/// Demands that some of the piles drawn from a seed keep all laws.
+fn these_keep_the_laws(seed: u64, draws: &[u64], of_joint: impl Fn(&mut Draw) -> String) {
+    let mut r = Draw(seed);
+    let missed: Vec<String> = (0..=draws.iter().copied().max().unwrap_or(0))
         .filter_map(|k| {
             let scene = pile(&mut r, &of_joint);
+            if !draws.contains(&k) {
+                return None;
+            }
             let audit = run(&scene, "semi-implicit-euler", 1.0, "\"energy.total\"").main.audit;
             (!audit.ok).then(|| format!("draw {k}: {:?}\n{scene}", audit.findings))
         })
         .collect();
-    assert!(missed.is_empty(), "{} of {draws}:\n{}", missed.len(), missed.join("\n"));
+    assert!(missed.is_empty(), "{} of {}:\n{}", missed.len(), draws.len(), missed.join("\n"));
+}
+
+/// Friction or a limited motor of any strength, or none.
+fn any_drive(r: &mut Draw) -> String {
+    let mut text = String::new();
+    if r.unit() < 0.4 {
+        let _ = writeln!(text, "friction = {}", r.decade(-4.0, 1.5));
+    }
+    if r.unit() < 0.4 {
+        let (command, limit) = (r.one_of(&[0.0, 0.0, 1.0]) * r.between(-3.0, 3.0), r.decade(-3.0, 2.5));
+        let _ = writeln!(text, "motor = {{ mode = \"velocity\", command = {command}, max_torque = {limit} }}");
+    }
+    text
 }
 
 #[test]
@@ -116,17 +138,23 @@ fn robots_with_weak_friction_in_their_joints_keep_the_laws() {
 
 #[test]
 fn robots_with_friction_and_limited_motors_of_any_strength_keep_the_laws() {
-    all_keep_the_laws(2, |r| {
-        let mut text = String::new();
-        if r.unit() < 0.4 {
-            let _ = writeln!(text, "friction = {}", r.decade(-4.0, 1.5));
-        }
-        if r.unit() < 0.4 {
-            let (command, limit) = (r.one_of(&[0.0, 0.0, 1.0]) * r.between(-3.0, 3.0), r.decade(-3.0, 2.5));
-            let _ = writeln!(text, "motor = {{ mode = \"velocity\", command = {command}, max_torque = {limit} }}");
-        }
-        text
+    all_keep_the_laws(2, any_drive);
+}
+
+#[test]
+fn robots_with_joint_limits_keep_the_laws() {
+    all_keep_the_laws(3, |r| {
+        let limits = [r.between(0.05, 0.8), r.between(0.05, 0.8)];
+        let has_limits = r.unit() < 0.4;
+        let text = any_drive(r);
+        if has_limits { format!("{text}limits = {{ lower = -{}, upper = {} }}\n", limits[0], limits[1]) } else { text }
     });
+}
+
+#[test]
+fn piles_that_once_missed_a_law_keep_it() {
+    // 40, 121, 130: islands that sweeps did not solve; 50, 113: several points that slide slowly
+    these_keep_the_laws(702, &[40, 50, 113, 121, 130], any_drive);
 }
 
 /// A lever of 0.1 kg·m² whose load grows by 1.7 N·m a second, from nothing.

@@ -20,6 +20,7 @@
 //! | `loop_joint` | rows and residuals of loop joints |
 //! | `rank` | independent rows of loop joints and gears |
 //! | `delassus` | Delassus matrix G; products with M⁻¹ |
+//! | `foresight` | what counts as closed because of a blow within a step |
 //! | `kink` | limited drives at the kink of their law, as constraints of the contact problem |
 //! | `implicit_forces` | forces along lines between two points at the new state of a linearly implicit step |
 //! | `time_stepping` | problem of a whole step at velocity level with many contacts |
@@ -34,6 +35,7 @@
 mod active_rows;
 mod assembly;
 mod delassus;
+pub(crate) mod foresight;
 mod impact;
 pub(crate) mod implicit_forces;
 pub(crate) mod kink;
@@ -61,6 +63,7 @@ use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
+use foresight::Foresight;
 use implicit_forces::ImplicitForces;
 use kink::{Kink, drive_groups};
 use row::{Motions, Row};
@@ -149,6 +152,7 @@ pub(crate) struct Constraints<R> {
     pub candidates: CandidateList,
     /// Slots that are open beyond their surface or bound since the start of the sub-step.
     pub open_inside: Vec<usize>,
+    pub foresight: Foresight,
     /// Candidates of a later instant, for the detection of new contacts.
     pub later_candidates: CandidateList,
     /// Points of surfaces that may have touched and parted within the sub-step.
@@ -227,6 +231,7 @@ impl<R: Real> Constraints<R> {
             memory: WarmStart::new(set.n_slots()),
             candidates: CandidateList::default(),
             open_inside: Vec::with_capacity(RESERVED),
+            foresight: Foresight::default(),
             later_candidates: CandidateList::default(),
             parting: Vec::with_capacity(RESERVED),
             detector: Detector::new(&set.colliders, &set.pairs),

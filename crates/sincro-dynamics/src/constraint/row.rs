@@ -142,7 +142,13 @@ impl<R: Real> Motions<R> {
 
     /// J v of a row for the joint rates of [`Motions::place_velocities`].
     pub fn placed_rate(&self, row: &Row<R>, v: &[R]) -> R {
-        row.rate(|link| if link == WORLD { Motion::zero() } else { self.accel[link as usize] }, v)
+        row.rate(|link| self.placed_twist_of(link), v)
+    }
+
+    /// Twist of a link about the world's origin for the joint rates of [`Motions::place_velocities`]; zero for the
+    /// world.
+    pub fn placed_twist_of(&self, link: u32) -> Motion<R> {
+        if link == WORLD { Motion::zero() } else { self.accel[link as usize] }
     }
 
     /// Axes of the joints, one a degree of freedom.

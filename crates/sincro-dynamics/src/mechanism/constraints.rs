@@ -5,21 +5,22 @@ use sincro_complementarity::WarmStart;
 use sincro_complementarity::sweeps::GivenForces;
 use sincro_math::Real;
 
+use crate::constraint::foresight::Foresight;
 use crate::constraint::row::Motions;
 use crate::constraint::{
     CLOSED_DISTANCE, ConstraintSet, Constraints, DIRECT_ROWS, HeldLaw, LEAST_ZERO_SPEED, LOCATED_DISTANCE,
     MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED, pair_of,
 };
 use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
-use crate::contact::candidate_list::SlotCandidate;
-use crate::contact::{Collider, Margin, Pair};
+use crate::contact::candidate_list::{CandidateList, SlotCandidate};
+use crate::contact::{Collider, Detector, Margin, Pair};
 use crate::energy::energy_at;
 use crate::integrate::{Sample, System};
 use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
 use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
-use crate::spatial::{Pose, Vec3};
+use crate::spatial::{Motion, Pose, Vec3};
 
 /// Projection tolerance of positions and rates `[m]`, [m/s], of a mechanism of 1 m or more.
 const PROJECTED: f64 = PROJECTION_TOLERANCE;
@@ -87,6 +88,26 @@ pub(crate) enum ActivationRule {
     Within(f64),
 }
 
+impl ActivationRule {
+    /// Returns true if a contact or limit at `distance` with this `rate` counts as closed, under the strongest
+    /// `gravity` [m/s²] and with a speed that counts as none.
+    pub(super) fn closes(self, (distance, rate): (f64, f64), gravity: f64, zero_speed: f64) -> bool {
+        match self {
+            Self::Touching => distance <= CLOSED_DISTANCE && rate <= zero_speed,
+            Self::All => distance <= CLOSED_DISTANCE,
+            Self::Within(h) => distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity,
+        }
+    }
+
+    /// Margin within which candidates are looked for.
+    pub(super) fn margin(self, gravity: f64) -> Margin {
+        match self {
+            Self::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
+            _ => Margin::of(1e-6),
+        }
+    }
+}
+
 impl Mechanism<f64> {
     /// Detects contacts at the chart's origin for velocities `v`, and classifies every slot.
     pub(crate) fn detect_contacts(&mut self, v: &[f64], closing: ActivationRule) -> ContactStatus {
@@ -106,10 +127,7 @@ impl Mechanism<f64> {
         c.motions.place(model, scratch, v);
         let set = &*model.params.constraints;
         let gravity = model.strongest_gravity(&scratch.poses);
-        let margin = match closing {
-            ActivationRule::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
-            _ => Margin::of(1e-6),
-        };
+        let margin = closing.margin(gravity);
         let fall = if let ActivationRule::Within(h) = closing { h * gravity } else { 0.0 };
         c.rest.begin(&self.base, fall);
         if c.rest.is_stale() {
@@ -533,12 +551,10 @@ impl Constraints<f64> {
         let mut touch = ContactStatus::default();
         let zero_speed = self.zero_speed;
         self.open_inside.clear();
-        let closes = |distance: f64, rate: f64| match closing {
-            ActivationRule::Touching => distance <= CLOSED_DISTANCE && rate <= zero_speed,
-            ActivationRule::All => distance <= CLOSED_DISTANCE,
-            ActivationRule::Within(h) => {
-                distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity
-            }
+        let foresight = matches!(closing, ActivationRule::Within(_)).then_some(&self.foresight);
+        let closes = |slot: usize, distance: f64, rate: f64| {
+            closing.closes((distance, rate), gravity, zero_speed)
+                || foresight.is_some_and(|foresight| foresight.closes(slot))
         };
         let rest = &self.rest;
         self.memory.begin_classification(|slot| {
@@ -548,7 +564,7 @@ impl Constraints<f64> {
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (q[limit.coordinate] - limit.bound);
             let rate = limit.sign * v[limit.dof];
-            let closed = closes(distance, rate);
+            let closed = closes(slot, distance, rate);
             self.memory.classify(slot, closed, [false; 3]);
             self.open_inside.extend((!closed && distance < -CLOSED_DISTANCE).then_some(slot));
             touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -zero_speed;
@@ -567,7 +583,7 @@ impl Constraints<f64> {
                     self.memory.classify(slot, at.distance < 0.0, slides());
                     continue;
                 }
-                let closed = closes(at.distance, rate);
+                let closed = closes(slot, at.distance, rate);
                 self.memory.classify(slot, closed, if closed { slides() } else { [false; 3] });
                 self.open_inside.extend((!closed && at.distance < -CLOSED_DISTANCE).then_some(slot));
                 touch.has_impact |= at.distance <= CLOSED_DISTANCE && rate < -zero_speed;
@@ -591,23 +607,28 @@ impl Constraints<f64> {
         woken
     }
 
-    /// Detects the contact candidates at the motions last placed.
+    /// Detects the contact candidates at the motions last placed, and at those that blows lead to.
     fn detect(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
-        let motions = &self.motions;
-        let velocity =
-            |c: &Collider, p: Vec3<f64>| (motions.velocity_of(c.link, p), motions.twist_of(c.link).ang.norm());
-        let (memory, first_slot) = (&self.memory, set.limits.len());
-        let former = |pair: &Pair| memory.feature_among(first_slot + pair.first..first_slot + pair.first + pair.slots);
-        let leaves_out = |c: &Collider| self.rest.leaves_out([c.link]);
-        self.detector.detect(
-            (&set.colliders, &set.pairs),
-            poses,
-            margin,
-            velocity,
-            former,
-            leaves_out,
-            &mut self.candidates,
+        let rest = &self.rest;
+        let found = &mut self.candidates;
+        let motions = (&self.motions, &self.foresight);
+        find_candidates(
+            &mut self.detector,
+            &self.memory,
+            motions,
+            (set, poses, margin),
+            |link| rest.leaves_out([link]),
+            found,
         );
+    }
+
+    /// Detects those of the links that blows accelerate, as candidates of a later instant.
+    pub(super) fn detect_struck(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
+        let foresight = &self.foresight;
+        let found = &mut self.later_candidates;
+        let motions = (&self.motions, foresight);
+        let leaves_out = |link: u32| foresight.twist_of(link).is_none();
+        find_candidates(&mut self.detector, &self.memory, motions, (set, poses, margin), leaves_out, found);
     }
 
     /// Detects the contact candidates of a later instant at the motions last placed.
@@ -625,13 +646,43 @@ impl Constraints<f64> {
     }
 }
 
-pub(super) fn normal_rate(motions: &Motions<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
-    relative(motions, candidate, at.point).dot(at.normal)
+/// Contact candidates at the motions placed, and at those that blows lead to; pairs of links that are both left out are
+/// passed over.
+fn find_candidates(
+    detector: &mut Detector,
+    memory: &WarmStart<f64>,
+    (motions, foresight): (&Motions<f64>, &Foresight),
+    (set, poses, margin): (&ConstraintSet, &[Pose<f64>], Margin),
+    is_left_out: impl Fn(u32) -> bool,
+    found: &mut CandidateList,
+) {
+    let velocity = |c: &Collider, p: Vec3<f64>| {
+        let twist = foresight.twist_of(c.link).unwrap_or_else(|| motions.twist_of(c.link));
+        (twist.lin + twist.ang.cross(p), twist.ang.norm())
+    };
+    let first_slot = set.limits.len();
+    let former = |pair: &Pair| memory.feature_among(first_slot + pair.first..first_slot + pair.first + pair.slots);
+    let leaves_out = |c: &Collider| is_left_out(c.link);
+    detector.detect((&set.colliders, &set.pairs), poses, margin, velocity, former, leaves_out, found);
 }
 
-/// Velocity of a's point against b's [m/s].
-fn relative(motions: &Motions<f64>, candidate: &ContactCandidate, point: Vec3<f64>) -> Vec3<f64> {
-    motions.velocity_of(candidate.a, point) - motions.velocity_of(candidate.b, point)
+pub(super) fn normal_rate(motions: &Motions<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
+    normal_rate_of(|link| motions.twist_of(link), candidate, at)
+}
+
+/// Rate of the distance of a contact [m/s], for the twists of links about the world's origin.
+pub(super) fn normal_rate_of(
+    twist: impl Fn(u32) -> Motion<f64>,
+    candidate: &ContactCandidate,
+    at: &ContactKinematics<f64>,
+) -> f64 {
+    relative(twist, candidate, at.point).dot(at.normal)
+}
+
+/// Velocity of a's point against b's [m/s], for the twists of links about the world's origin.
+fn relative(twist: impl Fn(u32) -> Motion<f64>, candidate: &ContactCandidate, point: Vec3<f64>) -> Vec3<f64> {
+    let (a, b) = (twist(candidate.a), twist(candidate.b));
+    (a.lin + a.ang.cross(point)) - (b.lin + b.ang.cross(point))
 }
 
 /// Friction groups that slide, faster than a speed that counts as none.
@@ -643,7 +694,7 @@ fn slides(
     zero_speed: f64,
 ) -> [bool; 3] {
     let (t1, t2) = tangents(at.normal);
-    let v = relative(motions, candidate, at.point);
+    let v = relative(|link| motions.twist_of(link), candidate, at.point);
     let w = motions.twist_of(candidate.a).ang - motions.twist_of(candidate.b).ang;
     let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > zero_speed;
     let m = &pair.material;

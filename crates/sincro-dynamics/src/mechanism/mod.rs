@@ -15,6 +15,7 @@ mod analysis;
 mod bearing_load;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
+mod foresight;
 mod kinks;
 pub mod layout;
 mod lines;

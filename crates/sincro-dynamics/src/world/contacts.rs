@@ -17,6 +17,9 @@ const MAX_IMPACTS: usize = 50;
 pub(super) const MAX_CONTACT_EVENTS: usize = 1200;
 pub(super) const MAX_EVENTS_AGAIN: usize = 400;
 
+/// Maximum number of times that a step at velocity level is made again because of what it passes.
+const MAX_FORESIGHTS: usize = 4;
+
 /// Number of steps at velocity level into which the rest of such a tick is divided.
 const FINE_STEPS: u32 = 16;
 
@@ -137,6 +140,7 @@ impl World {
         self.mechanism.allow_rest(is_semi_implicit);
         // forces that were looked at are found already, by a problem that leaves nothing out
         let is_new = !core::mem::take(&mut self.knows_step_forces) || self.mechanism.is_all_at_rest();
+        self.mechanism.forget_foreseen();
         let mut is_large = self.detect_step_contacts(h, is_semi_implicit && is_new);
         self.drives_before.clone_from(&self.mechanism.drives);
         self.try_step(t, h, is_large, system);
@@ -145,12 +149,8 @@ impl World {
             is_large = self.undo_try(h);
             self.try_step(t, h, is_large, system);
         }
-        if !is_large && self.has_unsolved_try() {
-            // few constraints, whose modes were not found: sweeps need none
-            self.undo_try(h);
-            is_large = true;
-            self.try_step(t, h, is_large, system);
-        }
+        is_large = self.sweep_unsolved(t, h, is_large, system);
+        is_large = self.foresee(t, h, is_large, system);
         self.statistics.steps += 1;
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::forget_start);
         if !self.y.iter().all(|x| x.is_finite()) {
@@ -175,17 +175,50 @@ impl World {
         Ok(())
     }
 
+    /// Makes the step last tried again while it passes limits and contacts that nothing approached at its start: a blow
+    /// moves what was at rest. They count as closed in the next try, which begins with the forces of the last one.
+    /// Returns true if that was solved by sweeps.
+    fn foresee<A: CoupledSystem<f64>>(&mut self, t: f64, h: f64, mut is_large: bool, system: &mut A) -> bool {
+        let velocities = self.layout().velocities();
+        for _ in 0..MAX_FORESIGHTS {
+            if !self.mechanism.foresee(&self.y[velocities.clone()], h) {
+                break;
+            }
+            self.return_to_step_start();
+            is_large = self.detect_step_contacts(h, false);
+            self.try_step(t, h, is_large, system);
+            is_large = self.sweep_unsolved(t, h, is_large, system);
+        }
+        is_large
+    }
+
+    /// Makes the step last tried again by sweeps if it had few constraints whose modes were not found: sweeps need
+    /// none. Returns true if it was solved by sweeps.
+    fn sweep_unsolved<A: CoupledSystem<f64>>(&mut self, t: f64, h: f64, is_large: bool, system: &mut A) -> bool {
+        let is_unsolved = !is_large && self.has_unsolved_try();
+        if is_unsolved {
+            self.undo_try(h);
+            self.try_step(t, h, true, system);
+        }
+        is_large || is_unsolved
+    }
+
     /// Goes back to the start of a step of length `h` as if it had not been tried, and detects its contacts anew, with
     /// everything that rests; returns true if they are solved by sweeps.
     fn undo_try(&mut self, h: f64) -> bool {
-        self.restore();
-        self.mechanism.drives.copy_from_slice(&self.drives_before);
+        self.return_to_step_start();
         self.mechanism.undo_classification();
         self.detect_step_contacts(h, false)
     }
 
+    /// Goes back to state and modes of drives at the start of the step last tried.
+    fn return_to_step_start(&mut self) {
+        self.restore();
+        self.mechanism.drives.copy_from_slice(&self.drives_before);
+    }
+
     /// Returns true if the step last tried left a constraint problem unsolved that sweeps may solve.
-    fn has_unsolved_try(&self) -> bool {
+    pub(super) fn has_unsolved_try(&self) -> bool {
         let unsolved = self.solver_report().map_or(0, |report| report.not_converged);
         unsolved > self.report_before.not_converged && self.mechanism.can_sweep()
     }
@@ -252,6 +285,7 @@ impl World {
             return false;
         }
         self.mechanism.allow_rest(true);
+        self.mechanism.forget_foreseen();
         self.detect_step_contacts(self.next_step, false)
     }
 
@@ -259,7 +293,10 @@ impl World {
     /// there; the velocities at its end are left in `step_end_velocities`.
     pub(super) fn find_step_forces(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         let layout = self.layout();
-        self.try_step(t, self.next_step, true, &mut { system });
+        self.drives_before.clone_from(&self.mechanism.drives);
+        let (h, system) = (self.next_step, &mut { system });
+        self.try_step(t, h, true, system);
+        self.foresee(t, h, true, system);
         self.knows_step_forces = true;
         self.step_end_velocities.copy_from_slice(&self.y[layout.velocities()]);
         self.restore();

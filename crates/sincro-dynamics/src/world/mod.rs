@@ -594,6 +594,10 @@ impl World {
         self.mechanism.load(&self.state, &mut self.y);
         self.mechanism.detect_contacts(&self.state.v, ActivationRule::Touching);
         self.mechanism.mark_modes();
+        if let (Method::SemiImplicitEuler, Some(constraints)) = (&self.method, &mut self.mechanism.constraints) {
+            // no step is made with these forces: friction is against the sliding velocity of this instant
+            constraints.sub_step = 0.0;
+        }
         let own = self.mechanism.dim();
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
         self.decide_locks_now(t);

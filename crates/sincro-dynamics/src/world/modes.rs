@@ -8,6 +8,8 @@ use sincro_complementarity::WarmStart;
 use sincro_complementarity::sweeps::GivenForces;
 
 use super::World;
+use super::switching::Law;
+use crate::constraint::ModeRule;
 use crate::coupled::CoupledSystem;
 
 /// Relative difference of accelerations above which solutions are different motions.
@@ -139,13 +141,26 @@ impl World {
         self.mark_targets(h);
         self.mechanism.pose_kinks(self.kinks.iter());
         step(self);
+        if self.has_unsolved_try() {
+            // modes that are none: the whole step is made again by sweeps
+            return;
+        }
         self.mechanism.read_kinks(&mut self.kinks);
+        self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
         self.write_modes();
         self.mark_targets(h);
         self.mechanism.pose_kinks(self.kinks.iter().filter(|kink| kink.saturation == 0.0));
         self.mechanism.set_given_forces(GivenForces::Solution);
         step(self);
         self.mechanism.set_given_forces(GivenForces::Start);
+        if self.mark_infeasible(Law::Velocity) > 0 {
+            // the contacts have another solution under these torques, in which the drives move on: hold the first one
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
+            self.mechanism.mark_start();
+            self.mechanism.set_mode_rule(ModeRule::Held);
+            step(self);
+            self.mechanism.set_mode_rule(ModeRule::Decided);
+        }
     }
 
     /// Returns true if the modes of the kinks differ from those at the present instant.

@@ -42,7 +42,7 @@ pub(super) const NO_KINK: usize = usize::MAX;
 
 /// Level at which the problem is posed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Law {
+pub(super) enum Law {
     /// Accelerations, for drives at their kink.
     Acceleration,
     /// Velocities at the end of a step, for all limited drives.
@@ -202,7 +202,7 @@ impl World {
     }
 
     /// Marks the kinks whose modes contradict their law in the last evaluation, and counts them.
-    fn mark_infeasible(&mut self, law: Law) -> usize {
+    pub(super) fn mark_infeasible(&mut self, law: Law) -> usize {
         let (layout, rounding) = (self.layout(), self.mechanism.rounding());
         let mut count = 0;
         for k in 0..self.kinks.len() {
