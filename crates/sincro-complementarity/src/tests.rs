@@ -400,3 +400,48 @@ fn a_kept_load_moves_as_a_shared_one() {
         assert!(distance(&shared.2, &kept.2) < 1e-7 * (1.0 + shared.2.iter().fold(0.0_f64, |s, x| s.max(x.abs()))));
     }
 }
+
+/// A limited drive on `row` + 1, under a given normal force on `row` as sincro-dynamics poses it.
+fn drive(row: usize, limit: f64) -> UnilateralConstraint<f64> {
+    const NORMAL: f64 = 1.0 / (1_u128 << 100) as f64;
+    UnilateralConstraint {
+        given: Some(NORMAL),
+        ..UnilateralConstraint::contact(
+            crate::NO_SLOT,
+            row,
+            [Some(FrictionGroup::sticking(row + 1, 1, limit / NORMAL)), None, None],
+        )
+    }
+}
+
+#[test]
+fn problems_without_a_solution_leave_finite_forces() {
+    let mut numbers = Numbers(11);
+    let mut unsolved = 0;
+    for draw in 0..2000 {
+        // contacts that slide under friction so large that there need be no forces (Painlevé), beside drives
+        let (sliding, drives) = (1 + draw % 3, draw % 4);
+        let m = 3 * sliding + 2 * drives;
+        let mut a = products(&mut numbers, m, 2 + m / 3);
+        let mut b: Vec<f64> = (0..m).map(|_| numbers.next()).collect();
+        let mut blocks = contacts(sliding, 0, 2.0);
+        for group in blocks.iter_mut().flat_map(|block| block.groups.iter_mut().flatten()) {
+            group.is_sliding = true;
+            group.slip([-1.0, 0.0], None);
+        }
+        let mut lambda = vec![0.0; m];
+        for k in 0..drives {
+            let row = 3 * sliding + 2 * k;
+            blocks.push(drive(row, numbers.next().abs()));
+            for i in 0..m {
+                (a[row * m + i], a[i * m + row]) = (0.0, 0.0);
+            }
+            (b[row], lambda[row]) = (0.0, 1.0 / (1_u128 << 100) as f64);
+        }
+        let mut solver = Solver::default();
+        solver.solve(&ContactProblem { a: &a, b: &b, n_free: 0 }, &mut blocks, &mut lambda);
+        unsolved += solver.report.not_converged;
+        assert!(lambda.iter().all(|force| force.is_finite()), "draw {draw}: {lambda:?}");
+    }
+    assert!(unsolved > 20, "{unsolved} without a solution");
+}

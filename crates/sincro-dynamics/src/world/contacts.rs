@@ -284,6 +284,11 @@ impl World {
         if !is_time_stepping || !self.mechanism.can_have_many_contacts() {
             return false;
         }
+        self.detect_next_step()
+    }
+
+    /// Detects the contacts of the next step; returns true if they make a problem that is solved by sweeps.
+    pub(super) fn detect_next_step(&mut self) -> bool {
         self.mechanism.allow_rest(true);
         self.mechanism.forget_foreseen();
         self.detect_step_contacts(self.next_step, false)

@@ -594,12 +594,21 @@ impl World {
         self.mechanism.load(&self.state, &mut self.y);
         self.mechanism.detect_contacts(&self.state.v, ActivationRule::Touching);
         self.mechanism.mark_modes();
-        if let (Method::SemiImplicitEuler, Some(constraints)) = (&self.method, &mut self.mechanism.constraints) {
+        let is_semi_implicit = matches!(self.method, Method::SemiImplicitEuler);
+        if let (true, Some(constraints)) = (is_semi_implicit, &mut self.mechanism.constraints) {
             // no step is made with these forces: friction is against the sliding velocity of this instant
             constraints.sub_step = 0.0;
         }
-        let own = self.mechanism.dim();
+        let (own, before) = (self.mechanism.dim(), self.solver_report());
         self.mechanism.slope(t, &self.y[..own], &mut self.slope[..own]);
+        let is_unsolved = before.zip(self.solver_report()).is_some_and(|(x, y)| y.not_converged > x.not_converged);
+        if is_unsolved && is_semi_implicit && self.mechanism.can_sweep() {
+            // there may be no forces of this instant (Painlevé), but there are impulses of the step
+            before.into_iter().for_each(|before| self.discard_failures(&before));
+            self.mechanism.load(&self.state, &mut self.y);
+            self.detect_next_step();
+            return self.step_rates(t);
+        }
         self.decide_locks_now(t);
         let State { v, rotors, .. } = &self.state;
         self.mechanism.find_motor_torques((v, rotors), v, (0.0, 0.0));
