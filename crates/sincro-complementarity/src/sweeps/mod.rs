@@ -122,6 +122,16 @@ impl Law {
             Self::Coulomb { .. } | Self::Interval { .. } | Self::Disc { .. } => free.clamp(-limit, limit),
         }
     }
+
+    /// Correction μ‖u_t‖ of the normal rate of a contact that slides by `u`, which makes Coulomb friction associated
+    /// (de Saxcé).
+    #[inline(always)]
+    fn correction(self, u: [f64; 3]) -> f64 {
+        match self {
+            Self::Coulomb { friction } => friction * (u[1] * u[1] + u[2] * u[2]).sqrt(),
+            _ => 0.0,
+        }
+    }
 }
 
 /// Meaning of the forces given with the blocks.
@@ -577,10 +587,7 @@ impl Sweeper {
     fn projected(&self, k: usize, u: [f64; 3]) -> ([f64; 3], [f64; 6]) {
         let block = &self.blocks[k];
         let rho = block.step_length();
-        let shift = match block.law {
-            Law::Coulomb { friction } => friction * (u[1] * u[1] + u[2] * u[2]).sqrt(),
-            _ => 0.0,
-        };
+        let shift = block.law.correction(u);
         let [normal, one, two] = self.lambda[k];
         self.admitted(k, [normal - rho * (u[0] + shift), one - rho * u[1], two - rho * u[2]])
     }

@@ -17,7 +17,7 @@ use core::ops::Range;
 use sincro_math::{LaneVisitor, Lanes, Real, lanes};
 
 use super::newton::NewtonStep;
-use super::{Block, Island, Law, Sweeper, TOLERANCE, minus, square};
+use super::{Block, Island, Sweeper, TOLERANCE, minus, square};
 
 /// Share of the new x in the over-relaxed one.
 const RELAXATION: f64 = 1.6;
@@ -115,7 +115,7 @@ impl Splitting {
         self.multiplier.clear();
         for k in blocks {
             let u = sweeper.rates::<Lanes<4>>(k);
-            let correction = correction(sweeper.blocks[k].law, u);
+            let correction = sweeper.blocks[k].law.correction(u);
             self.multiplier.push([-u[0] - correction, -u[1], -u[2]]);
         }
     }
@@ -135,7 +135,7 @@ impl Splitting {
             let d = self.scale * sweeper.blocks[k].step_length();
             let (y, multiplier) = (sweeper.lambda[k], self.multiplier[k - blocks.start]);
             let free = [
-                y[0] - d * (multiplier[0] + b[0] + correction(*law, multiplier)),
+                y[0] - d * (multiplier[0] + b[0] + law.correction(multiplier)),
                 y[1] - d * (multiplier[1] + b[1]),
                 y[2] - d * (multiplier[2] + b[2]),
             ];
@@ -174,14 +174,5 @@ impl Splitting {
         if !(0.5..2.0).contains(&ratio) {
             self.scale = (self.scale / ratio).clamp(MIN_SCALE, MAX_SCALE);
         }
-    }
-}
-
-/// Correction of the normal rate of a contact whose sliding rate has the size of that in `u`.
-#[inline(always)]
-fn correction(law: Law, u: [f64; 3]) -> f64 {
-    match law {
-        Law::Coulomb { friction } => friction * (u[1] * u[1] + u[2] * u[2]).sqrt(),
-        _ => 0.0,
     }
 }
