@@ -14,8 +14,9 @@ const MAX_ITERATIONS: usize = 40;
 /// Tolerance of the friction limit, relative to the friction.
 const TOLERANCE: f64 = 1e-10;
 
-/// Tolerance once Newton's method has made a step, relative to the friction: the next sweep goes on from there.
-const SLIP_TOLERANCE: f64 = 1e-3;
+/// Change of the friction by a step of Newton's method, relative to the friction, below which the step is the last: it
+/// is taken along the slope, without another look, and the next sweep goes on from there.
+const LAST_CHANGE: f64 = 0.1;
 
 /// Amount added to the diagonal of a matrix that may be singular, relative to the largest entry of the problem: a
 /// contact that cannot be moved in a direction needs no exact force there.
@@ -60,20 +61,19 @@ impl TangentialProblem {
         [x[0] * share, x[1] * share]
     }
 
-    /// Finds x with ‖x‖ = limit(x), where ‖x‖ is larger for s = 0, from the root last found: to a thousandth, or better
-    /// where that is one already. `slope` is the derivative of the limit along a change of x.
+    /// Finds x with ‖x‖ = limit(x), where ‖x‖ is larger for s = 0, from the root last found: by one step of Newton's
+    /// method where that is near. `slope` is the derivative of the limit along a change of x.
     #[inline(always)]
     pub fn slip(&mut self, r: [f64; 2], limit: impl Fn([f64; 2]) -> f64, slope: impl Fn([f64; 2]) -> f64) -> Slip {
         let (mut low, mut high, mut s) = (0.0, f64::INFINITY, self.s);
         let mut found = Slip { x: [0.0; 2], size: 0.0, limit: 0.0 };
-        let mut tolerance = TOLERANCE;
         for _ in 0..MAX_ITERATIONS {
             let (x, dx) = self.at(s, r);
             let size = (x[0] * x[0] + x[1] * x[1]).sqrt();
             let most = limit(x);
             found = Slip { x, size, limit: most };
             let excess = size - most;
-            if excess.abs() <= tolerance * size {
+            if excess.abs() <= TOLERANCE * size {
                 break;
             }
             if excess > 0.0 {
@@ -83,9 +83,15 @@ impl TangentialProblem {
             }
             // the rate of the excess, times the size
             let rate = (x[0] * dx[0] + x[1] * dx[1]) - slope(dx) * size;
-            tolerance = SLIP_TOLERANCE;
             let newton = s - excess * size / rate;
             s = if newton > low && newton < high {
+                let change = [dx[0] * (newton - s), dx[1] * (newton - s)];
+                if change[0] * change[0] + change[1] * change[1] <= LAST_CHANGE * LAST_CHANGE * size * size {
+                    let x = [x[0] + change[0], x[1] + change[1]];
+                    found = Slip { x, size: (x[0] * x[0] + x[1] * x[1]).sqrt(), limit: limit(x) };
+                    s = newton;
+                    break;
+                }
                 newton
             } else if high.is_finite() {
                 0.5 * (low + high)
@@ -147,19 +153,17 @@ impl ContactLocal {
         self.g[0] + self.g[3] + self.g[5]
     }
 
-    /// G λ.
+    /// The force, from the present one and the rates `u` with it.
     #[inline(always)]
-    pub fn times(&self, l: [f64; 3]) -> [f64; 3] {
-        product(&self.g, l)
-    }
-
-    /// The force, for the rates `w` without it.
-    #[inline(always)]
-    pub fn solve(&mut self, friction: f64, w: [f64; 3]) -> [f64; 3] {
+    pub fn solve(&mut self, friction: f64, force: [f64; 3], u: [f64; 3]) -> [f64; 3] {
+        let own = product(&self.g, force);
+        // rates without the force
+        let w = [u[0] - own[0], u[1] - own[1], u[2] - own[2]];
         if w[0] >= 0.0 {
             return [0.0; 3];
         }
-        let stick = product(&self.inverse, [-w[0], -w[1], -w[2]]);
+        let change = product(&self.inverse, u);
+        let stick = [force[0] - change[0], force[1] - change[1], force[2] - change[2]];
         let limit = friction * stick[0];
         if stick[0] > 0.0 && stick[1] * stick[1] + stick[2] * stick[2] <= limit * limit {
             return stick;
@@ -207,14 +211,14 @@ mod tests {
             for w in [[-1.0, 0.3, -0.2], [-1e-9, 1.0, 1.0], [-3.0, 0.0, 0.0]] {
                 for friction in [0.1, 1.0, 10.0] {
                     let mut local = ContactLocal::new(g);
-                    let force = local.solve(friction, w);
+                    let force = local.solve(friction, [0.0; 3], w);
                     assert!(force.iter().all(|f| f.is_finite()) && force[0] >= 0.0, "{force:?}");
                     assert!(force[1].hypot(force[2]) <= friction * force[0] * (1.0 + 1e-12), "{force:?}");
                 }
             }
         }
         let mut piston = ContactLocal::new([2.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert!((piston.solve(0.5, [-1.0, 0.0, 0.0])[0] - 0.5).abs() < 1e-9);
+        assert!((piston.solve(0.5, [0.0; 3], [-1.0, 0.0, 0.0])[0] - 0.5).abs() < 1e-9);
     }
 
     #[test]
@@ -228,8 +232,8 @@ mod tests {
             let (friction, w) = (number().abs() + 1e-3, [number(), number(), number()]);
             let mut local = ContactLocal::new(g);
             // as often as sweeps come by
-            let force = (0..6).map(|_| local.solve(friction, w)).last().expect("there are six");
-            let pushed = local.times(force);
+            let force = (0..6).map(|_| local.solve(friction, [0.0; 3], w)).last().expect("there are six");
+            let pushed = product(&local.g, force);
             let u: [f64; 3] = core::array::from_fn(|k| w[k] + pushed[k]);
             let (tangential, limit) = (force[1].hypot(force[2]), friction * force[0]);
             let scale = 1.0 + force[0];

@@ -1,12 +1,11 @@
-//! Nonsmooth nonlinear conjugate gradient method on block Gauss–Seidel sweeps, island by island.
+//! Block Gauss–Seidel sweeps with Anderson acceleration, island by island.
 //!
 //! A sweep solves each contact's own problem, one after the other (`local`): exactly where it is open or sticks, a slip
-//! to a thousandth of its friction, from sweep to sweep better. Its change of all forces is taken for a descent
-//! direction: with ∇ the change and β = ‖∇_k‖²/‖∇_{k−1}‖² the forces are moved further along the last direction,
-//! p ← β p + ∇, which is dropped where β > 1. Norms are those of the whitened velocities, ‖Σ yᵢ Δλᵢ‖: they weigh forces
-//! and torques by their effect. Source: key `silcowitz2010`.
+//! nearly so, from sweep to sweep better. Between sweeps the forces move on along the differences of what the last
+//! sweeps made of them (`anderson`).
 //!
-//! Where that converges slowly, Newton steps for all forces of the island together take turns with sweeps (`newton`);
+//! Where that converges slowly, Newton steps for all forces of the island together take turns with sweeps (`newton`),
+//! where bodies move only once sweeps do not help: contacts change their modes there, which sweeps find;
 //! where both leave much, the forces are split into those that obey the equations of motion and those that the laws
 //! admit (`splitting`).
 //! Wherever sweeps would end, limited drives are settled beside the contact forces found (`drives`).
@@ -14,6 +13,7 @@
 //! Residual of an island: natural map of the Coulomb law, the largest ‖λ − P_K(λ − ρ (u + μ‖u_t‖ n))‖ of its contacts
 //! with ρ = 3/tr G, relative to its largest force (key `acary2008`, section 3.9.4).
 
+mod anderson;
 mod body_rows;
 mod disjoint_sets;
 mod drives;
@@ -26,6 +26,7 @@ mod splitting;
 use sincro_math::{LaneVisitor, Real, lanes};
 
 use crate::solver::SolverReport;
+use anderson::Anderson;
 use body_rows::{Bodies, BodyRows, push_rows};
 use drives::Drives;
 use local::{ContactLocal, TangentialProblem};
@@ -64,8 +65,13 @@ const NEXT_SWEEPS: usize = 12;
 /// Limit of Newton steps of an island; beyond it the best iterate is taken and its residual reported.
 const MAX_NEWTON_STEPS: usize = 12;
 
-/// The same where bodies move: the forces of hits, which soon are others, are left sooner.
-const MOVING_NEWTON_STEPS: usize = 5;
+/// The same where bodies move, of Newton steps and sweeps instead of them: the forces of hits, which soon are others,
+/// are left sooner.
+const MOVING_STEPS: usize = 5;
+
+/// Share of the residual that a Newton step which fails leaves at least: pairs may want gap corrections that contradict
+/// each other, and nothing makes that better.
+const FAILURE: f64 = 0.9;
 
 /// Residual above which the alternating direction method follows, and above which further sweeps follow that one, while
 /// they make it smaller: they need no matrix.
@@ -75,7 +81,7 @@ const LARGEST_RESIDUAL: f64 = 3e-3;
 const LAST_SWEEPS: usize = 200;
 const MAX_LAST_ROUNDS: usize = 20;
 
-/// Residual below which one Newton step must do, unless the island hardly moves: bodies that hit each other share
+/// Residual below which sweeps end after their number, unless the island hardly moves: bodies that hit each other share
 /// forces that soon are others, and those at rest would creep.
 const ROUGH_TOLERANCE: f64 = 1e-4;
 
@@ -237,10 +243,7 @@ pub struct Sweeper {
     /// Place in z of each degree of freedom.
     place: Vec<u32>,
     z_before: Vec<f64>,
-    direction_z: Vec<f64>,
-    /// Direction and last forces, three a block.
-    direction: Vec<[f64; 3]>,
-    before: Vec<[f64; 3]>,
+    anderson: Anderson,
     /// Velocities along one block.
     along: Vec<f64>,
     /// Forces with the least residual so far.
@@ -451,12 +454,6 @@ impl Sweeper {
     fn resize_buffers(&mut self) {
         self.z_before.clear();
         self.z_before.resize(self.z.len(), 0.0);
-        self.direction_z.clear();
-        self.direction_z.resize(self.z.len(), 0.0);
-        self.direction.clear();
-        self.direction.resize(self.blocks.len(), [0.0; 3]);
-        self.before.clear();
-        self.before.resize(self.blocks.len(), [0.0; 3]);
         let longest = self.blocks.iter().map(|block| block.len).max().unwrap_or(0);
         self.along.clear();
         self.along.resize(longest, 0.0);
@@ -536,6 +533,22 @@ impl Sweeper {
     /// Solves a block's own problem. Returns the squares of the change and of the force.
     #[inline(always)]
     fn relax<V: Real>(&mut self, k: usize) -> [f64; 2] {
+        let Self { blocks, rows, z, lambda, .. } = self;
+        if let Block { law: Law::Coulomb { friction }, local: Local::Contact(local), bodies, rows: first, b, .. } =
+            &mut blocks[k]
+        {
+            match *bodies {
+                Bodies::One(one) => {
+                    let rows = BodyRows::first_of(&rows[*first..], [one]);
+                    return relax_contact::<V, 1>(rows, b, *friction, local, z, &mut lambda[k]);
+                }
+                Bodies::Two(one, two) => {
+                    let rows = BodyRows::first_of(&rows[*first..], [one, two]);
+                    return relax_contact::<V, 2>(rows, b, *friction, local, z, &mut lambda[k]);
+                }
+                Bodies::Other => {}
+            }
+        }
         let before = self.lambda[k];
         let u = self.rates::<V>(k);
         let lambda = self.own_force(k, u);
@@ -550,10 +563,7 @@ impl Sweeper {
         let lambda = self.lambda[k];
         let Block { law, local, .. } = &mut self.blocks[k];
         match (local, *law) {
-            (Local::Contact(local), Law::Coulomb { friction }) => {
-                let own = local.times(lambda);
-                local.solve(friction, minus(u, own))
-            }
+            (Local::Contact(local), Law::Coulomb { friction }) => local.solve(friction, lambda, u),
             (Local::Scalar { inverse }, law) => [law.admitted(lambda[0] - u[0] * *inverse, limit), 0.0, 0.0],
             (Local::Tangential { g, problem, .. }, _) => {
                 let own = [g[0] * lambda[0] + g[1] * lambda[1], g[1] * lambda[0] + g[2] * lambda[1]];
@@ -619,6 +629,26 @@ impl Sweeper {
     }
 }
 
+/// Solves the own problem of a contact of bodies with six velocities each. Returns the squares of the change and of the
+/// force.
+#[inline(always)]
+fn relax_contact<V: Real, const N: usize>(
+    rows: BodyRows<'_, N>,
+    b: &[f64; 4],
+    friction: f64,
+    local: &mut ContactLocal,
+    z: &mut [f64],
+    force: &mut [f64; 3],
+) -> [f64; 2] {
+    let before = *force;
+    *force = local.solve(friction, before, rows.rates::<V>(b, z));
+    let change = minus(*force, before);
+    if change != [0.0; 3] {
+        rows.add_to::<V>(change, z);
+    }
+    [square(change), square(*force)]
+}
+
 /// Result of some sweeps.
 struct Swept {
     residual: f64,
@@ -662,41 +692,46 @@ impl Island<'_> {
 
     /// Makes sweeps and Newton steps from the present forces on.
     fn improve(&mut self) -> Outcome {
-        let Swept { residual: mut best, mut sweeps, motion } = self.sweep(FIRST_SWEEPS + self.blocks.len() / 8);
-        let can_rest = self.stillness != Stillness::Awake;
-        if best <= if can_rest && motion < STILL { STILL_TOLERANCE } else { TOLERANCE } {
+        let Swept { residual: mut best, mut sweeps, mut motion } = self.sweep(FIRST_SWEEPS + self.blocks.len() / 8);
+        if best <= self.enough(motion, 0) {
             return Outcome { residual: best, sweeps, stands: false };
         }
         let mut newton = core::mem::take(&mut self.sweeper.newton);
         self.keep();
         let next_sweeps = NEXT_SWEEPS + self.blocks.len() / 16;
-        let mut stalls = 0;
+        let (mut stalls, mut fails, mut do_sweeps_help) = (0, 0, true);
         for step in 1..=MAX_NEWTON_STEPS {
             let last = best;
-            lanes::dispatch_four_lanes(newton.prepare(self.sweeper, self.blocks.clone(), self.z.clone()));
-            let mut swept = self.sweep(next_sweeps);
+            let is_swept = motion >= 1.0 && do_sweeps_help;
+            if !is_swept {
+                lanes::dispatch_four_lanes(newton.prepare(self.sweeper, self.blocks.clone(), self.z.clone()));
+            }
+            let mut swept = self.sweep(if is_swept { 2 * next_sweeps } else { next_sweeps });
             sweeps += swept.sweeps;
             if swept.residual >= best {
                 // the step was none
                 self.restore();
                 self.find_velocities();
-                swept = self.sweep(2 * next_sweeps);
-                sweeps += swept.sweeps;
+                if !is_swept {
+                    swept = self.sweep(2 * next_sweeps);
+                    sweeps += swept.sweeps;
+                }
             }
+            motion = swept.motion;
             if swept.residual < best {
                 best = swept.residual;
                 self.keep();
             }
-            let enough = match swept.motion {
-                m if can_rest && m < STILL && step < STILL_NEWTON_STEPS => STILL_TOLERANCE,
-                m if m < 1.0 => TOLERANCE,
-                _ => ROUGH_TOLERANCE,
-            };
             // what hardly gets better is left, the sooner the smaller it is
-            stalls += usize::from(best > 0.5 * last);
-            let has_stalled = (best <= TOLERANCE && stalls > 1) || (best <= ROUGH_TOLERANCE && stalls > 3);
-            let is_at_moving_limit = swept.motion >= 1.0 && step >= MOVING_NEWTON_STEPS;
-            if best <= enough || has_stalled || is_at_moving_limit {
+            let has_halved = best <= 0.5 * last;
+            do_sweeps_help &= !is_swept || has_halved;
+            stalls += usize::from(!has_halved);
+            fails = if best > FAILURE * last { fails + 1 } else { 0 };
+            let has_stalled = (best <= TOLERANCE && stalls > 1)
+                || (best <= ROUGH_TOLERANCE && stalls > 3)
+                || (best <= LARGEST_RESIDUAL && fails > 1);
+            let is_at_moving_limit = motion >= 1.0 && step >= MOVING_STEPS;
+            if best <= self.enough(motion, step) || has_stalled || is_at_moving_limit {
                 break;
             }
         }
@@ -720,6 +755,17 @@ impl Island<'_> {
         }
         self.restore();
         Outcome { residual: best, sweeps, stands: false }
+    }
+
+    /// Residual with which an island that moves so is left after so many Newton steps.
+    fn enough(&self, motion: f64, newton_steps: usize) -> f64 {
+        match motion {
+            m if self.stillness != Stillness::Awake && m < STILL && newton_steps < STILL_NEWTON_STEPS => {
+                STILL_TOLERANCE
+            }
+            m if m < 1.0 => TOLERANCE,
+            _ => ROUGH_TOLERANCE,
+        }
     }
 
     /// Settles drives and bilateral rows beside the present forces of contacts, which stand.
@@ -809,10 +855,9 @@ impl LaneVisitor for Sweeps<'_, '_> {
     #[inline(always)]
     fn visit<V: Real>(self) -> Swept {
         let Self { island: Island { sweeper, blocks, z, rest_rate, stillness }, most } = self;
-        let mut last_square = 0.0;
+        sweeper.anderson.restart(z.len(), 3 * blocks.len());
         for sweep in 1..=most {
             sweeper.z_before[z.clone()].copy_from_slice(&sweeper.z[z.clone()]);
-            sweeper.before[blocks.clone()].copy_from_slice(&sweeper.lambda[blocks.clone()]);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for k in blocks.clone() {
                 let [of_change, of_force] = sweeper.relax::<V>(k);
@@ -830,49 +875,12 @@ impl LaneVisitor for Sweeps<'_, '_> {
                     return Swept { residual, sweeps: sweep, motion };
                 }
             }
-            // further along the last direction
-            let square = square_of_difference(&sweeper.z[z.clone()], &sweeper.z_before[z.clone()]);
-            let beta = if last_square > 0.0 { square / last_square } else { f64::INFINITY };
-            last_square = square;
-            let beta = if beta <= 1.0 { beta } else { 0.0 };
-            let Sweeper { z: v, z_before, direction_z, lambda, before, direction, .. } = &mut **sweeper;
-            go_on(beta, &mut v[z.clone()], &z_before[z.clone()], &mut direction_z[z.clone()]);
-            go_on(
-                beta,
-                lambda[blocks.clone()].as_flattened_mut(),
-                before[blocks.clone()].as_flattened(),
-                direction[blocks.clone()].as_flattened_mut(),
-            );
+            let Sweeper { z: velocities, z_before, lambda, anderson, .. } = &mut **sweeper;
+            let forces = lambda[blocks.clone()].as_flattened_mut();
+            anderson.advance::<V>(&z_before[z.clone()], &mut velocities[z.clone()], forces);
         }
         unreachable!("the last sweep returns")
     }
-}
-
-/// Moves `x`, which a sweep has changed from `before`, further along the last `direction`, and keeps the new one.
-#[inline(always)]
-fn go_on(beta: f64, x: &mut [f64], before: &[f64], direction: &mut [f64]) {
-    for ((x, before), direction) in x.iter_mut().zip(before).zip(direction) {
-        let along = beta * *direction;
-        *direction = along + (*x - before);
-        *x += along;
-    }
-}
-
-/// Square of the distance of two points, in four lanes and a rest.
-#[inline(always)]
-fn square_of_difference(x: &[f64], y: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (xs, ys) = (x.chunks_exact(4), y.chunks_exact(4));
-    let mut rest = 0.0;
-    for (x, y) in xs.remainder().iter().zip(ys.remainder()) {
-        rest += (x - y) * (x - y);
-    }
-    for (x, y) in xs.zip(ys) {
-        for c in 0..4 {
-            sums[c] += (x[c] - y[c]) * (x[c] - y[c]);
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// Residual of an island relative to its `largest` force, and the largest rate, of what carries a force if only what is

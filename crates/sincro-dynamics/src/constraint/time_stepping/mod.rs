@@ -8,15 +8,15 @@
 //!
 //! Bodies that touch each other directly or through others form an *island*; islands do not depend on each other and
 //! are solved one by one ([`sincro_complementarity::sweeps`]): Gauss–Seidel sweeps with the solution of each contact's
-//! own problem, accelerated by a nonsmooth nonlinear conjugate gradient method. The residual of the Coulomb
-//! law is the test of convergence, and reported where it misses the tolerance.
+//! own problem and Anderson acceleration. The residual of the Coulomb law is the test of convergence, and reported
+//! where it misses the tolerance.
 //!
 //! The constraint residual enters the vector b: a distance is used up within the step; a penetration beyond
 //! [`DEAD_ZONE`] is reduced by [`CORRECTION`] a step. Over the points of a face both is linear in the distance
 //! ([`UsableDistance`]), as the motion of a rigid body is: else four points would contradict each other, and the sweeps
 //! would shift load between them without end.
 //!
-//! Sources: keys `acary2008` (chapters 10 and 13), `jain2011` (chapter 7), `jean1999`, `silcowitz2010`.
+//! Sources: keys `acary2008` (chapters 10 and 13), `jain2011` (chapter 7), `jean1999`.
 
 #[cfg(test)]
 mod tests;
@@ -87,6 +87,9 @@ fn usable(distance: f64, least_correction: f64) -> f64 {
 pub(super) struct TimeStepping {
     islands: Islands,
     sweeper: Sweeper,
+    /// Place of each block among those of the same two links, and the items of an island in the order of sweeps.
+    places: Vec<u32>,
+    order: Vec<(u32, usize)>,
     /// Numbers of one row, and its degrees of freedom.
     values: Vec<f64>,
     dofs: Vec<u32>,
@@ -212,14 +215,40 @@ impl<R: Real> Constraints<R> {
         islands.find(items.map(|row| self.delassus_factors.trees(&self.rows[row])));
     }
 
+    /// Place of each block in the order of sweeps: the first points of all manifolds, then their second ones, and so
+    /// on, at last the drives. Blocks that follow each other so move different bodies, and a processor computes them
+    /// at once.
+    fn find_places(&self, places: &mut Vec<u32>) {
+        places.clear();
+        let mut last = None;
+        for block in &self.blocks {
+            let row = &self.rows[block.row];
+            let links = Some((row.a, row.b)).filter(|_| !block.is_drive());
+            let place = match places.last() {
+                _ if links.is_none() => u32::MAX,
+                Some(before) if links == last => before + 1,
+                _ => 0,
+            };
+            places.push(place);
+            last = links;
+        }
+    }
+
     /// Whitened rows of all blocks, island by island.
     fn collect_blocks(&mut self, model: &Model<R>, sweeps: &mut TimeStepping) {
-        let TimeStepping { islands, sweeper, values, dofs } = sweeps;
+        let TimeStepping { islands, sweeper, places, order, values, dofs } = sweeps;
         let rows = &self.rows;
         sweeper.clear(model.n_v());
+        self.find_places(places);
         let columns = self.motions.columns();
         for k in 0..islands.len() {
-            for item in islands.items(k) {
+            order.clear();
+            order.extend(islands.items(k).map(|item| {
+                let block = item.checked_sub(self.n_free);
+                (block.map_or(0, |block| places[block]), item)
+            }));
+            order.sort_unstable();
+            for &(_, item) in order.iter() {
                 let mut add = |sweeper: &mut Sweeper, law: Law, first: usize, n: usize| {
                     values.clear();
                     for row in &rows[first..first + n] {
