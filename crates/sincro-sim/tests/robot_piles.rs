@@ -131,6 +131,14 @@ fn any_drive(r: &mut Draw) -> String {
     text
 }
 
+/// The same, with limits or without.
+fn drive_and_limits(r: &mut Draw) -> String {
+    let limits = [r.between(0.05, 0.8), r.between(0.05, 0.8)];
+    let has_limits = r.unit() < 0.4;
+    let text = any_drive(r);
+    if has_limits { format!("{text}limits = {{ lower = -{}, upper = {} }}\n", limits[0], limits[1]) } else { text }
+}
+
 #[test]
 fn robots_with_weak_friction_in_their_joints_keep_the_laws() {
     all_keep_the_laws(1, |r| r.one_of(&["", "friction = 0.02\n"]).to_owned());
@@ -143,18 +151,17 @@ fn robots_with_friction_and_limited_motors_of_any_strength_keep_the_laws() {
 
 #[test]
 fn robots_with_joint_limits_keep_the_laws() {
-    all_keep_the_laws(3, |r| {
-        let limits = [r.between(0.05, 0.8), r.between(0.05, 0.8)];
-        let has_limits = r.unit() < 0.4;
-        let text = any_drive(r);
-        if has_limits { format!("{text}limits = {{ lower = -{}, upper = {} }}\n", limits[0], limits[1]) } else { text }
-    });
+    all_keep_the_laws(3, drive_and_limits);
 }
 
 #[test]
 fn piles_that_once_missed_a_law_keep_it() {
     // 40, 121, 130: islands that sweeps did not solve; 50, 113: several points that slide slowly
     these_keep_the_laws(702, &[40, 50, 113, 121, 130], any_drive);
+    // a drive at its limit to the last digits passes its target
+    these_keep_the_laws(703, &[49], drive_and_limits);
+    these_keep_the_laws(3003, &[4], drive_and_limits);
+    these_keep_the_laws(9003, &[73], drive_and_limits);
 }
 
 /// A lever of 0.1 kg·m² whose load grows by 1.7 N·m a second, from nothing.

@@ -147,20 +147,33 @@ impl World {
         }
         self.mechanism.read_kinks(&mut self.kinks);
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
+        self.step_in_modes(h, &mut step);
+        if self.mark_infeasible(Law::Velocity) == 0 {
+            return;
+        }
+        // the contacts have another solution under these torques, in which the drives move on: hold the first one
+        self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
+        self.mechanism.mark_start();
+        self.mechanism.set_mode_rule(ModeRule::Held);
+        step(self);
+        self.mechanism.set_mode_rule(ModeRule::Decided);
+        if self.mark_infeasible(Law::Velocity) == 0 {
+            return;
+        }
+        // what has its limit to the last digits may pass its target all the same, and needs no more to hold it
+        let passed = self.kinks.iter_mut().filter(|kink| kink.infeasible && kink.saturation != 0.0);
+        passed.for_each(|kink| kink.saturation = 0.0);
+        self.step_in_modes(h, &mut step);
+    }
+
+    /// Makes a step with the modes of the kinks, beside the contact forces last found where these are swept.
+    fn step_in_modes(&mut self, h: f64, step: &mut impl FnMut(&mut Self)) {
         self.write_modes();
         self.mark_targets(h);
         self.mechanism.pose_kinks(self.kinks.iter().filter(|kink| kink.saturation == 0.0));
         self.mechanism.set_given_forces(GivenForces::Solution);
         step(self);
         self.mechanism.set_given_forces(GivenForces::Start);
-        if self.mark_infeasible(Law::Velocity) > 0 {
-            // the contacts have another solution under these torques, in which the drives move on: hold the first one
-            self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
-            self.mechanism.mark_start();
-            self.mechanism.set_mode_rule(ModeRule::Held);
-            step(self);
-            self.mechanism.set_mode_rule(ModeRule::Decided);
-        }
     }
 
     /// Returns true if the modes of the kinks differ from those at the present instant.
