@@ -63,7 +63,7 @@ impl Timed {
 }
 
 /// Robots that touch something: a world's step, all that is in it.
-const TOUCHING: [&str; 5] = ["humanoid", "humanoid_lying", "heap10", "heap20", "heap40"];
+const TOUCHING: [&str; 6] = ["humanoid", "humanoid_lying", "heap10", "heap20", "heap40", "heap100"];
 
 /// The timed figures of a robot. MuJoCo has no call for a recursion alone: `mj_forward` stands beside a world's rates,
 /// and

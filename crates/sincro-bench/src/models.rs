@@ -21,7 +21,7 @@ impl Robot {
 }
 
 /// Every robot, in the order of the table.
-pub(super) const NAMES: [&str; 16] = [
+pub(super) const NAMES: [&str; 17] = [
     "pend_spring",
     "pend_free",
     "arm2",
@@ -38,6 +38,7 @@ pub(super) const NAMES: [&str; 16] = [
     "heap10",
     "heap20",
     "heap40",
+    "heap100",
 ];
 
 /// Text of the scene of a robot.
@@ -55,6 +56,7 @@ fn text(name: &str) -> String {
         "heap10" => include_str!("../models/heap10/scene.toml").into(),
         "heap20" => include_str!("../models/heap20/scene.toml").into(),
         "heap40" => include_str!("../models/heap40/scene.toml").into(),
+        "heap100" => include_str!("../models/heap100/scene.toml").into(),
         chain => chain_text(chain["chain".len()..].parse().expect("a chain's name ends in its length")),
     }
 }
