@@ -24,12 +24,12 @@ const MAX_SUM: f64 = 1e3;
 /// Results of the last sweeps of an island.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Anderson {
-    /// Number of sweeps since the differences were dropped.
+    /// Number of results in use, the last included; the differences are one fewer, and not more than the depth.
     sweeps: usize,
     /// Square of the change of the velocities by the last sweep.
     square: f64,
-    velocities: Vec<OfVelocity>,
-    forces: Vec<OfForce>,
+    velocities: Vec<VelocityHistory>,
+    forces: Vec<ForceHistory>,
     /// Scalar products of the differences of changes.
     products: [[f64; DEPTH]; DEPTH],
 }
@@ -37,7 +37,7 @@ pub(super) struct Anderson {
 /// Four velocities: their change by the last sweep, their values after it, and the differences of both. The
 /// differences of sweep k stand at k modulo the depth.
 #[derive(Clone, Copy, Debug, Default)]
-struct OfVelocity {
+struct VelocityHistory {
     change: [f64; 4],
     value: [f64; 4],
     changes: [[f64; 4]; DEPTH],
@@ -46,7 +46,7 @@ struct OfVelocity {
 
 /// Four numbers of forces after the last sweep, and their differences.
 #[derive(Clone, Copy, Debug, Default)]
-struct OfForce {
+struct ForceHistory {
     value: [f64; 4],
     values: [[f64; 4]; DEPTH],
 }
@@ -56,9 +56,9 @@ impl Anderson {
     pub fn restart(&mut self, velocities: usize, forces: usize) {
         self.sweeps = 0;
         self.velocities.clear();
-        self.velocities.resize(velocities.div_ceil(4), OfVelocity::default());
+        self.velocities.resize(velocities.div_ceil(4), VelocityHistory::default());
         self.forces.clear();
-        self.forces.resize(forces.div_ceil(4), OfForce::default());
+        self.forces.resize(forces.div_ceil(4), ForceHistory::default());
     }
 
     /// Moves `velocities` and `forces`, which a sweep has made of the velocities `before`.
@@ -109,12 +109,15 @@ impl Anderson {
 
     /// The γ of each place of differences, of which `count` count, the latest at `new`: zero for the others.
     #[inline(always)]
-    fn find_gamma<V: Real>(&mut self, new: usize, count: usize, right: [V; DEPTH]) -> [f64; DEPTH] {
+    fn find_gamma<V: Real>(&mut self, new: usize, count: usize, of_places: [V; DEPTH]) -> [f64; DEPTH] {
         // Gauss's method on the normal equations, the latest difference first
         let mut gamma = [0.0; DEPTH];
         let places: [usize; DEPTH] = from_fn(|age| (new + DEPTH - age) % DEPTH);
         let mut matrix: [[f64; DEPTH]; DEPTH] = from_fn(|i| from_fn(|j| self.products[places[i]][places[j]]));
-        let mut right: [f64; DEPTH] = from_fn(|i| sum(right[places[i]]));
+        let mut right = [0.0; DEPTH];
+        for i in 0..DEPTH {
+            right[i] = sum(of_places[places[i]]);
+        }
         let mut inverse = [0.0; DEPTH];
         for i in 0..count {
             let whole = self.products[places[i]][places[i]];
@@ -199,7 +202,7 @@ mod tests {
         (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// Forces that a sweep moves by λ + c − Σ aᵢ (bᵢ·λ), and their velocities, a linear function of them.
+    /// Forces of which a sweep makes c + Σ aᵢ (bᵢ·λ), and their velocities, a linear function of them.
     struct LinearSweep {
         a: Vec<Vec<f64>>,
         b: Vec<Vec<f64>>,
@@ -225,7 +228,7 @@ mod tests {
             self.y.iter().map(|y| Self::product(y, forces)).collect()
         }
 
-        /// c + Σ aᵢ (bᵢ·λ): its fixed point is sought.
+        /// Result of a sweep.
         fn swept(&self, forces: &[f64]) -> Vec<f64> {
             let along: Vec<f64> = self.b.iter().map(|b| Self::product(b, forces)).collect();
             (0..forces.len())

@@ -162,8 +162,7 @@ impl ContactLocal {
         if w[0] >= 0.0 {
             return [0.0; 3];
         }
-        let change = product(&self.inverse, u);
-        let stick = [force[0] - change[0], force[1] - change[1], force[2] - change[2]];
+        let stick = product(&self.inverse, [-w[0], -w[1], -w[2]]);
         let limit = friction * stick[0];
         if stick[0] > 0.0 && stick[1] * stick[1] + stick[2] * stick[2] <= limit * limit {
             return stick;
@@ -214,10 +213,20 @@ mod tests {
                     let force = local.solve(friction, [0.0; 3], w);
                     assert!(force.iter().all(|f| f.is_finite()) && force[0] >= 0.0, "{force:?}");
                     assert!(force[1].hypot(force[2]) <= friction * force[0] * (1.0 + 1e-12), "{force:?}");
+                    // the same from forces that move next to nothing on
+                    let mut other = force;
+                    for _ in 0..30 {
+                        other = [other[0], other[1] + 0.1, other[2] - 0.1];
+                        let pushed = product(&local.g, other);
+                        other = local.solve(friction, other, core::array::from_fn(|k| w[k] + pushed[k]));
+                        assert!(other.iter().all(|f| f.is_finite()) && other[0] >= 0.0, "{other:?}");
+                        assert!(other[1].hypot(other[2]) <= friction * other[0] * (1.0 + 1e-12), "{other:?}");
+                    }
                 }
             }
         }
         let mut piston = ContactLocal::new([2.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(piston.solve(0.5, [0.5, 0.2, -0.1], [0.0; 3]), [0.5, 0.0, 0.0]);
         assert!((piston.solve(0.5, [0.0; 3], [-1.0, 0.0, 0.0])[0] - 0.5).abs() < 1e-9);
     }
 

@@ -56,18 +56,17 @@ const STILL_NEWTON_STEPS: usize = 4;
 /// pairs may want gap corrections that contradict each other.
 const STANDING_RESIDUAL: f64 = 1e-8;
 
-/// Number of sweeps before the first Newton step, with one more for every eight blocks.
+/// Number of sweeps before the first round of a Newton step or more sweeps, with one more for every eight blocks.
 const FIRST_SWEEPS: usize = 50;
 
-/// Number of sweeps after each Newton step, with one more for every sixteen blocks.
+/// Number of sweeps after each Newton step, with one more for every sixteen blocks; twice as many without it.
 const NEXT_SWEEPS: usize = 12;
 
-/// Limit of Newton steps of an island; beyond it the best iterate is taken and its residual reported.
-const MAX_NEWTON_STEPS: usize = 12;
+/// Limit of these rounds of an island; beyond it the best iterate is taken and its residual reported.
+const MAX_ROUNDS: usize = 12;
 
-/// The same where bodies move, of Newton steps and sweeps instead of them: the forces of hits, which soon are others,
-/// are left sooner.
-const MOVING_STEPS: usize = 5;
+/// The same where bodies move: the forces of hits, which soon are others, are left sooner.
+const MAX_MOVING_ROUNDS: usize = 5;
 
 /// Share of the residual that a Newton step which fails leaves at least: pairs may want gap corrections that contradict
 /// each other, and nothing makes that better.
@@ -699,10 +698,11 @@ impl Island<'_> {
         let mut newton = core::mem::take(&mut self.sweeper.newton);
         self.keep();
         let next_sweeps = NEXT_SWEEPS + self.blocks.len() / 16;
+        let can_rest = self.stillness != Stillness::Awake;
         let (mut stalls, mut fails, mut do_sweeps_help) = (0, 0, true);
-        for step in 1..=MAX_NEWTON_STEPS {
+        for round in 1..=MAX_ROUNDS {
             let last = best;
-            let is_swept = motion >= 1.0 && do_sweeps_help;
+            let is_swept = can_rest && motion >= 1.0 && do_sweeps_help;
             if !is_swept {
                 lanes::dispatch_four_lanes(newton.prepare(self.sweeper, self.blocks.clone(), self.z.clone()));
             }
@@ -723,15 +723,17 @@ impl Island<'_> {
                 self.keep();
             }
             // what hardly gets better is left, the sooner the smaller it is
-            let has_halved = best <= 0.5 * last;
+            let has_halved = best < 0.5 * last;
             do_sweeps_help &= !is_swept || has_halved;
             stalls += usize::from(!has_halved);
-            fails = if best > FAILURE * last { fails + 1 } else { 0 };
+            if !is_swept {
+                fails = if best > FAILURE * last { fails + 1 } else { 0 };
+            }
             let has_stalled = (best <= TOLERANCE && stalls > 1)
                 || (best <= ROUGH_TOLERANCE && stalls > 3)
-                || (best <= LARGEST_RESIDUAL && fails > 1);
-            let is_at_moving_limit = motion >= 1.0 && step >= MOVING_STEPS;
-            if best <= self.enough(motion, step) || has_stalled || is_at_moving_limit {
+                || (best <= if motion >= 1.0 { LARGEST_RESIDUAL } else { ROUGH_TOLERANCE } && fails > 1);
+            let is_at_moving_limit = motion >= 1.0 && round >= MAX_MOVING_ROUNDS;
+            if best <= self.enough(motion, round) || has_stalled || is_at_moving_limit {
                 break;
             }
         }
@@ -757,13 +759,13 @@ impl Island<'_> {
         Outcome { residual: best, sweeps, stands: false }
     }
 
-    /// Residual with which an island that moves so is left after so many Newton steps.
-    fn enough(&self, motion: f64, newton_steps: usize) -> f64 {
-        match motion {
-            m if self.stillness != Stillness::Awake && m < STILL && newton_steps < STILL_NEWTON_STEPS => {
-                STILL_TOLERANCE
-            }
-            m if m < 1.0 => TOLERANCE,
+    /// Residual with which an island that moves so is left after so many rounds.
+    fn enough(&self, motion: f64, rounds: usize) -> f64 {
+        match (motion, self.stillness) {
+            // what never rests may move where nothing touches
+            (_, Stillness::Awake) if rounds == 0 => TOLERANCE,
+            (m, Stillness::CanRest | Stillness::Still) if m < STILL && rounds < STILL_NEWTON_STEPS => STILL_TOLERANCE,
+            (m, _) if m < 1.0 => TOLERANCE,
             _ => ROUGH_TOLERANCE,
         }
     }

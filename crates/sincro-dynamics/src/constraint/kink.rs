@@ -114,6 +114,11 @@ impl<R: Real> Constraints<R> {
             };
         }
     }
+
+    /// Returns true if each drive last posed stays at its target within its limit.
+    pub fn posed_kinks_hold(&self) -> bool {
+        drive_groups(&self.blocks).all(|group| group.mode == ContactMode::Stick)
+    }
 }
 
 /// Friction groups of the drives among constraints, in the order in which the drives were given.

@@ -69,4 +69,9 @@ impl Mechanism<f64> {
     pub(crate) fn read_kinks(&self, kinks: &mut [Kink]) {
         self.constraints.iter().for_each(|c| c.read_kinks(kinks));
     }
+
+    /// Returns true if each kink last posed stays at its target within its limit.
+    pub(crate) fn posed_kinks_hold(&self) -> bool {
+        self.constraints.iter().all(|c| c.posed_kinks_hold())
+    }
 }

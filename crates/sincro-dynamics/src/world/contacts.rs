@@ -3,6 +3,7 @@
 
 use sincro_complementarity::{WarmStart, ZenoFallback};
 
+use super::switching::Law;
 use super::{Method, Stop, World};
 use crate::actuation::DriveKind;
 use crate::coupled::{Coupled, CoupledSystem};
@@ -195,7 +196,7 @@ impl World {
     /// Makes the step last tried again by sweeps if it had few constraints whose modes were not found: sweeps need
     /// none. Returns true if it was solved by sweeps.
     fn sweep_unsolved<A: CoupledSystem<f64>>(&mut self, t: f64, h: f64, is_large: bool, system: &mut A) -> bool {
-        let is_unsolved = !is_large && self.has_unsolved_try();
+        let is_unsolved = !is_large && (self.has_unsolved_try() || self.leaves_drives_beyond_targets());
         if is_unsolved {
             self.undo_try(h);
             self.try_step(t, h, true, system);
@@ -221,6 +222,14 @@ impl World {
     pub(super) fn has_unsolved_try(&self) -> bool {
         let unsolved = self.solver_report().map_or(0, |report| report.not_converged);
         unsolved > self.report_before.not_converged && self.mechanism.can_sweep()
+    }
+
+    /// Returns true if saturated drives have passed their targets in the step last tried, within the tolerance of its
+    /// contacts, in a problem that sweeps may solve: they settle drives to rounding.
+    fn leaves_drives_beyond_targets(&mut self) -> bool {
+        self.mechanism.can_sweep()
+            && self.mark_infeasible(Law::Velocity) > 0
+            && self.kinks.iter().any(|kink| kink.infeasible && kink.saturation != 0.0)
     }
 
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is

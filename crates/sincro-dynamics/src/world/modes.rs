@@ -157,13 +157,24 @@ impl World {
         self.mechanism.set_mode_rule(ModeRule::Held);
         step(self);
         self.mechanism.set_mode_rule(ModeRule::Decided);
-        if self.mark_infeasible(Law::Velocity) == 0 {
+        if self.mark_infeasible(Law::Velocity) == 0 || !self.lock_passed_kinks() {
             return;
         }
-        // what has its limit to the last digits may pass its target all the same, and needs no more to hold it
-        let passed = self.kinks.iter_mut().filter(|kink| kink.infeasible && kink.saturation != 0.0);
-        passed.for_each(|kink| kink.saturation = 0.0);
         self.step_in_modes(h, &mut step);
+        if !self.mechanism.posed_kinks_hold() || self.mark_infeasible(Law::Velocity) > 0 {
+            self.kinks.clone_from(&self.present_kinks);
+            self.step_in_modes(h, &mut step);
+        }
+    }
+
+    /// Locks the kinks that are saturated but by rounding and have passed their targets: a little less than the limit
+    /// holds them. Keeps the former modes in `present_kinks`; returns false if there is none.
+    fn lock_passed_kinks(&mut self) -> bool {
+        self.present_kinks.clone_from(&self.kinks);
+        let passed = self.kinks.iter_mut().filter(|kink| kink.infeasible && kink.saturation != 0.0);
+        let count = passed.map(|kink| kink.saturation = 0.0).count();
+        self.separate_kinks();
+        count > 0
     }
 
     /// Makes a step with the modes of the kinks, beside the contact forces last found where these are swept.

@@ -350,7 +350,7 @@ impl World {
 
     /// Saturates all but one of several kinks of one degree of freedom that are locked at different velocities: the one
     /// nearest to the velocity at the start of the step stays.
-    fn separate_kinks(&mut self) {
+    pub(super) fn separate_kinks(&mut self) {
         let layout = self.layout();
         for k in 0..self.kinks.len() {
             let (v, kink) = (self.before[layout.velocity(self.kinks[k].dof)], self.kinks[k]);

@@ -215,18 +215,18 @@ impl<R: Real> Constraints<R> {
         islands.find(items.map(|row| self.delassus_factors.trees(&self.rows[row])));
     }
 
-    /// Place of each block in the order of sweeps: the first points of all manifolds, then their second ones, and so
-    /// on, at last the drives. Blocks that follow each other so move different bodies, and a processor computes them
-    /// at once.
+    /// Place of each block in the order of sweeps: limits and the first points of all manifolds, then their second
+    /// ones, and so on, at last the drives. Points that follow each other so move different bodies, and a processor
+    /// computes them at once.
     fn find_places(&self, places: &mut Vec<u32>) {
         places.clear();
         let mut last = None;
         for block in &self.blocks {
             let row = &self.rows[block.row];
-            let links = Some((row.a, row.b)).filter(|_| !block.is_drive());
+            let links = Some((row.a, row.b)).filter(|(a, b)| a != b);
             let place = match places.last() {
-                _ if links.is_none() => u32::MAX,
-                Some(before) if links == last => before + 1,
+                _ if block.is_drive() => u32::MAX,
+                Some(before) if links.is_some() && links == last => before + 1,
                 _ => 0,
             };
             places.push(place);
