@@ -7,6 +7,7 @@ use sincro_math::Real;
 use super::active_set::ContactProblem;
 use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use super::solver::{norm, pair};
+use super::sweeps::local::ContactLocal;
 
 /// Share of the friction limit beyond which a group slips.
 const AT_LIMIT: f64 = 1.0 - 1e-7;
@@ -19,31 +20,85 @@ pub(crate) fn sweep<R: Real>(
     (lambda, rates): (&mut [R], &mut [R]),
 ) {
     for _ in 0..sweeps {
-        for i in 0..problem.n_free {
-            relax(problem, i, |free| free, (lambda, rates));
-        }
-        for block in blocks.iter() {
-            match block.given {
-                Some(force) => set(problem, block.row, force.lane(0), (lambda, rates)),
-                None => relax(problem, block.row, |free| free.max(0.0), (lambda, rates)),
-            }
-            let normal = lambda[block.row].lane(0).max(0.0);
-            for group in block.groups.iter().flatten() {
-                relax_friction(problem, group, normal, (lambda, rates));
-            }
+        relax_free(problem, (lambda, rates));
+        blocks.iter().for_each(|block| relax_block(problem, block, (lambda, rates)));
+    }
+    blocks.iter_mut().for_each(|block| imply_modes(block, lambda));
+}
+
+/// As [`sweep`], with the forces of each contact that sticks or slips found together and exactly: where one force on it
+/// hardly accelerates it, one after the other they come nowhere.
+pub(crate) fn sweep_contacts<R: Real>(
+    problem: &ContactProblem<'_, R>,
+    sweeps: usize,
+    blocks: &mut [UnilateralConstraint<R>],
+    (lambda, rates): (&mut [R], &mut [R]),
+) {
+    let mut locals: Vec<_> = blocks.iter().map(|block| local_of(problem, block)).collect();
+    for _ in 0..sweeps {
+        relax_free(problem, (lambda, rates));
+        for (block, local) in blocks.iter().zip(&mut locals) {
+            let (Some((local, rows)), Some(group)) = (local, &block.groups[0]) else {
+                relax_block(problem, block, (lambda, rates));
+                continue;
+            };
+            let [force, rate] = [&*lambda, &*rates].map(|list| rows.map(|row| list[row].lane(0)));
+            let force = local.solve(group.coefficient, force, rate);
+            rows.iter().zip(force).for_each(|(row, force)| set(problem, *row, force, (lambda, rates)));
         }
     }
-    for block in blocks.iter_mut() {
-        let normal = lambda[block.row].lane(0);
-        block.open = block.given.is_none() && normal <= 0.0;
-        for group in block.groups.iter_mut().flatten().filter(|group| !group.is_sliding) {
-            let force = pair(group, lambda);
-            let size = norm(force);
-            if size > AT_LIMIT * group.coefficient * normal && size > 0.0 {
-                group.slip(force.map(|x| R::splat(x / size)), None);
-            } else {
-                group.stick();
-            }
+    blocks.iter_mut().for_each(|block| imply_modes(block, lambda));
+}
+
+/// The problem of a contact with sliding friction in two directions and its rows; none of other constraints.
+fn local_of<R: Real>(
+    problem: &ContactProblem<'_, R>,
+    block: &UnilateralConstraint<R>,
+) -> Option<(ContactLocal, [usize; 3])> {
+    let [Some(group), None, None] = &block.groups else { return None };
+    if block.given.is_some() || group.is_sliding || group.dim != 2 {
+        return None;
+    }
+    let rows = [block.row, group.row, group.row + 1];
+    let g = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+    let g = g.map(|(i, j)| problem.a[rows[i] * problem.m() + rows[j]].lane(0));
+    (g[0] + g[3] + g[5] > 0.0).then(|| (ContactLocal::new(g), rows))
+}
+
+/// Brings the rates of the rows without bounds to zero, one after the other.
+fn relax_free<R: Real>(problem: &ContactProblem<'_, R>, (lambda, rates): (&mut [R], &mut [R])) {
+    for i in 0..problem.n_free {
+        relax(problem, i, |free| free, (lambda, rates));
+    }
+}
+
+/// Relaxes the rows of a constraint, one after the other.
+fn relax_block<R: Real>(
+    problem: &ContactProblem<'_, R>,
+    block: &UnilateralConstraint<R>,
+    (lambda, rates): (&mut [R], &mut [R]),
+) {
+    match block.given {
+        Some(force) => set(problem, block.row, force.lane(0), (lambda, rates)),
+        None => relax(problem, block.row, |free| free.max(0.0), (lambda, rates)),
+    }
+    let normal = lambda[block.row].lane(0).max(0.0);
+    for group in block.groups.iter().flatten() {
+        relax_friction(problem, group, normal, (lambda, rates));
+    }
+}
+
+/// Sets the modes of a constraint that λ implies.
+fn imply_modes<R: Real>(block: &mut UnilateralConstraint<R>, lambda: &[R]) {
+    let normal = lambda[block.row].lane(0);
+    block.open = block.given.is_none() && normal <= 0.0;
+    for group in block.groups.iter_mut().flatten().filter(|group| !group.is_sliding) {
+        let force = pair(group, lambda);
+        let size = norm(force);
+        if size > AT_LIMIT * group.coefficient * normal && size > 0.0 {
+            group.slip(force.map(|x| R::splat(x / size)), None);
+        } else {
+            group.stick();
         }
     }
 }

@@ -180,6 +180,7 @@ impl<R: Real> Solver<R> {
                     || self.sweep(problem, (&all_active, true), blocks, lambda)
                     || self.enumerate(problem, (&all_active, false), blocks, lambda)
                     || self.enumerate(problem, (&all_active, true), blocks, lambda)
+                    || self.sweep_contacts(problem, &all_active, blocks, lambda)
                 {
                     break;
                 }
@@ -217,6 +218,32 @@ impl<R: Real> Solver<R> {
             gauss_seidel::sweep(problem, sweeps, blocks, (&mut self.swept, &mut self.swept_rates));
             lambda.copy_from_slice(&self.swept);
             self.iterate_active_set(problem, blocks, lambda)
+        })
+    }
+
+    /// Sweeps with the forces of each contact found together; returns true where these keep all laws, or the active set
+    /// from them does.
+    fn sweep_contacts(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        all_active: &[UnilateralConstraint<R>],
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
+        restart(all_active, false, blocks);
+        self.swept.clear();
+        self.swept.resize(lambda.len(), R::zero());
+        self.swept_rates.clear();
+        self.swept_rates.extend_from_slice(problem.b);
+        // its turn is no part of the residual
+        let slides_slowly =
+            blocks.iter().flat_map(|block| block.groups.iter().flatten()).any(|g| g.slow_sliding.h > 0.0);
+        SWEEPS.into_iter().any(|sweeps| {
+            gauss_seidel::sweep_contacts(problem, sweeps, blocks, (&mut self.swept, &mut self.swept_rates));
+            lambda.copy_from_slice(&self.swept);
+            let is_finite = lambda.iter().all(|force| force.lane(0).is_finite());
+            let is_solved = is_finite && !slides_slowly && self.residual(problem, blocks, lambda) <= SLACK;
+            is_solved || (is_finite && self.iterate_active_set(problem, blocks, lambda))
         })
     }
 
@@ -342,8 +369,17 @@ impl<R: Real> Solver<R> {
         is_redundant
     }
 
-    /// Complementarity residual relative to the largest rate (dimensionless); counted if it exceeds the tolerance.
+    /// Counts a problem left at a residual beyond the tolerance.
     fn record_residual(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &[R]) {
+        let residual = self.residual(problem, blocks, lambda);
+        if residual > SLACK {
+            self.report.not_converged += 1;
+            self.report.worst_residual = self.report.worst_residual.max(residual);
+        }
+    }
+
+    /// Complementarity residual relative to the largest rate (dimensionless), of forces within their bounds.
+    fn residual(&mut self, problem: &ContactProblem<'_, R>, blocks: &[UnilateralConstraint<R>], lambda: &[R]) -> f64 {
         self.active_set.find_rates(problem, lambda);
         let largest = problem.b.iter().fold(f64::MIN_POSITIVE, |s, x| s.max(x.lane(0).abs()));
         let rate = |i: usize| self.active_set.rates[i].lane(0);
@@ -363,11 +399,7 @@ impl<R: Real> Solver<R> {
                 });
             }
         }
-        let residual = worst / largest;
-        if residual > SLACK {
-            self.report.not_converged += 1;
-            self.report.worst_residual = self.report.worst_residual.max(residual);
-        }
+        worst / largest
     }
 }
 

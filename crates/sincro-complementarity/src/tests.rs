@@ -97,6 +97,34 @@ fn contacts_that_determine_their_forces_obey_the_laws() {
     }
 }
 
+/// The tip of an arm that one force on it hardly accelerates (by 2e-6, others by 1 and 11 1/kg), which slips next to
+/// nothing under it: sticking takes a force 3e-5 beyond the cone.
+#[test]
+fn a_contact_that_a_force_hardly_accelerates_slips_slowly() {
+    let a = [
+        [0.5530714844569221, 0.5683970642269698, -0.18585274795015877],
+        [0.5683970642269698, 2.376301462443709, 3.9714212077376616],
+        [-0.18585274795015877, 3.9714212077376616, 9.730045785102392],
+    ];
+    let b = [-3.07447339236395, -3.116427252756181, 1.1332634845043377];
+    let mut numbers = Numbers(5);
+    for k in 0..100 {
+        // in other units and other tangents
+        let (mass, angle) = (libm::exp(5.0 * numbers.next()), 3.0 * numbers.next());
+        let (sin, cos) = if k == 0 { (0.0, 1.0) } else { (libm::sin(angle), libm::cos(angle)) };
+        let turn = [[1.0, 0.0, 0.0], [0.0, cos, sin], [0.0, -sin, cos]];
+        let product =
+            |i: usize, j: usize| (0..9).map(|e| turn[i][e / 3] * a[e / 3][e % 3] * turn[j][e % 3]).sum::<f64>() / mass;
+        let a: Vec<f64> = (0..9).map(|e| product(e / 3, e % 3)).collect();
+        let b: Vec<f64> = (0..3).map(|i| (0..3).map(|j| turn[i][j] * b[j]).sum()).collect();
+        let (problem, mut blocks) = (ContactProblem { a: &a, b: &b, n_free: 0 }, contacts(1, 0, 0.8));
+        let (mut solver, mut lambda) = (Solver::default(), vec![0.0; 3]);
+        solver.solve(&problem, &mut blocks, &mut lambda);
+        assert_eq!(solver.report.not_converged, 0, "problem {k}: {:?}", solver.report);
+        assert!(residual(&problem, &blocks, &lambda) < 1e-7, "problem {k}");
+    }
+}
+
 #[test]
 fn redundant_contacts_obey_them_too() {
     let mut numbers = Numbers(11);

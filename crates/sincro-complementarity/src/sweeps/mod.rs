@@ -18,7 +18,7 @@ mod body_rows;
 mod disjoint_sets;
 mod drives;
 pub mod islands;
-mod local;
+pub(crate) mod local;
 mod newton;
 pub mod rest;
 mod splitting;

@@ -106,7 +106,7 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Modes of the drives in the last solution, in the order in which they were given.
-    pub fn read_kinks(&self, kinks: &mut [Kink]) {
+    pub fn read_kinks<'a>(&self, kinks: impl Iterator<Item = &'a mut Kink>) {
         for (group, kink) in drive_groups(&self.blocks).zip(kinks) {
             kink.saturation = match group.mode {
                 ContactMode::Stick => 0.0,

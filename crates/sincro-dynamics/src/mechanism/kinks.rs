@@ -66,8 +66,10 @@ impl Mechanism<f64> {
     }
 
     /// Reads the modes of the drives that were posed from the last evaluation.
-    pub(crate) fn read_kinks(&self, kinks: &mut [Kink]) {
-        self.constraints.iter().for_each(|c| c.read_kinks(kinks));
+    pub(crate) fn read_kinks<'a>(&self, kinks: impl Iterator<Item = &'a mut Kink>) {
+        if let Some(constraints) = &self.constraints {
+            constraints.read_kinks(kinks);
+        }
     }
 
     /// Returns true if each kink last posed stays at its target within its limit.

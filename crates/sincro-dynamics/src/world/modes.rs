@@ -118,7 +118,7 @@ impl World {
     fn decide_kinks(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.pose_kinks();
         self.evaluate_slope(t, system);
-        self.mechanism.read_kinks(&mut self.kinks);
+        self.mechanism.read_kinks(self.kinks.iter_mut());
     }
 
     /// Makes the kinks constraints of the next evaluations, whatever their modes.
@@ -145,10 +145,10 @@ impl World {
             // modes that are none: the whole step is made again by sweeps
             return;
         }
-        self.mechanism.read_kinks(&mut self.kinks);
+        self.mechanism.read_kinks(self.kinks.iter_mut());
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
         self.step_in_modes(h, &mut step);
-        if self.mark_infeasible(Law::Velocity) == 0 {
+        if self.keeps_step_modes() {
             return;
         }
         // the contacts have another solution under these torques, in which the drives move on: hold the first one
@@ -157,14 +157,26 @@ impl World {
         self.mechanism.set_mode_rule(ModeRule::Held);
         step(self);
         self.mechanism.set_mode_rule(ModeRule::Decided);
-        if self.mark_infeasible(Law::Velocity) == 0 || !self.lock_passed_kinks() {
-            return;
-        }
-        self.step_in_modes(h, &mut step);
-        if !self.mechanism.posed_kinks_hold() || self.mark_infeasible(Law::Velocity) > 0 {
-            self.kinks.clone_from(&self.present_kinks);
+        if !self.keeps_step_modes() && self.lock_passed_kinks() {
             self.step_in_modes(h, &mut step);
+            if !self.keeps_step_modes() {
+                self.kinks.clone_from(&self.present_kinks);
+                self.step_in_modes(h, &mut step);
+            }
         }
+        self.release_slipped_kinks();
+    }
+
+    /// Returns true if the step last made keeps the modes of the kinks: saturated ones have not passed their targets,
+    /// locked ones are held at theirs.
+    fn keeps_step_modes(&mut self) -> bool {
+        self.mark_infeasible(Law::Velocity) == 0 && self.mechanism.posed_kinks_hold()
+    }
+
+    /// Saturates the locked kinks that the step last made has not held at their targets: a contact was stronger.
+    fn release_slipped_kinks(&mut self) {
+        self.mechanism.read_kinks(self.kinks.iter_mut().filter(|kink| kink.saturation == 0.0));
+        self.write_modes();
     }
 
     /// Locks the kinks that are saturated but by rounding and have passed their targets: a little less than the limit
