@@ -226,6 +226,8 @@ pub struct World {
     ambiguous_events: Occurrences,
     /// Events of the present step after which another set was sought.
     n_searches: u32,
+    /// Time of the last event of the step after which modes were decided `[s]`.
+    last_decision: f64,
     /// True while modes a little ahead are taken if they graze a law now.
     may_graze: bool,
     /// Changes of modes in the present step: events but for closing contacts, whose bounces may follow each other ever
@@ -325,6 +327,7 @@ impl World {
             statistics: StepStatistics::default(),
             ambiguous_events: Occurrences::default(),
             n_searches: 0,
+            last_decision: f64::NEG_INFINITY,
             may_graze: true,
             mode_changes: 0,
             chattering_steps: Occurrences::default(),
@@ -542,7 +545,7 @@ impl World {
         } else {
             self.mechanism.set_time_since_event(f64::INFINITY);
             self.start_tick(t, h, system);
-            (self.mode_changes, self.n_searches) = (0, 0);
+            (self.mode_changes, self.n_searches, self.last_decision) = (0, 0, f64::NEG_INFINITY);
             let reached = self.sub_steps(t, h, system);
             if self.mode_changes > CHATTER {
                 self.chattering_steps.note(t);

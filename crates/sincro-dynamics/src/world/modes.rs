@@ -19,8 +19,12 @@ const OTHER_MOTION: f64 = 1e-9;
 /// forces may still be at their bounds to within the tolerance of the solver.
 const FURTHER_AHEAD: f64 = 100.0;
 
-/// Maximum number of events of one step after which another solution is sought: a search costs as much as an event.
+/// Maximum number of events of one step after which another solution is sought, however close to the last one: a search
+/// costs as much as an event.
 const MAX_SEARCHES: u32 = 16;
+
+/// Time since the last event, relative to the longest sub-step, after which one is sought in any case.
+const SEARCH_PAUSE: f64 = 0.01;
 
 impl World {
     /// Decides the modes of limited drives, contacts and limits at the start of a sub-step of about `h`, `after_event`
@@ -227,7 +231,9 @@ impl World {
             self.decide_ahead(t, FURTHER_AHEAD * h, system);
         }
         self.n_searches += 1;
-        if self.n_searches <= MAX_SEARCHES && self.mechanism.has_other_solution() {
+        let is_apart = t - self.last_decision > SEARCH_PAUSE * h;
+        self.last_decision = t;
+        if (is_apart || self.n_searches <= MAX_SEARCHES) && self.mechanism.has_other_solution() {
             self.ambiguous_events.note(t);
         }
         self.y.copy_from_slice(&self.present);

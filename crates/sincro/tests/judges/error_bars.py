@@ -207,6 +207,9 @@ def draw(sincro, work, seed):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / 'scene.toml').write_text('format = 2\n' + scene)
         runs[name] = run(sincro, folder, settings, signals)
+        if runs[name][0] is None and 'overlap at the start' in runs[name][1]:
+            # rightly refused: drawn into the floor
+            return None
         if runs[name][0] is None:
             return {'seed': seed, 'kind': kind.__name__, 'failed': f'{name}: {runs[name][1]}'}
     user, report = runs['user']
@@ -237,6 +240,8 @@ def main():
     with ThreadPoolExecutor(2) as pool:
         while len(ratios) < wanted:
             for one in pool.map(lambda k: draw(sincro, work, k), range(seed, seed + 24)):
+                if one is None:
+                    continue
                 if 'failed' in one:
                     failed.append(one)
                     continue
