@@ -34,6 +34,34 @@ impl<R: Real> Solver<R> {
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) -> bool {
+        let found = self.find_other_solution(problem, blocks, lambda);
+        if found {
+            let first = core::mem::take(&mut self.other);
+            self.restore_solution(problem, &first, blocks, lambda);
+            self.other = first;
+        }
+        found
+    }
+
+    fn restore_solution(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        solution: &Solution<R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) {
+        blocks.copy_from_slice(&solution.blocks);
+        lambda.copy_from_slice(&solution.lambda);
+        self.active_set.find_rates(problem, lambda);
+    }
+
+    /// As [`Solver::has_other_solution`], but leaves the other solution in `blocks` and `lambda`.
+    pub fn find_other_solution(
+        &mut self,
+        problem: &ContactProblem<'_, R>,
+        blocks: &mut [UnilateralConstraint<R>],
+        lambda: &mut [R],
+    ) -> bool {
         if blocks.is_empty() || problem.m() > MAX_ROWS || self.is_approximate {
             return false;
         }
@@ -54,9 +82,9 @@ impl<R: Real> Solver<R> {
                     one >= UNIFORM && self.leads_elsewhere(problem, &first, (one, Some(two)), blocks, lambda)
                 })
         });
-        blocks.copy_from_slice(&first.blocks);
-        lambda.copy_from_slice(&first.lambda);
-        self.active_set.find_rates(problem, lambda);
+        if !found {
+            self.restore_solution(problem, &first, blocks, lambda);
+        }
         self.other = first;
         self.report = report;
         found

@@ -479,9 +479,9 @@ impl Mechanism<f64> {
         self.constraints.as_deref().is_none_or(|c| !c.lost_modes && c.violation.is_none())
     }
 
-    /// Returns true if the contact problem last solved has another solution, with other accelerations.
-    pub(crate) fn has_other_solution(&mut self) -> bool {
-        self.constraints.as_deref_mut().is_some_and(Constraints::has_other_solution)
+    /// Returns true if the contact problem last solved has another solution, with other accelerations; `takes` it then.
+    pub(crate) fn has_other_solution(&mut self, takes: bool) -> bool {
+        self.constraints.as_deref_mut().is_some_and(|c| c.has_other_solution(takes))
     }
 
     /// Goes back to the contact modes and multipliers at [`Mechanism::mark_start`].

@@ -28,6 +28,7 @@ impl World {
         let tracks_totals = self.mechanism.layout().tracks_totals();
         let mut new = Self::with_coupled_states(model, state, kind, control, tracks_totals, n_coupled);
         new.substeps = self.substeps;
+        new.takes_other_solutions = self.takes_other_solutions;
         (new.step_size, new.next_step) = (self.step_size, self.next_step);
         new.statistics = self.statistics;
         new.ambiguous_events = self.ambiguous_events;

@@ -224,6 +224,8 @@ pub struct World {
     statistics: StepStatistics,
     /// Events after which several sets of modes keep all laws.
     ambiguous_events: Occurrences,
+    /// True if another set is taken where one is found.
+    takes_other_solutions: bool,
     /// Events of the present step after which another set was sought.
     n_searches: u32,
     /// Time of the last event of the step after which modes were decided `[s]`.
@@ -326,6 +328,7 @@ impl World {
             accelerations,
             statistics: StepStatistics::default(),
             ambiguous_events: Occurrences::default(),
+            takes_other_solutions: false,
             n_searches: 0,
             last_decision: f64::NEG_INFINITY,
             may_graze: true,
@@ -363,8 +366,7 @@ impl World {
 
     /// Events since the world was made after which several sets of contact and drive modes keep all laws and give
     /// different accelerations: the motion goes on with one of them, and rounding may decide which. Not part of the
-    /// state; not every such event is found, they are sought after the first sixteen events of a step alone, and
-    /// semi-implicit Euler does not look for them.
+    /// state; not every such event is found, and semi-implicit Euler does not look for them.
     #[must_use]
     pub fn ambiguous_events(&self) -> Occurrences {
         self.ambiguous_events
@@ -454,6 +456,12 @@ impl World {
     /// commands are still latched once a tick. For error estimates by refinement.
     pub fn set_substeps(&mut self, n: u32) {
         self.substeps = n.max(1);
+    }
+
+    /// Sets whether the motion goes on with another set of contact and drive modes wherever several keep all laws
+    /// ([`World::ambiguous_events`]): what such a run differs by is what the laws leave open.
+    pub fn take_other_solutions(&mut self, takes: bool) {
+        self.takes_other_solutions = takes;
     }
 
     /// Lets work and dissipation, if they are tracked, take part in error control, relative to max(`scale`, 1 J), with

@@ -219,6 +219,15 @@ impl World {
         self.decide_kinks(ahead, system);
     }
 
+    /// Returns true if the contact problem last solved has another solution; takes that if others are to be taken.
+    fn meets_other_solution(&mut self) -> bool {
+        let is_found = self.mechanism.has_other_solution(self.takes_other_solutions);
+        if is_found && self.takes_other_solutions {
+            self.mechanism.read_kinks(self.kinks.iter_mut());
+        }
+        is_found
+    }
+
     /// Takes the modes a little later than `t` for those at `t`, where they hold as well but for the change of a mode
     /// that is due; state and time stay.
     fn look_ahead_at_contacts(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
@@ -233,7 +242,7 @@ impl World {
         self.n_searches += 1;
         let is_apart = t - self.last_decision > SEARCH_PAUSE * h;
         self.last_decision = t;
-        if (is_apart || self.n_searches <= MAX_SEARCHES) && self.mechanism.has_other_solution() {
+        if (is_apart || self.n_searches <= MAX_SEARCHES) && self.meets_other_solution() {
             self.ambiguous_events.note(t);
         }
         self.y.copy_from_slice(&self.present);

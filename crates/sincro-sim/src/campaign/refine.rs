@@ -4,7 +4,8 @@
 //! This is the error of what the user sees, with everything that piles up over the run, and not the local error that a
 //! method estimates of itself. The bar of an energy is never below the largest energy balance, which is an error of the
 //! run whatever a finer one says; that of a position or velocity of a mechanism with constraints never below the
-//! tolerance to which it is projected onto them. Where the finer run cannot halve the step of scripts, which is part of
+//! tolerance to which it is projected onto them. Where several sets of contact forces keep all laws, one more run
+//! follows others, and bars cover it. Where the finer run cannot halve the step of scripts, which is part of
 //! the error, there are no bars.
 
 use sincro_dynamics::mechanism::PROJECTION_TOLERANCE;
@@ -41,13 +42,14 @@ pub(super) fn columns(
     if !loaded.scene.scripts.is_empty() {
         method += "; step of scripts halved";
     }
+    let other = if run.is_ambiguous { other_run(loaded, monitor)? } else { None };
     let is_constrained = !loaded.scene.model.constraints().is_empty();
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {
         // a script may have made another stream in the finer run
         let Some(fine) = finer.table.column(&column.path).map(|c| &c.values) else { continue };
         let bar = factor * largest_difference(&run.table.columns[k].values, fine);
-        let (least, of_least) = least_bar(column, run, is_constrained);
+        let (least, of_least) = least_bar((column, k), (run, other.as_ref()), is_constrained);
         column.error_bar = Some(bar.max(least));
         column.error_bar_method =
             if least > bar { format!("{of_least}; by a finer run {bar:.1e}: {method}") } else { method.clone() };
@@ -55,8 +57,21 @@ pub(super) fn columns(
     Ok((columns, Some(finer)))
 }
 
-/// Least error bar of a column whatever a finer run says, and its source.
-fn least_bar(column: &ColumnReport, run: &Simulated, is_constrained: bool) -> (f64, &'static str) {
+/// Least error bar of column `k` whatever a finer run says, and its source; `other` is the run with other contact
+/// forces, if there was one.
+fn least_bar(
+    (column, k): (&ColumnReport, usize),
+    (run, other): (&Simulated, Option<&Simulated>),
+    is_constrained: bool,
+) -> (f64, &'static str) {
+    let least = least_of_run(column, run, is_constrained);
+    let Some(other) = other.and_then(|other| other.table.column(&column.path)) else { return least };
+    let apart = largest_difference(&run.table.columns[k].values, &other.values);
+    if apart > least.0 { (apart, "largest difference from a run with other contact forces") } else { least }
+}
+
+/// Least error bar of a column by the run alone, and its source.
+fn least_of_run(column: &ColumnReport, run: &Simulated, is_constrained: bool) -> (f64, &'static str) {
     if column.path.starts_with("energy.") {
         return (run.energy.residual, "largest energy balance");
     }
@@ -79,6 +94,12 @@ fn finer_run(loaded: &Loaded, energy_scale: f64, monitor: &mut RunMonitor<'_>) -
     let mut halved = loaded.clone();
     halved.experiment.simulation_ticks = ticks / 2;
     simulate(&halved, options, monitor).map(Some)
+}
+
+/// The run with other sets of contact forces where several keep all laws; none if it did not come to the end.
+fn other_run(loaded: &Loaded, monitor: &mut RunMonitor<'_>) -> Result<Option<Simulated>, RunError> {
+    let options = RunOptions { takes_other_solutions: true, ..RunOptions::default() };
+    Ok(simulate(loaded, options, monitor).map(Some)?.filter(|other| other.status.is_good()))
 }
 
 fn without_bars(columns: &mut [ColumnReport], reason: &str) {

@@ -94,6 +94,8 @@ pub struct Simulated {
     pub statistics: StepStatistics,
     /// Rotors outside the validity of their theory.
     pub outside: Vec<ValidityViolation>,
+    /// True if there were instants at which several sets of contact forces keep all laws and give other motions.
+    pub is_ambiguous: bool,
     /// Warnings about the accuracy of the numbers.
     pub warnings: Vec<String>,
     /// Messages of scripts and controllers, in the order of time.
@@ -155,6 +157,9 @@ pub struct RunOptions<'a> {
     pub csv: Option<&'a Path>,
     /// True for the finer run of an error estimate.
     pub refined: bool,
+    /// True for a run that goes on with another set of contact forces wherever several keep all laws, for the error
+    /// bars.
+    pub takes_other_solutions: bool,
     /// Size of the energies `[J]`, relative to which work and dissipation are kept to the accuracy; `None`: they take
     /// no part in error control.
     pub energy_scale: Option<f64>,
@@ -432,6 +437,7 @@ pub fn simulate(loaded: &Loaded, options: RunOptions<'_>, monitor: &mut RunMonit
     let experiment = &loaded.experiment;
     let (method, warnings) = method_for(loaded);
     let mut lockstep = LockStep::new(loaded, method, options.refined);
+    lockstep.world().take_other_solutions(options.takes_other_solutions);
     options.energy_scale.into_iter().for_each(|scale| lockstep.world().control_energies(scale));
     let mut recording = Recording::new(loaded, &mut lockstep, options)?;
     let mut status = Status::Completed;

@@ -224,6 +224,7 @@ impl Recording {
         let outside = validity.close(world.model(), step);
         warnings.extend(validity::words(&outside, n_steps));
         warnings.extend(about_constraints(world));
+        let is_ambiguous = world.ambiguous_events().count > 0;
         if trajectory.as_ref().is_some_and(|trajectory| trajectory.runtime.is_cut) {
             warnings.push("scripts and clients made more objects and drawings than are kept for pictures: the pages lack the last".to_owned());
         }
@@ -247,6 +248,7 @@ impl Recording {
             energy_scale: ledger.scale,
             statistics,
             outside,
+            is_ambiguous,
             warnings,
             messages,
             changes,
@@ -325,7 +327,7 @@ fn about_constraints(world: &World) -> Vec<String> {
             n => format!("{n} events, the first"),
         };
         warnings.push(format!(
-            "after {words} at t = {:.6} s several sets of contact forces keep all laws and move the bodies differently (rigid contacts with friction that share a load); the run follows one of them, and error bars do not cover the others: give surfaces a `stiffness` if the difference matters",
+            "after {words} at t = {:.6} s several sets of contact forces keep all laws and move the bodies differently (rigid contacts with friction that share a load); the run follows one of them, and error bars cover a run that follows others, not all there may be: give surfaces a `stiffness` if the difference matters",
             ambiguous.first
         ));
     }
