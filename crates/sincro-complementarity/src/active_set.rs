@@ -10,7 +10,7 @@
 //! the rate across: λₑ = −(μ λₙ/|w|) wₑ, so c = |w|/(μ λₙ). This is Newton's method for the friction cone. Source: key
 //! `acary2008`, chapter 13.
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use super::cone::{ContactMode, FrictionGroup, UnilateralConstraint};
 use super::dense::Dense;
@@ -124,14 +124,7 @@ impl<R: Real> ActiveSet<R> {
 
     /// Finds the rates w of λ.
     pub fn find_rates(&mut self, problem: &ContactProblem<'_, R>, lambda: &[R]) {
-        self.rates.clear();
-        self.rates.extend_from_slice(problem.b);
-        // G is symmetric: its columns are its rows
-        for (i, x) in lambda.iter().enumerate().filter(|(_, x)| **x != R::zero()) {
-            for (rate, a) in self.rates.iter_mut().zip(problem.row(i)) {
-                *rate += *a * *x;
-            }
-        }
+        R::run_hot(Rates { rates: &mut self.rates, problem, lambda });
     }
 
     /// Fills the linear system: derivatives of the tested rates by the unknowns, and minus the rates. `rates` must be
@@ -330,6 +323,30 @@ fn impose<R: Real>(block: &UnilateralConstraint<R>, lambda: &mut [R]) {
             lambda[group.row] = limit * d0 - turned * d1;
             if group.dim == 2 {
                 lambda[group.row + 1] = limit * d1 + turned * d0;
+            }
+        }
+    }
+}
+
+/// [`ActiveSet::find_rates`], for the best registers of the processor.
+struct Rates<'a, 'p, R> {
+    rates: &'a mut Vec<R>,
+    problem: &'a ContactProblem<'p, R>,
+    lambda: &'a [R],
+}
+
+impl<R: Real> Task for Rates<'_, '_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { rates, problem, lambda } = self;
+        rates.clear();
+        rates.extend_from_slice(problem.b);
+        // G is symmetric: its columns are its rows
+        for (i, x) in lambda.iter().enumerate().filter(|(_, x)| **x != R::zero()) {
+            for (rate, a) in rates.iter_mut().zip(problem.row(i)) {
+                *rate += *a * *x;
             }
         }
     }

@@ -31,13 +31,12 @@ pub(crate) fn sweep<R: Real>(
 pub(crate) fn sweep_contacts<R: Real>(
     problem: &ContactProblem<'_, R>,
     sweeps: usize,
-    blocks: &mut [UnilateralConstraint<R>],
+    (blocks, locals): (&mut [UnilateralConstraint<R>], &mut [LocalProblem]),
     (lambda, rates): (&mut [R], &mut [R]),
 ) {
-    let mut locals: Vec<_> = blocks.iter().map(|block| local_of(problem, block)).collect();
     for _ in 0..sweeps {
         relax_free(problem, (lambda, rates));
-        for (block, local) in blocks.iter().zip(&mut locals) {
+        for (block, local) in blocks.iter().zip(&mut *locals) {
             let (Some((local, rows)), Some(group)) = (local, &block.groups[0]) else {
                 relax_block(problem, block, (lambda, rates));
                 continue;
@@ -51,10 +50,10 @@ pub(crate) fn sweep_contacts<R: Real>(
 }
 
 /// The problem of a contact with sliding friction in two directions and its rows; none of other constraints.
-fn local_of<R: Real>(
-    problem: &ContactProblem<'_, R>,
-    block: &UnilateralConstraint<R>,
-) -> Option<(ContactLocal, [usize; 3])> {
+pub(crate) type LocalProblem = Option<(ContactLocal, [usize; 3])>;
+
+/// The problem of one constraint, all other forces given.
+pub(crate) fn local_problem<R: Real>(problem: &ContactProblem<'_, R>, block: &UnilateralConstraint<R>) -> LocalProblem {
     let [Some(group), None, None] = &block.groups else { return None };
     if block.given.is_some() || group.is_sliding || group.dim != 2 {
         return None;

@@ -346,6 +346,7 @@ impl<R: Real> LoadShare<R> {
         largest
     }
 
+    #[inline(always)]
     fn find_kernels(
         &mut self,
         (m, n, redundant): (usize, usize, usize),

@@ -5,8 +5,8 @@
 //! constraints share the load evenly (`load_share`). If the multipliers satisfy the complementarity
 //! conditions, the problem is solved. If not, the violated modes are changed, a few times; for slip directions this is
 //! Newton's method. If that does not converge, ADMM (`admm`) finds the solution without an active set, and the
-//! linear system of the modes it implies makes it exact; the last resorts are Gauss–Seidel sweeps and all sets of
-//! closed contacts.
+//! linear system of the modes it implies makes it exact; the last resorts are Gauss–Seidel sweeps, all sets of closed
+//! contacts, and sweeps with the forces of each contact found together.
 
 use sincro_math::Real;
 
@@ -15,7 +15,7 @@ use super::admm::{Admm, activate_all};
 use super::cone::{ContactMode, FrictionGroup, SlowSliding, UnilateralConstraint};
 use super::dense::Dense;
 pub(crate) use super::dense::RANK;
-use super::gauss_seidel;
+use super::gauss_seidel::{self, LocalProblem};
 use super::held::Solution;
 use super::load_share::LoadShare;
 
@@ -87,6 +87,7 @@ pub struct Solver<R> {
     /// Multipliers and rates of Gauss–Seidel sweeps.
     swept: Vec<R>,
     swept_rates: Vec<R>,
+    locals: Vec<LocalProblem>,
     share: LoadShare<R>,
     /// Solution found first, and the one in which all friction sticks (`engage`).
     pub(crate) found: Solution<R>,
@@ -115,6 +116,7 @@ impl<R: Real> Solver<R> {
             list.reserve(more(list.len()));
         }
         self.all_active.reserve(more(self.all_active.len()));
+        self.locals.reserve(more(self.locals.len()));
         self.found.reserve(m);
         self.sticking.reserve(m);
         self.other.reserve(m);
@@ -235,11 +237,14 @@ impl<R: Real> Solver<R> {
         self.swept.resize(lambda.len(), R::zero());
         self.swept_rates.clear();
         self.swept_rates.extend_from_slice(problem.b);
+        self.locals.clear();
+        self.locals.extend(blocks.iter().map(|block| gauss_seidel::local_problem(problem, block)));
         // its turn is no part of the residual
         let slides_slowly =
             blocks.iter().flat_map(|block| block.groups.iter().flatten()).any(|g| g.slow_sliding.h > 0.0);
         SWEEPS.into_iter().any(|sweeps| {
-            gauss_seidel::sweep_contacts(problem, sweeps, blocks, (&mut self.swept, &mut self.swept_rates));
+            let (forces, locals) = ((&mut self.swept[..], &mut self.swept_rates[..]), &mut self.locals[..]);
+            gauss_seidel::sweep_contacts(problem, sweeps, (blocks, locals), forces);
             lambda.copy_from_slice(&self.swept);
             let is_finite = lambda.iter().all(|force| force.lane(0).is_finite());
             let is_solved = is_finite && !slides_slowly && self.residual(problem, blocks, lambda) <= SLACK;

@@ -106,7 +106,7 @@ impl<R: Real> Constraints<R> {
     }
 
     /// Modes of the drives in the last solution, in the order in which they were given.
-    pub fn read_kinks<'a>(&self, kinks: impl Iterator<Item = &'a mut Kink>) {
+    pub fn read_kinks(&self, kinks: &mut [Kink]) {
         for (group, kink) in drive_groups(&self.blocks).zip(kinks) {
             kink.saturation = match group.mode {
                 ContactMode::Stick => 0.0,
@@ -115,9 +115,9 @@ impl<R: Real> Constraints<R> {
         }
     }
 
-    /// Returns true if each drive last posed stays at its target within its limit.
-    pub fn posed_kinks_hold(&self) -> bool {
-        drive_groups(&self.blocks).all(|group| group.mode == ContactMode::Stick)
+    /// Returns true if drive `n` of those last posed needs all of its limit, or more.
+    pub fn posed_kink_slips(&self, n: usize) -> bool {
+        drive_groups(&self.blocks).nth(n).is_some_and(|group| group.mode == ContactMode::Slip)
     }
 }
 

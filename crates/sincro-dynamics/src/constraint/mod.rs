@@ -217,7 +217,7 @@ pub(crate) struct Constraints<R> {
     /// Meaning of the contact forces kept, for sweeps.
     pub given_forces: GivenForces,
     /// True if the forces last found are those of sweeps.
-    is_swept: bool,
+    pub is_swept: bool,
 }
 
 impl<R: Real> Constraints<R> {

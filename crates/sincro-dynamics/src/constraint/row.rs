@@ -13,7 +13,8 @@
 use sincro_math::Real;
 
 use crate::contact::candidate::LinkMotions;
-use crate::joint::{Link, Stage, StageVisitor, WORLD};
+use crate::joint::WORLD;
+use crate::kinematics::UnitColumn;
 use crate::model::Model;
 use crate::scratch::Scratch;
 use crate::spatial::{Force, Motion, Vec3};
@@ -215,19 +216,5 @@ impl<R: Real> Motions<R> {
             }
             at = link.parent;
         }
-    }
-}
-
-struct UnitColumn<'a, R> {
-    link: &'a Link<R>,
-    j: usize,
-}
-
-impl<R: Real> StageVisitor for UnitColumn<'_, R> {
-    type Number = R;
-    type Output = Motion<R>;
-    #[inline(always)]
-    fn visit<S: Stage>(self) -> Motion<R> {
-        S::column(self.link, self.j, self.link.signed::<S>(R::one()))
     }
 }

@@ -17,7 +17,6 @@ use crate::contact::{Collider, Detector, Margin, Pair};
 use crate::energy::energy_at;
 use crate::integrate::{Sample, System};
 use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
-use crate::recursions::aba::{self, Prescribed};
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::{Motion, Pose, Vec3};
@@ -496,23 +495,9 @@ impl<R: Real> Mechanism<R> {
     /// Factors the mass matrix at the chart's origin for impulses: forward dynamics at rest without forces, prescribed
     /// degrees of freedom as marked.
     pub(crate) fn factor(&mut self) {
-        for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
-            *d = dof.armature;
-        }
         self.prescribed_acceleration.fill(R::zero());
-        let prescribed = (!self.drives.is_empty())
-            .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
-        let input = aba::Input {
-            q: &self.base,
-            v: &self.zeros,
-            torque: &self.zeros,
-            diagonal: &self.diagonal,
-            prescribed,
-            external: None,
-            gravity: false,
-        };
         let mut change = core::mem::take(&mut self.constraint_change);
-        aba::forward_dynamics(&self.model, &input, &mut self.scratch, &mut change);
+        self.impulse_under(!self.drives.is_empty(), &mut change);
         self.constraint_change = change;
     }
 

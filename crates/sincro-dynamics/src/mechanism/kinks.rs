@@ -66,14 +66,17 @@ impl Mechanism<f64> {
     }
 
     /// Reads the modes of the drives that were posed from the last evaluation.
-    pub(crate) fn read_kinks<'a>(&self, kinks: impl Iterator<Item = &'a mut Kink>) {
-        if let Some(constraints) = &self.constraints {
-            constraints.read_kinks(kinks);
-        }
+    pub(crate) fn read_kinks(&self, kinks: &mut [Kink]) {
+        self.constraints.iter().for_each(|c| c.read_kinks(kinks));
     }
 
-    /// Returns true if each kink last posed stays at its target within its limit.
-    pub(crate) fn posed_kinks_hold(&self) -> bool {
-        self.constraints.iter().all(|c| c.posed_kinks_hold())
+    /// Returns true if the contact problem last solved was swept.
+    pub(crate) fn was_swept(&self) -> bool {
+        self.constraints.as_ref().is_some_and(|c| c.is_swept)
+    }
+
+    /// Returns true if kink `n` of those last posed needs all of its limit, or more.
+    pub(crate) fn posed_kink_slips(&self, n: usize) -> bool {
+        self.constraints.as_ref().is_some_and(|c| c.posed_kink_slips(n))
     }
 }

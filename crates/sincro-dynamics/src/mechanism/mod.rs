@@ -721,10 +721,17 @@ impl<R: Real> Mechanism<R> {
     /// Velocity changes by the impulses that bring about the prescribed changes as marked; reactions are impulses.
     #[inline(always)]
     pub(crate) fn impulse(&mut self, change: &mut [R]) {
+        self.impulse_under(true, change);
+    }
+
+    /// Velocity changes by impulses under the prescribed changes as marked, or without any.
+    #[inline(always)]
+    fn impulse_under(&mut self, is_prescribed: bool, change: &mut [R]) {
         for (d, dof) in self.diagonal.iter_mut().zip(&self.model.dofs) {
             *d = dof.armature;
         }
-        let prescribed = Some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
+        let prescribed = is_prescribed
+            .then_some(Prescribed { mask: &self.locked_mask, acceleration: &self.prescribed_acceleration });
         let input = aba::Input {
             q: &self.base,
             v: &self.zeros,

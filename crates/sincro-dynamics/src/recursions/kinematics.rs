@@ -241,9 +241,10 @@ fn jacobian_columns<R: Real>(model: &Model<R>, frame: &Attached<R>, scratch: &Sc
     }
 }
 
-struct UnitColumn<'a, R> {
-    link: &'a Link<R>,
-    j: usize,
+/// Motion of a link relative to its parent per unit of its velocity `j`, in link axes.
+pub(crate) struct UnitColumn<'a, R> {
+    pub link: &'a Link<R>,
+    pub j: usize,
 }
 
 impl<R: Real> StageVisitor for UnitColumn<'_, R> {

@@ -10,6 +10,7 @@ use sincro_complementarity::sweeps::GivenForces;
 use super::World;
 use super::switching::Law;
 use crate::constraint::ModeRule;
+use crate::constraint::kink::Kink;
 use crate::coupled::CoupledSystem;
 
 /// Relative difference of accelerations above which solutions are different motions.
@@ -23,7 +24,7 @@ const FURTHER_AHEAD: f64 = 100.0;
 /// costs as much as an event.
 const MAX_SEARCHES: u32 = 16;
 
-/// Time since the last event, relative to the longest sub-step, after which one is sought in any case.
+/// Time since the last event, relative to the step, after which one is sought in any case.
 const SEARCH_PAUSE: f64 = 0.01;
 
 impl World {
@@ -122,7 +123,7 @@ impl World {
     fn decide_kinks(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.pose_kinks();
         self.evaluate_slope(t, system);
-        self.mechanism.read_kinks(self.kinks.iter_mut());
+        self.mechanism.read_kinks(&mut self.kinks);
     }
 
     /// Makes the kinks constraints of the next evaluations, whatever their modes.
@@ -149,18 +150,21 @@ impl World {
             // modes that are none: the whole step is made again by sweeps
             return;
         }
-        self.mechanism.read_kinks(self.kinks.iter_mut());
+        self.mechanism.read_kinks(&mut self.kinks);
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
         self.step_in_modes(h, &mut step);
         if self.keeps_step_modes() {
             return;
         }
-        // the contacts have another solution under these torques, in which the drives move on: hold the first one
-        self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
-        self.mechanism.mark_start();
-        self.mechanism.set_mode_rule(ModeRule::Held);
-        step(self);
-        self.mechanism.set_mode_rule(ModeRule::Decided);
+        // sweeps hold no modes
+        if self.mark_infeasible(Law::Velocity) > 0 || !self.mechanism.was_swept() {
+            // the contacts have another solution under these torques, in which the drives move on: hold the first one
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
+            self.mechanism.mark_start();
+            self.mechanism.set_mode_rule(ModeRule::Held);
+            step(self);
+            self.mechanism.set_mode_rule(ModeRule::Decided);
+        }
         if !self.keeps_step_modes() && self.lock_passed_kinks() {
             self.step_in_modes(h, &mut step);
             if !self.keeps_step_modes() {
@@ -168,19 +172,34 @@ impl World {
                 self.step_in_modes(h, &mut step);
             }
         }
-        self.release_slipped_kinks();
+        if self.mark_slipped() {
+            for k in 0..self.kinks.len() {
+                let Kink { dof, target, infeasible, .. } = self.kinks[k];
+                if infeasible {
+                    self.kinks[k].saturation = (target - self.velocity(dof)).signum();
+                }
+            }
+            self.write_modes();
+        }
     }
 
     /// Returns true if the step last made keeps the modes of the kinks: saturated ones have not passed their targets,
     /// locked ones are held at theirs.
     fn keeps_step_modes(&mut self) -> bool {
-        self.mark_infeasible(Law::Velocity) == 0 && self.mechanism.posed_kinks_hold()
+        self.mark_infeasible(Law::Velocity) == 0 && !self.mark_slipped()
     }
 
-    /// Saturates the locked kinks that the step last made has not held at their targets: a contact was stronger.
-    fn release_slipped_kinks(&mut self) {
-        self.mechanism.read_kinks(self.kinks.iter_mut().filter(|kink| kink.saturation == 0.0));
-        self.write_modes();
+    /// Marks as infeasible the kinks, locked and posed, that the step last made has not brought to their targets: a
+    /// contact was stronger. Returns true if there are any.
+    fn mark_slipped(&mut self) -> bool {
+        let mut posed = 0;
+        for k in 0..self.kinks.len() {
+            let Kink { dof, target, saturation, .. } = self.kinks[k];
+            let is_short = self.mechanism.velocity_band().error(target, self.velocity(dof)) != 0.0;
+            self.kinks[k].infeasible = saturation == 0.0 && is_short && self.mechanism.posed_kink_slips(posed);
+            posed += usize::from(saturation == 0.0);
+        }
+        self.kinks.iter().any(|kink| kink.infeasible)
     }
 
     /// Locks the kinks that are saturated but by rounding and have passed their targets: a little less than the limit
@@ -189,7 +208,9 @@ impl World {
         self.present_kinks.clone_from(&self.kinks);
         let passed = self.kinks.iter_mut().filter(|kink| kink.infeasible && kink.saturation != 0.0);
         let count = passed.map(|kink| kink.saturation = 0.0).count();
-        self.separate_kinks();
+        if count > 0 {
+            self.separate_kinks();
+        }
         count > 0
     }
 
@@ -219,15 +240,6 @@ impl World {
         self.decide_kinks(ahead, system);
     }
 
-    /// Returns true if the contact problem last solved has another solution; takes that if others are to be taken.
-    fn meets_other_solution(&mut self) -> bool {
-        let is_found = self.mechanism.has_other_solution(self.takes_other_solutions);
-        if is_found && self.takes_other_solutions {
-            self.mechanism.read_kinks(self.kinks.iter_mut());
-        }
-        is_found
-    }
-
     /// Takes the modes a little later than `t` for those at `t`, where they hold as well but for the change of a mode
     /// that is due; state and time stay.
     fn look_ahead_at_contacts(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
@@ -240,23 +252,45 @@ impl World {
             self.decide_ahead(t, FURTHER_AHEAD * h, system);
         }
         self.n_searches += 1;
-        let is_apart = t - self.last_decision > SEARCH_PAUSE * h;
+        let is_apart = t - self.last_decision > SEARCH_PAUSE * self.next_step;
         self.last_decision = t;
-        if (is_apart || self.n_searches <= MAX_SEARCHES) && self.meets_other_solution() {
+        let first = self.takes_other_solutions.then(|| self.kinks.clone());
+        if first.is_some() {
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
+        }
+        let meets_other = (is_apart || self.n_searches <= MAX_SEARCHES)
+            && self.mechanism.has_other_solution(self.takes_other_solutions);
+        if meets_other {
             self.ambiguous_events.note(t);
+            self.mechanism.read_kinks(&mut self.kinks);
         }
         self.y.copy_from_slice(&self.present);
-        let contacts_differ = self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes());
-        if contacts_differ || self.has_other_kinks() {
-            self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
-            self.pose_kinks();
-            self.evaluate_checked(t, system);
-            let is_possible = if self.may_graze { self.mechanism.is_grazing() } else { self.mechanism.keeps_laws() };
-            if !is_possible {
-                self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
-                self.kinks.clone_from(&self.present_kinks);
-            }
+        if !self.take_modes_ahead(t, system)
+            && let Some(first) = first.filter(|_| meets_other)
+        {
+            // the other solution holds a little later only
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
+            self.kinks = first;
+            self.take_modes_ahead(t, system);
         }
         report.into_iter().for_each(|before| self.discard_failures(&before));
+    }
+
+    /// Takes the modes last decided, a little later than `t`, for those at `t`; returns false if they do not hold
+    /// there, and stays with the present ones.
+    fn take_modes_ahead(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
+        let contacts_differ = self.mechanism.contact_memory().is_some_and(|memory| memory.has_other_modes());
+        if !contacts_differ && !self.has_other_kinks() {
+            return true;
+        }
+        self.mechanism.contact_memory().into_iter().for_each(WarmStart::propose_modes);
+        self.pose_kinks();
+        self.evaluate_checked(t, system);
+        let is_possible = if self.may_graze { self.mechanism.is_grazing() } else { self.mechanism.keeps_laws() };
+        if !is_possible {
+            self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
+            self.kinks.clone_from(&self.present_kinks);
+        }
+        is_possible
     }
 }

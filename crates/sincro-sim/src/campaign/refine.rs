@@ -33,8 +33,7 @@ pub(super) fn columns(
         without_bars(&mut columns, reason);
         return Ok((columns, None));
     };
-    if !finer.status.is_good() {
-        let reason = if let Status::Stopped { reason, .. } = &finer.status { reason } else { "it was interrupted" };
+    if let Some(reason) = why_unfinished(&finer.status) {
         without_bars(&mut columns, &format!("not estimated: the finer run stopped: {reason}"));
         return Ok((columns, Some(finer)));
     }
@@ -42,7 +41,11 @@ pub(super) fn columns(
     if !loaded.scene.scripts.is_empty() {
         method += "; step of scripts halved";
     }
-    let other = if run.is_ambiguous { other_run(loaded, monitor)? } else { None };
+    let other = if run.is_ambiguous { Some(other_run(loaded, monitor)?) } else { None };
+    if let Some(reason) = other.as_ref().and_then(|other| why_unfinished(&other.status)) {
+        without_bars(&mut columns, &format!("not estimated: the run with other contact forces stopped: {reason}"));
+        return Ok((columns, Some(finer)));
+    }
     let is_constrained = !loaded.scene.model.constraints().is_empty();
     // the first column is time, which is exact
     for (k, column) in columns.iter_mut().enumerate().skip(1) {
@@ -96,10 +99,18 @@ fn finer_run(loaded: &Loaded, energy_scale: f64, monitor: &mut RunMonitor<'_>) -
     simulate(&halved, options, monitor).map(Some)
 }
 
-/// The run with other sets of contact forces where several keep all laws; none if it did not come to the end.
-fn other_run(loaded: &Loaded, monitor: &mut RunMonitor<'_>) -> Result<Option<Simulated>, RunError> {
-    let options = RunOptions { takes_other_solutions: true, ..RunOptions::default() };
-    Ok(simulate(loaded, options, monitor).map(Some)?.filter(|other| other.status.is_good()))
+/// The run with other sets of contact forces where several keep all laws.
+fn other_run(loaded: &Loaded, monitor: &mut RunMonitor<'_>) -> Result<Simulated, RunError> {
+    simulate(loaded, RunOptions { takes_other_solutions: true, ..RunOptions::default() }, monitor)
+}
+
+/// Reason why a run did not come to its end; none if it did.
+fn why_unfinished(status: &Status) -> Option<&str> {
+    match status {
+        _ if status.is_good() => None,
+        Status::Stopped { reason, .. } => Some(reason),
+        _ => Some("it was interrupted"),
+    }
 }
 
 fn without_bars(columns: &mut [ColumnReport], reason: &str) {

@@ -66,7 +66,8 @@ impl Recording {
         let recorder = Recorder::new(&experiment.record, &scene.model, &entries)?.with_units(&experiment.units);
         let rows = experiment.n_steps / experiment.record_every + 1;
         let table = Table::new(recorder.columns(), rows as usize);
-        let bounds = (!options.refined).then(|| Bounds::new(experiment, options.variant, &table));
+        let bounds = (!options.refined && !options.takes_other_solutions)
+            .then(|| Bounds::new(experiment, options.variant, &table));
         let names: Vec<&str> = recorder.columns().map(|(name, _)| name).collect();
         let csv = options.csv.map(|path| CsvWriter::create(path, &names)).transpose()?;
         let trajectory = options.keyframes.then(|| Trajectory::new(&scene.model, experiment));
@@ -327,7 +328,7 @@ fn about_constraints(world: &World) -> Vec<String> {
             n => format!("{n} events, the first"),
         };
         warnings.push(format!(
-            "after {words} at t = {:.6} s several sets of contact forces keep all laws and move the bodies differently (rigid contacts with friction that share a load); the run follows one of them, and error bars cover a run that follows others, not all there may be: give surfaces a `stiffness` if the difference matters",
+            "after {words} at t = {:.6} s several sets of contact forces keep all laws and move the bodies differently (rigid contacts with friction that share a load); the run follows one of them, and error bars, where there are any, cover a run that follows others: give surfaces a `stiffness` if the difference matters",
             ambiguous.first
         ));
     }
