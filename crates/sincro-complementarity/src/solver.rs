@@ -212,15 +212,20 @@ impl<R: Real> Solver<R> {
         lambda: &mut [R],
     ) -> bool {
         restart(all_active, explicit, blocks);
-        self.swept.clear();
-        self.swept.resize(lambda.len(), R::zero());
-        self.swept_rates.clear();
-        self.swept_rates.extend_from_slice(problem.b);
+        self.begin_sweeps(problem);
         SWEEPS.into_iter().any(|sweeps| {
             gauss_seidel::sweep(problem, sweeps, blocks, (&mut self.swept, &mut self.swept_rates));
             lambda.copy_from_slice(&self.swept);
             self.iterate_active_set(problem, blocks, lambda)
         })
+    }
+
+    /// Begins sweeps from no forces.
+    fn begin_sweeps(&mut self, problem: &ContactProblem<'_, R>) {
+        self.swept.clear();
+        self.swept.resize(problem.m(), R::zero());
+        self.swept_rates.clear();
+        self.swept_rates.extend_from_slice(problem.b);
     }
 
     /// Sweeps with the forces of each contact found together; returns true where these keep all laws, or the active set
@@ -233,13 +238,10 @@ impl<R: Real> Solver<R> {
         lambda: &mut [R],
     ) -> bool {
         restart(all_active, false, blocks);
-        self.swept.clear();
-        self.swept.resize(lambda.len(), R::zero());
-        self.swept_rates.clear();
-        self.swept_rates.extend_from_slice(problem.b);
+        self.begin_sweeps(problem);
         self.locals.clear();
         self.locals.extend(blocks.iter().map(|block| gauss_seidel::local_problem(problem, block)));
-        // its turn is no part of the residual
+        // the residual does not tell whether slow sliding has turned
         let slides_slowly =
             blocks.iter().flat_map(|block| block.groups.iter().flatten()).any(|g| g.slow_sliding.h > 0.0);
         SWEEPS.into_iter().any(|sweeps| {

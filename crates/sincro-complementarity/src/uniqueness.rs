@@ -27,38 +27,11 @@ const MAX_ROWS: usize = 48;
 
 impl<R: Real> Solver<R> {
     /// Returns true if other modes than those of the solution `blocks`, `lambda` keep all laws as well and give other
-    /// rates. The solution stays as it is; one that is approximate has no other.
+    /// rates, and `takes` them then; else the solution stays as it is. One that is approximate has no other.
     pub fn has_other_solution(
         &mut self,
         problem: &ContactProblem<'_, R>,
-        blocks: &mut [UnilateralConstraint<R>],
-        lambda: &mut [R],
-    ) -> bool {
-        let found = self.find_other_solution(problem, blocks, lambda);
-        if found {
-            let first = core::mem::take(&mut self.other);
-            self.restore_solution(problem, &first, blocks, lambda);
-            self.other = first;
-        }
-        found
-    }
-
-    fn restore_solution(
-        &mut self,
-        problem: &ContactProblem<'_, R>,
-        solution: &Solution<R>,
-        blocks: &mut [UnilateralConstraint<R>],
-        lambda: &mut [R],
-    ) {
-        blocks.copy_from_slice(&solution.blocks);
-        lambda.copy_from_slice(&solution.lambda);
-        self.active_set.find_rates(problem, lambda);
-    }
-
-    /// As [`Solver::has_other_solution`], but leaves the other solution in `blocks` and `lambda`.
-    pub fn find_other_solution(
-        &mut self,
-        problem: &ContactProblem<'_, R>,
+        takes: bool,
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) -> bool {
@@ -82,8 +55,10 @@ impl<R: Real> Solver<R> {
                     one >= UNIFORM && self.leads_elsewhere(problem, &first, (one, Some(two)), blocks, lambda)
                 })
         });
-        if !found {
-            self.restore_solution(problem, &first, blocks, lambda);
+        if !(found && takes) {
+            blocks.copy_from_slice(&first.blocks);
+            lambda.copy_from_slice(&first.lambda);
+            self.active_set.find_rates(problem, lambda);
         }
         self.other = first;
         self.report = report;

@@ -488,11 +488,9 @@ impl<R: Real> Constraints<R> {
     /// Returns true if the problem last solved has another solution, with other accelerations; `takes` it then.
     pub fn has_other_solution(&mut self, takes: bool) -> bool {
         let problem = ContactProblem { a: &self.a, b: &self.b, n_free: self.n_free };
-        if self.is_swept || !takes {
-            return !self.is_swept && self.solver.has_other_solution(&problem, &mut self.blocks, &mut self.lambda);
-        }
-        let is_found = self.solver.find_other_solution(&problem, &mut self.blocks, &mut self.lambda);
-        if is_found {
+        let is_found =
+            !self.is_swept && self.solver.has_other_solution(&problem, takes, &mut self.blocks, &mut self.lambda);
+        if is_found && takes {
             self.memory.keep(&self.blocks, &self.lambda);
         }
         is_found
