@@ -37,4 +37,29 @@ impl Hermite {
         let q = -(self.c2 + root.copysign(self.c2));
         [q / (3.0 * self.c3), self.a0 / q].map(|s| if s > 0.0 && s < 1.0 { s } else { f64::NAN })
     }
+
+    /// Position of the first extremum whose value is below `bound`; infinite for none.
+    #[must_use]
+    pub fn first_extremum_below(&self, bound: f64) -> f64 {
+        let below = self.extrema().into_iter().filter(|s| self.value(*s) < bound);
+        below.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Time of the instant, within a step of length `h` `[s]`, at which a quantity is lowest, if it is below `bound` there
+/// and rises at the end, by its value and rate at the start and at the end; infinite if it is not.
+#[must_use]
+pub fn dip(h: f64, bound: f64, (start, rate): (f64, f64), (end, rate_end): (f64, f64)) -> f64 {
+    if rate_end <= 0.0 {
+        return f64::INFINITY;
+    }
+    h * Hermite::new((start, h * rate), (end, h * rate_end)).first_extremum_below(bound)
+}
+
+/// The same of the distance of two points. Where they move straight on, its square is a polynomial.
+#[must_use]
+pub fn distance_dip(h: f64, bound: f64, start: (f64, f64), end: (f64, f64)) -> f64 {
+    let square = |(distance, rate): (f64, f64)| (distance * distance, 2.0 * distance * h * rate);
+    let closest = bound.max(0.0);
+    h * Hermite::new(square(start), square(end)).first_extremum_below(closest * closest)
 }

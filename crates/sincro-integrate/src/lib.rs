@@ -28,7 +28,7 @@ pub use bracket::{Bracket, Sample};
 pub use dormand_prince::DormandPrince;
 pub use euler::SemiImplicitEuler;
 pub use extrapolated::Extrapolated;
-pub use hermite::Hermite;
+pub use hermite::{Hermite, dip, distance_dip};
 pub use quadrature::quadrature;
 pub use rk4::Rk4;
 

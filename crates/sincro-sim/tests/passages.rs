@@ -90,6 +90,31 @@ fn stops_passed_and_left_within_a_step_are_impacts() {
     }
 }
 
+/// An event that ends a step says nothing of what is passed and left before it: a cart that a limited motor drives up
+/// to its speed gets there soon after the oscillator has met its stop.
+#[test]
+fn stops_passed_before_another_event_of_the_step_are_impacts() {
+    let mut random = uniform(75);
+    for k in 0..60 {
+        let (start, share) = (0.3 + 0.9 * random(), random());
+        let draw = Draw { start, meets: 3e-4 + 0.06 * share * share * share };
+        let force = OMEGA / (start + (1.0 + 2.0 * random()) * draw.meets);
+        let cart = format!(
+            "\n[[joint]]\nname = \"cart\"\nkind = \"prismatic\"\naxis = [0.0, 1.0, 0.0]\nposition = [0.0, 1.0, 0.0]\n\
+             motor = {{ mode = \"velocity\", max_force = {force:?}, command = 1.0 }}\n\n\
+             [[body]]\nname = \"load\"\nparent = \"/cart\"\nmass = 1.0\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+        );
+        for is_contact in [false, true] {
+            for integrator in ["auto", "stiff"] {
+                let scene = draw.scene(is_contact) + &cart;
+                let deviation = (last_of(&scene, (integrator, 0.005), "/slide.position") - draw.end()).abs();
+                let what = if is_contact { "surface" } else { "limit" };
+                assert!(deviation < 1e-6, "draw {k}, {what}, {integrator}: {deviation:e} m off, {draw:?}, {force} N");
+            }
+        }
+    }
+}
+
 /// A rod that turns freely about z at 5 rad/s touches a wall with its tip while that passes by, and turns back.
 #[test]
 fn tips_that_graze_a_wall_within_a_step_bounce() {

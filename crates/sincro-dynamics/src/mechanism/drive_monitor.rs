@@ -2,21 +2,13 @@
 //! velocity, each beyond the rounding of its terms; and a monitor of them, and of the laws of contacts, at the stages
 //! of a step, which notices a law that is violated within the step and holds again at its end.
 
+use sincro_actuation::VelocityBand;
 use sincro_math::Real;
 
 use super::Mechanism;
 use crate::actuation::Drive;
 use crate::integrate::Hermite;
 use crate::spatial::Vec3;
-
-/// Relative width below which two velocities count as equal.
-const SAME_VELOCITY: f64 = 1e-12;
-
-/// Least velocity that the width is relative to [rad/s] or [m/s].
-const LEAST_VELOCITY: f64 = 1e-3;
-
-/// The same where constraints hold what drives push against: its velocity drifts by the rounding of their solution.
-const LEAST_VELOCITY_CONSTRAINED: f64 = 1.0;
 
 /// Relative excess of a reaction over its limit that counts as rounding.
 const SAME_FORCE: f64 = 1e-12;
@@ -83,41 +75,6 @@ impl DriveMonitor {
     }
 }
 
-/// Width within which a velocity counts as its target.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct VelocityBand {
-    /// Least velocity that the width is relative to [rad/s] or [m/s].
-    least: f64,
-}
-
-impl Default for VelocityBand {
-    fn default() -> Self {
-        Self { least: LEAST_VELOCITY }
-    }
-}
-
-impl VelocityBand {
-    fn width(self, target: f64, v: f64) -> f64 {
-        SAME_VELOCITY * target.abs().max(v.abs()).max(self.least)
-    }
-
-    /// Target minus present velocity, zero within the band.
-    pub fn error(self, target: f64, v: f64) -> f64 {
-        let missing = target - v;
-        if missing.abs() <= self.width(target, v) { 0.0 } else { missing }
-    }
-
-    /// Distance of a velocity beyond its target, in the direction in which a drive pushes, and beyond the band.
-    pub fn passage(self, target: f64, v: f64, saturation: f64) -> f64 {
-        (v - target) * saturation.signum() - self.width(target, v)
-    }
-
-    /// Returns true if a velocity is beyond its target in the direction in which a drive pushes.
-    pub fn is_beyond(self, target: f64, v: f64, saturation: f64) -> bool {
-        saturation != 0.0 && self.passage(target, v, saturation) > 0.0
-    }
-}
-
 impl<R: Real> Mechanism<R> {
     /// Terms of the reaction on a degree of freedom in the last evaluation, sum of their magnitudes [N·m] or `[N]`: its
     /// rounding is relative to this.
@@ -145,11 +102,7 @@ impl<R: Real> Mechanism<R> {
 
     /// Width within which the velocity of a drive counts as its target.
     pub(crate) fn velocity_band(&self) -> VelocityBand {
-        if self.constraints.is_some() {
-            VelocityBand { least: LEAST_VELOCITY_CONSTRAINED }
-        } else {
-            VelocityBand::default()
-        }
+        if self.constraints.is_some() { VelocityBand::CONSTRAINED } else { VelocityBand::default() }
     }
 
     /// Rounding of the last evaluation, relative to the sum of the magnitudes of its terms.

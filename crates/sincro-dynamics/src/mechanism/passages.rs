@@ -5,7 +5,7 @@ use crate::constraint::{CLOSED_DISTANCE, Constraints, Parting};
 use crate::contact::Margin;
 use crate::contact::candidate::Feature;
 use crate::contact::candidate_list::SlotCandidate;
-use crate::integrate::Hermite;
+use crate::integrate::{dip, distance_dip};
 use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::normal_rate;
 
@@ -29,31 +29,6 @@ impl Looks {
     }
 }
 
-/// Time of the first instant, within a sub-step of length `h` `[s]`, at which a distance is below what counts as
-/// closed, by its value and rate at the start and at the end; infinite for none.
-fn passage(h: f64, (distance, rate): (f64, f64), (distance_end, rate_end): (f64, f64)) -> f64 {
-    if !(rate < 0.0 && rate_end > 0.0) {
-        return f64::INFINITY;
-    }
-    let cubic = Hermite::new((distance, h * rate), (distance_end, h * rate_end));
-    let passed = cubic.extrema().into_iter().filter(|s| cubic.value(*s) < -CLOSED_DISTANCE);
-    passed.map(|s| s * h).fold(f64::INFINITY, f64::min)
-}
-
-/// Time of the instant, within a sub-step of length `h` `[s]`, at which two points are closest, if that is closer
-/// than `radius` `[m]`, by the distance beyond it and its rate at start and end; infinite if it is not. Where they
-/// move straight on, the square of their distance is a polynomial.
-fn passage_of_points(h: f64, radius: f64, start: (f64, f64), end: (f64, f64)) -> f64 {
-    let square = |(distance, rate): (f64, f64)| {
-        let whole = distance + radius;
-        (whole * whole, 2.0 * whole * h * rate)
-    };
-    let cubic = Hermite::new(square(start), square(end));
-    let closest = (radius - CLOSED_DISTANCE).max(0.0);
-    let passed = cubic.extrema().into_iter().filter(|s| cubic.value(*s) < closest * closest);
-    passed.map(|s| s * h).fold(f64::INFINITY, f64::min)
-}
-
 impl Mechanism<f64> {
     /// Earliest time within a sub-step of length `h` at which an open limit was passed `[s]`, by coordinates and
     /// velocities `(q, v)` at the start and velocities `v_end` at the end, the state last evaluated; infinite for none.
@@ -64,7 +39,7 @@ impl Mechanism<f64> {
         let of_limit = open.map(|(_, limit)| {
             let at =
                 |q: &[f64], v: &[f64]| (limit.sign * (q[limit.coordinate] - limit.bound), limit.sign * v[limit.dof]);
-            passage(h, at(q, v), at(&self.q, v_end))
+            dip(h, -CLOSED_DISTANCE, at(q, v), at(&self.q, v_end))
         });
         of_limit.fold(f64::INFINITY, f64::min)
     }
@@ -107,9 +82,11 @@ impl Mechanism<f64> {
                 Feature::Plane { .. } if start.0 < -CLOSED_DISTANCE => {
                     looks = looks.and(Looks { first: THROUGH_STEP * h, interval: THROUGH_STEP * h });
                 }
-                Feature::Plane { .. } => looks.first = looks.first.min(passage(h, start, *end)),
+                Feature::Plane { .. } => looks.first = looks.first.min(dip(h, -CLOSED_DISTANCE, start, *end)),
                 Feature::Point { .. } | Feature::Line { .. } => {
-                    looks.first = looks.first.min(passage_of_points(h, candidate.radius, start, *end));
+                    let whole = |(distance, rate)| (distance + candidate.radius, rate);
+                    let closest = candidate.radius - CLOSED_DISTANCE;
+                    looks.first = looks.first.min(distance_dip(h, closest, whole(start), whole(*end)));
                 }
             }
         }

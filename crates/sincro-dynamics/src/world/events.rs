@@ -182,6 +182,18 @@ impl World {
         if let Some(crossing) = self.find_crossings(reached, system) {
             return Ok(Some((h, crossing)));
         }
+        self.find_event_within(t, h, (reached, violated), control, system)
+    }
+
+    /// The same of what has happened within the sub-step, and shows nothing at its end: the state last evaluated.
+    fn find_event_within(
+        &mut self,
+        t: f64,
+        h: f64,
+        (reached, violated): (f64, f64),
+        control: Option<Control>,
+        system: &mut dyn CoupledSystem<f64>,
+    ) -> Result<Option<(f64, Crossing)>, (f64, Stop)> {
         let violated = violated.min(self.find_passage(reached, h, system)).min(self.limit_passage(h));
         let mut looks = Looks { first: violated, interval: INTERIOR_STEP * h };
         let is_parting = self.is_constrained() && self.mechanism.find_parting(h);
@@ -230,21 +242,18 @@ impl World {
     }
 
     /// Locates the first instant in (t, t + bad] at which a drive or contact changes mode, goes there and changes it;
-    /// `h` is the length of the sub-step.
+    /// `h` is the length of the sub-step, in which a law was violated first at the stage `violated` after `t`.
     pub(super) fn locate_event(
         &mut self,
         t: f64,
-        (bad, h): (f64, f64),
-        crossing: Crossing,
+        (bad, crossing): (f64, Crossing),
+        (h, violated): (f64, f64),
         control: Option<Control>,
         system: &mut dyn CoupledSystem<f64>,
     ) -> Result<f64, (f64, Stop)> {
         // of the step's own time: t itself may be too coarse
         let resolution = h * EVENT_RESOLUTION;
-        self.mechanism.set_locating(true);
-        let at = self.narrow(t, (bad, h), crossing, control, system);
-        self.mechanism.set_locating(false);
-        let (at, crossing) = at?;
+        let (at, crossing) = self.first_crossing(t, (bad, crossing), (h, violated), control, system)?;
         self.mode_changes += u32::from(!matches!(crossing, Crossing::Contact(ContactEvent::Closing(_))));
         // beyond the event the modes of the sub-step may fit no forces; those after it are found below
         let report = self.solver_report();
@@ -269,6 +278,29 @@ impl World {
             self.resolve_actuator_modes(t + at, h, system);
         }
         Ok(t + at)
+    }
+
+    /// Time after `t` of the first zero crossing of [`World::locate_event`], and which one it is; the state is that of
+    /// this instant. The sub-step up to there is looked at as a whole one is: what ends it says nothing of what is
+    /// passed and left again before.
+    fn first_crossing(
+        &mut self,
+        t: f64,
+        (mut bad, mut crossing): (f64, Crossing),
+        (h, violated): (f64, f64),
+        control: Option<Control>,
+        system: &mut dyn CoupledSystem<f64>,
+    ) -> Result<(f64, Crossing), (f64, Stop)> {
+        loop {
+            self.mechanism.set_locating(true);
+            let located = self.narrow(t, (bad, h), crossing, control, system);
+            self.mechanism.set_locating(false);
+            let (at, found) = located?;
+            let Some(earlier) = self.find_event_within(t, at, (t + at, violated), control, system)? else {
+                return Ok((at, found));
+            };
+            (bad, crossing) = earlier;
+        }
     }
 
     /// Zero crossing at the start of the sub-step at `t`, to which the state goes back.
@@ -346,6 +378,7 @@ impl World {
         }
         let at = bracket.after();
         self.repeat_step(t, at, control, system)?;
+        self.evaluate_held(t + at, system);
         Ok((at, crossing))
     }
 }

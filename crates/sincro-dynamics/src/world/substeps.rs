@@ -235,8 +235,8 @@ impl World {
         self.statistics.steps += 1;
         let reached = self.end_of_step(t, h, (h_max, corner));
         let event = if limited { self.find_event(t, h, (reached, violated), control, system)? } else { None };
-        if let Some((bad, crossing)) = event {
-            return Ok((self.locate_event(t, (bad, h), crossing, control, system)?, true));
+        if let Some(event) = event {
+            return Ok((self.locate_event(t, event, (h, violated), control, system)?, true));
         }
         self.project();
         Ok((reached, false))
