@@ -9,9 +9,10 @@ use std::sync::atomic::AtomicBool;
 
 use sincro_dynamics::world::MethodKind;
 use sincro_sim::campaign::{Campaign, run_campaign};
+use sincro_sim::prelude::Diagnostics;
 use sincro_sim::results::Status;
 use sincro_sim::run::LockStep;
-use sincro_sim::{Extensions, load};
+use sincro_sim::{Extensions, Loaded, load};
 use sincro_testing::SceneFolder;
 use sincro_testing::random::Draw;
 
@@ -25,15 +26,21 @@ fn campaign_of(scene: &str, duration: f64, signal: &str) -> Campaign {
 
 /// A campaign with ticks of `step` `[s]`.
 fn campaign_at(step: f64, scene: &str, duration: f64, signal: &str) -> Campaign {
+    let (folder, loaded) = opened(step, scene, duration, signal);
+    let loaded = loaded.unwrap_or_else(|diagnostics| panic!("{diagnostics}\n{scene}"));
+    run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
+}
+
+/// An experiment with ticks of `step` `[s]`, and its folder.
+fn opened(step: f64, scene: &str, duration: f64, signal: &str) -> (SceneFolder, Result<Loaded, Diagnostics>) {
     let folder = SceneFolder::new();
     folder.write("scene.toml", scene);
     let experiment = format!(
         "title = \"Limited motors in contact\"\nscene = \"scene.toml\"\nduration = {duration}\nstep = {step}\nerror_bar = \"refine\"\nrecord = [\"{signal}\"]\n"
     );
     folder.write("experiment.toml", &experiment);
-    let loaded =
-        load(&folder, &[], Extensions::default()).unwrap_or_else(|diagnostics| panic!("{diagnostics}\n{scene}"));
-    run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap()
+    let loaded = load(&folder, &[], Extensions::default());
+    (folder, loaded)
 }
 
 /// A body with a castor without friction, at rest on a floor.
@@ -341,12 +348,21 @@ fn missed_laws(scene: &str, duration: f64) -> Option<String> {
     (!kept).then(|| format!("{:?}, {statistics:?}\n{scene}", done.audit.findings))
 }
 
+/// Returns true if a scene is refused because its bodies overlap at the start.
+fn starts_in_overlap(scene: &str) -> bool {
+    let (_, loaded) = opened(0.005, scene, 1.0, "energy.balance");
+    loaded.is_err_and(|diagnostics| diagnostics.to_string().contains("overlap at the start"))
+}
+
 /// Demands that random scenes keep all laws.
 fn all_keep_the_laws(seed: u64, duration: f64, draw: impl Fn(&mut Draw) -> String) {
     let other: u64 = std::env::var("SINCRO_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
     let mut r = Draw(seed + other);
-    let missed: Vec<String> = (0..draws())
-        .filter_map(|k| missed_laws(&draw(&mut r), duration).map(|missed| format!("draw {k}: {missed}")))
+    // an arm drawn into the floor is rightly refused
+    let scenes = std::iter::repeat_with(|| draw(&mut r)).enumerate().filter(|(_, scene)| !starts_in_overlap(scene));
+    let missed: Vec<String> = scenes
+        .take(draws())
+        .filter_map(|(k, scene)| missed_laws(&scene, duration).map(|missed| format!("draw {k}: {missed}")))
         .collect();
     assert!(missed.is_empty(), "{} of {}:\n{}", missed.len(), draws(), missed.join("\n"));
 }
