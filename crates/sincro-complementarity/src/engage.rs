@@ -27,7 +27,7 @@ impl<R: Real> Solver<R> {
         blocks: &mut [UnilateralConstraint<R>],
         lambda: &mut [R],
     ) {
-        let small = Tolerances::of(problem, lambda);
+        let small = Tolerances::of(problem, blocks, (lambda, &self.active_set.rates));
         if !blocks.iter().any(|block| is_idle(block, small, &self.active_set.rates)) {
             return;
         }
@@ -98,7 +98,7 @@ fn is_idle<R: Real>(block: &UnilateralConstraint<R>, small: Tolerances, rates: &
 }
 
 fn is_idle_friction<R: Real>(group: &FrictionGroup<R>, small: Tolerances, rates: &[R]) -> bool {
-    !group.is_sliding && group.mode == ContactMode::Slip && norm(pair(group, rates)) <= small.held
+    !group.is_sliding && group.mode == ContactMode::Slip && norm(pair(group, rates)) <= small.stick
 }
 
 /// Closes a constraint that is open without separating, and lets friction that slips without a rate stick.

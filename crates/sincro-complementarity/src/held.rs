@@ -181,7 +181,7 @@ impl<R: Real> Solver<R> {
                 continue;
             }
             self.refine(problem, blocks, lambda);
-            return self.is_consistent(Tolerances::of(problem, lambda), blocks);
+            return self.is_consistent(Tolerances::of(problem, blocks, (lambda, &self.active_set.rates)), blocks);
         }
         false
     }
@@ -194,7 +194,8 @@ impl<R: Real> Solver<R> {
         lambda: &[R],
     ) -> f64 {
         self.active_set.find_rates(problem, lambda);
-        turn(Tolerances::of(problem, lambda), &self.active_set.rates, blocks, lambda)
+        let small = Tolerances::of(problem, blocks, (lambda, &self.active_set.rates));
+        turn(small, &self.active_set.rates, blocks, lambda)
     }
 
     /// Returns true if the rates that the modes hold at zero are zero.
@@ -203,8 +204,8 @@ impl<R: Real> Solver<R> {
         let sticks = |group: &&FrictionGroup<R>| group.mode == ContactMode::Stick;
         blocks.iter().filter(|block| !block.open).all(|block| {
             let normal = if block.given.is_some() { 0.0 } else { rates[block.row].lane(0).abs() };
-            let slip = block.groups.iter().flatten().filter(sticks).map(|group| norm(pair(group, rates)));
-            slip.fold(normal, f64::max) <= small.held
+            let mut sticking = block.groups.iter().flatten().filter(sticks);
+            normal <= small.held && sticking.all(|group| norm(pair(group, rates)) <= small.stick)
         })
     }
 
@@ -216,7 +217,7 @@ impl<R: Real> Solver<R> {
         blocks: &[UnilateralConstraint<R>],
         lambda: &[R],
     ) -> Option<HeldLaw> {
-        let small = Tolerances::of(problem, lambda);
+        let small = Tolerances::of(problem, blocks, (lambda, &self.active_set.rates));
         let mut worst: (Option<HeldLaw<usize>>, f64) = (None, 0.0);
         let mut look = |law: HeldLaw<usize>| {
             let block = &blocks[law.constraint()];
@@ -256,7 +257,8 @@ impl<R: Real> Solver<R> {
     ) -> f64 {
         let block = law.constraint().find(blocks);
         block.map_or(-1.0, |block| {
-            excess(law.about(block), Tolerances::of(problem, lambda), &self.active_set.rates, lambda)
+            let small = Tolerances::of(problem, blocks, (lambda, &self.active_set.rates));
+            excess(law.about(block), small, &self.active_set.rates, lambda)
         })
     }
 
@@ -297,7 +299,7 @@ fn excess<R: Real>(law: HeldLaw<&UnilateralConstraint<R>>, small: Tolerances, ra
         }),
         HeldLaw::Slip(block, g) => of_group(block, g, &|group, _| {
             let (rate, d) = (pair(group, rates), group.direction.map(|d| d.lane(0)));
-            (rate[0] * d[0] + rate[1] * d[1] - small.held) / small.rate * SLACK
+            (rate[0] * d[0] + rate[1] * d[1] - small.stick) / small.rate * SLACK
         }),
     }
 }
@@ -324,7 +326,7 @@ fn converges(turned: f64, before: f64, n: usize) -> bool {
 /// Turns friction that slips against its velocity or rate; returns the largest change of a direction, zero if all were
 /// turned so. A rate that counts as none for sticking friction gives impending slip no direction.
 fn turn<R: Real>(mut small: Tolerances, rates: &[R], blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) -> f64 {
-    small.rate = small.held;
+    small.rate = small.stick;
     let mut turned = 0.0_f64;
     for block in blocks.iter_mut().filter(|block| !block.open) {
         let normal = lambda[block.row].lane(0);

@@ -26,6 +26,10 @@ pub(crate) const SLACK: f64 = 1e-9;
 /// rounding contradict each other by as much; an inconsistent active set leaves far more.
 pub const HELD_RATE: f64 = 1e-6;
 
+/// Multiple of the rates that the forces of constraints with friction cause which this tolerance of friction is
+/// relative to at most: beside a strong motor that presses a joint against its limit, all of them are small.
+const OWN_RATES: f64 = 10.0;
+
 /// Relative rate above which a solution of the linear system is refined once.
 const REFINED: f64 = 1e-12;
 
@@ -328,8 +332,8 @@ impl<R: Real> Solver<R> {
         blocks: &[UnilateralConstraint<R>],
         lambda: &mut [R],
     ) {
-        let small = Tolerances::of(problem, lambda).none;
         let rates = &self.active_set.rates;
+        let small = Tolerances::of(problem, blocks, (lambda, rates)).none;
         let holds = |block: &&UnilateralConstraint<R>| !block.open && block.given.is_none();
         let normals = blocks.iter().filter(holds).map(|block| rates[block.row]);
         if rates[..problem.n_free].iter().copied().chain(normals).any(|rate| rate.lane(0).abs() > small) {
@@ -415,21 +419,48 @@ impl<R: Real> Solver<R> {
 pub(crate) struct Tolerances {
     pub force: f64,
     pub rate: f64,
+    /// Of rates that must be zero.
     pub held: f64,
+    /// The same of friction.
+    pub stick: f64,
     none: f64,
 }
 
 impl Tolerances {
     /// The force scale includes the force that would stop the largest rate of the lightest row: where everything opens,
     /// nothing else gives forces a scale.
-    pub fn of<R: Real>(problem: &ContactProblem<'_, R>, lambda: &[R]) -> Self {
+    pub fn of<R: Real>(
+        problem: &ContactProblem<'_, R>,
+        blocks: &[UnilateralConstraint<R>],
+        (lambda, rates): (&[R], &[R]),
+    ) -> Self {
         let largest = |x: &[R]| x.iter().fold(0.0_f64, |s, x| s.max(x.lane(0).abs()));
         let m = problem.m();
         let lightest = (0..m).fold(0.0_f64, |s, i| s.max(problem.a[i * m + i].lane(0)));
         let undoing = if lightest > 0.0 { largest(problem.b) / lightest } else { 0.0 };
         let [force, rate] = [largest(lambda).max(undoing), largest(problem.b)].map(|x| x + f64::MIN_POSITIVE);
-        Self { force: SLACK * force, rate: SLACK * rate, held: HELD_RATE * rate, none: REFINED * rate }
+        let own = OWN_RATES * own_rates(problem, blocks, lambda, rates);
+        let stick = (HELD_RATE * own).clamp(SLACK * rate, HELD_RATE * rate);
+        Self { force: SLACK * force, rate: SLACK * rate, held: HELD_RATE * rate, stick, none: REFINED * rate }
     }
+}
+
+/// Largest rate that a force of a closed constraint with friction causes along itself, or that is left there.
+fn own_rates<R: Real>(
+    problem: &ContactProblem<'_, R>,
+    blocks: &[UnilateralConstraint<R>],
+    lambda: &[R],
+    rates: &[R],
+) -> f64 {
+    let m = problem.m();
+    let rate = |i: usize| rates[i].lane(0).abs() + (problem.a[i * m + i] * lambda[i]).lane(0).abs();
+    let closed = blocks.iter().filter(|block| !block.open);
+    closed.fold(0.0, |largest, block| {
+        let rows = block.groups.iter().flatten().flat_map(|group| group.row..group.row + group.dim);
+        let of_friction = rows.map(rate).fold(0.0, f64::max);
+        let has_normal = block.given.is_none() && block.groups.iter().any(Option::is_some);
+        largest.max(of_friction).max(if has_normal { rate(block.row) } else { 0.0 })
+    })
 }
 
 /// Updates the contact modes that violate the complementarity conditions; returns true if any did.
@@ -439,7 +470,7 @@ fn update_modes<R: Real>(
     blocks: &mut [UnilateralConstraint<R>],
     lambda: &[R],
 ) -> bool {
-    let small = Tolerances::of(problem, lambda);
+    let small = Tolerances::of(problem, blocks, (lambda, rates));
     let mut changed = false;
     for block in blocks.iter_mut() {
         if block.open {
@@ -531,7 +562,7 @@ fn update_friction_mode<R: Real>(
             group.slip(force.map(|x| R::splat(x / size)), None);
             return true;
         }
-        return norm(pair(group, rates)) > small.held;
+        return norm(pair(group, rates)) > small.stick;
     }
     turn_impending_slip(group, normal, small, rates, lambda).unwrap_or_else(|| {
         group.stick();
