@@ -326,7 +326,7 @@ fn converges(turned: f64, before: f64, n: usize) -> bool {
 /// Turns friction that slips against its velocity or rate; returns the largest change of a direction, zero if all were
 /// turned so. A rate that counts as none for sticking friction gives impending slip no direction.
 fn turn<R: Real>(mut small: Tolerances, rates: &[R], blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) -> f64 {
-    small.rate = small.stick;
+    small.slip = small.stick;
     let mut turned = 0.0_f64;
     for block in blocks.iter_mut().filter(|block| !block.open) {
         let normal = lambda[block.row].lane(0);

@@ -26,8 +26,8 @@ pub(crate) const SLACK: f64 = 1e-9;
 /// rounding contradict each other by as much; an inconsistent active set leaves far more.
 pub const HELD_RATE: f64 = 1e-6;
 
-/// Multiple of the rates that the forces of constraints with friction cause which this tolerance of friction is
-/// relative to at most: beside a strong motor that presses a joint against its limit, all of them are small.
+/// Multiple of the rates that the forces of constraints with friction cause which tolerances of friction are relative
+/// to at most: beside a strong motor that presses a joint against its limit, all of them are small.
 const OWN_RATES: f64 = 10.0;
 
 /// Relative rate above which a solution of the linear system is refined once.
@@ -423,6 +423,8 @@ pub(crate) struct Tolerances {
     pub held: f64,
     /// The same of friction.
     pub stick: f64,
+    /// Of the rate of a slip that has a direction.
+    pub slip: f64,
     none: f64,
 }
 
@@ -440,8 +442,9 @@ impl Tolerances {
         let undoing = if lightest > 0.0 { largest(problem.b) / lightest } else { 0.0 };
         let [force, rate] = [largest(lambda).max(undoing), largest(problem.b)].map(|x| x + f64::MIN_POSITIVE);
         let own = OWN_RATES * own_rates(problem, blocks, lambda, rates);
-        let stick = (HELD_RATE * own).clamp(SLACK * rate, HELD_RATE * rate);
-        Self { force: SLACK * force, rate: SLACK * rate, held: HELD_RATE * rate, stick, none: REFINED * rate }
+        let (small, held, none) = (SLACK * rate, HELD_RATE * rate, REFINED * rate);
+        let (stick, slip) = ((HELD_RATE * own).clamp(small, held), (SLACK * own).clamp(none, small));
+        Self { force: SLACK * force, rate: small, held, stick, slip, none }
     }
 }
 
@@ -583,7 +586,7 @@ pub(crate) fn turn_impending_slip<R: Real>(
     let (force, rate) = (pair(group, lambda), pair(group, rates));
     let (size, speed) = (norm(force), norm(rate));
     let beyond = size > limit + small.force * group.slack;
-    if speed <= small.rate {
+    if speed <= small.slip {
         // at its limit without a rate; a direction that can turn must not have turned beyond the limit
         // and a compliant direction must not creep
         let creeps = group.compliance.is_some() && speed > small.none && size > 0.0;
