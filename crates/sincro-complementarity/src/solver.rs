@@ -419,11 +419,11 @@ impl<R: Real> Solver<R> {
 pub(crate) struct Tolerances {
     pub force: f64,
     pub rate: f64,
-    /// Of rates that must be zero.
+    /// Rate that must be zero.
     pub held: f64,
-    /// The same of friction.
+    /// Rate of friction that must be zero.
     pub stick: f64,
-    /// Of the rate of a slip that has a direction.
+    /// Rate of a slip that has no direction.
     pub slip: f64,
     none: f64,
 }

@@ -15,7 +15,7 @@ const MAX_IMPACTS: usize = 50;
 
 /// Number of contact events in one tick beyond which its rest is made at velocity level; where the tick before it was
 /// made so, a smaller number is.
-pub(super) const MAX_CONTACT_EVENTS: usize = 1200;
+pub(super) const MAX_CONTACT_EVENTS: usize = 6000;
 pub(super) const MAX_EVENTS_AGAIN: usize = 400;
 
 /// Maximum number of times that a step at velocity level is made again because of what it passes.
