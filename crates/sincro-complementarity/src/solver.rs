@@ -419,11 +419,11 @@ impl<R: Real> Solver<R> {
 pub(crate) struct Tolerances {
     pub force: f64,
     pub rate: f64,
-    /// Rate that must be zero.
+    /// Rate that must be zero, but of friction.
     pub held: f64,
     /// Rate of friction that must be zero.
     pub stick: f64,
-    /// Rate of a slip that has no direction.
+    /// Rate of a slip up to which it has no direction.
     pub slip: f64,
     none: f64,
 }

@@ -46,8 +46,16 @@ impl Hermite {
     }
 }
 
-/// Time of the instant, within a step of length `h` `[s]`, at which a quantity is lowest, if it is below `bound` there
-/// and rises at the end, by its value and rate at the start and at the end; infinite if it is not.
+/// Time of the first extremum, within a step of length `h` `[s]`, at which a quantity that rises at the end is below
+/// `bound`, by its value and rate at the start and at the end; infinite for none.
+///
+/// ```
+/// use sincro_integrate::dip;
+///
+/// // falls from 0.1 m at 1 m/s and is back after 1 s: 0.15 m below zero in between
+/// assert_eq!(dip(1.0, 0.0, (0.1, -1.0), (0.1, 1.0)), 0.5);
+/// assert_eq!(dip(1.0, -0.2, (0.1, -1.0), (0.1, 1.0)), f64::INFINITY);
+/// ```
 #[must_use]
 pub fn dip(h: f64, bound: f64, (start, rate): (f64, f64), (end, rate_end): (f64, f64)) -> f64 {
     if rate_end <= 0.0 {
@@ -56,7 +64,19 @@ pub fn dip(h: f64, bound: f64, (start, rate): (f64, f64), (end, rate_end): (f64,
     h * Hermite::new((start, h * rate), (end, h * rate_end)).first_extremum_below(bound)
 }
 
-/// The same of the distance of two points. Where they move straight on, its square is a polynomial.
+/// Time of the instant, within a step of length `h` `[s]`, at which two points are closer than `bound`, by their
+/// distance and its rate at the start and at the end; infinite for none. Where they move straight on, the square of
+/// their distance is a polynomial.
+///
+/// ```
+/// use sincro_integrate::distance_dip;
+///
+/// // past each other at 2 m/s, 0.1 m aside
+/// let distance = 1.01_f64.sqrt();
+/// let (start, end) = ((distance, -2.0 / distance), (distance, 2.0 / distance));
+/// assert_eq!(distance_dip(1.0, 0.2, start, end), 0.5);
+/// assert_eq!(distance_dip(1.0, 0.09, start, end), f64::INFINITY);
+/// ```
 #[must_use]
 pub fn distance_dip(h: f64, bound: f64, start: (f64, f64), end: (f64, f64)) -> f64 {
     let square = |(distance, rate): (f64, f64)| (distance * distance, 2.0 * distance * h * rate);

@@ -359,9 +359,14 @@ fn all_keep_the_laws(seed: u64, duration: f64, draw: impl Fn(&mut Draw) -> Strin
     let other: u64 = std::env::var("SINCRO_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
     let mut r = Draw(seed + other);
     // an arm drawn into the floor is rightly refused
-    let scenes = std::iter::repeat_with(|| draw(&mut r)).enumerate().filter(|(_, scene)| !starts_in_overlap(scene));
-    let missed: Vec<String> = scenes
+    let scenes: Vec<(usize, String)> = (0..2 * draws())
+        .map(|k| (k, draw(&mut r)))
+        .filter(|(_, scene)| !starts_in_overlap(scene))
         .take(draws())
+        .collect();
+    assert_eq!(scenes.len(), draws(), "most scenes start in overlap");
+    let missed: Vec<String> = scenes
+        .into_iter()
         .filter_map(|(k, scene)| missed_laws(&scene, duration).map(|missed| format!("draw {k}: {missed}")))
         .collect();
     assert!(missed.is_empty(), "{} of {}:\n{}", missed.len(), draws(), missed.join("\n"));

@@ -105,11 +105,12 @@ fn stops_passed_before_another_event_of_the_step_are_impacts() {
              [[body]]\nname = \"load\"\nparent = \"/cart\"\nmass = 1.0\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
         );
         for is_contact in [false, true] {
-            for integrator in ["auto", "stiff"] {
+            // a stop that is just reached is met a little earlier or later by the error of fixed steps
+            for (integrator, most) in [("auto", 1e-6), ("stiff", 1e-6), ("rk4", 1e-4)] {
                 let scene = draw.scene(is_contact) + &cart;
                 let deviation = (last_of(&scene, (integrator, 0.005), "/slide.position") - draw.end()).abs();
                 let what = if is_contact { "surface" } else { "limit" };
-                assert!(deviation < 1e-6, "draw {k}, {what}, {integrator}: {deviation:e} m off, {draw:?}, {force} N");
+                assert!(deviation < most, "draw {k}, {what}, {integrator}: {deviation:e} m off, {draw:?}, {force} N");
             }
         }
     }

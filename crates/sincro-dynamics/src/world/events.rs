@@ -185,7 +185,7 @@ impl World {
         self.find_event_within(t, h, (reached, violated), control, system)
     }
 
-    /// The same of what has happened within the sub-step, and shows nothing at its end: the state last evaluated.
+    /// The same of what has happened within the sub-step, whether or not it shows at its end: the state last evaluated.
     fn find_event_within(
         &mut self,
         t: f64,
@@ -296,9 +296,13 @@ impl World {
             let located = self.narrow(t, (bad, h), crossing, control, system);
             self.mechanism.set_locating(false);
             let (at, found) = located?;
-            let Some(earlier) = self.find_event_within(t, at, (t + at, violated), control, system)? else {
+            if at <= h * EVENT_RESOLUTION {
                 return Ok((at, found));
-            };
+            }
+            let report = self.solver_report();
+            let earlier = self.find_event_within(t, at, (t + at, violated), control, system)?;
+            report.into_iter().for_each(|before| self.discard_failures(&before));
+            let Some(earlier) = earlier else { return Ok((at, found)) };
             (bad, crossing) = earlier;
         }
     }
@@ -378,7 +382,10 @@ impl World {
         }
         let at = bracket.after();
         self.repeat_step(t, at, control, system)?;
+        // beyond the event the modes of the sub-step may fit no forces
+        let report = self.solver_report();
         self.evaluate_held(t + at, system);
+        report.into_iter().for_each(|before| self.discard_failures(&before));
         Ok((at, crossing))
     }
 }

@@ -114,7 +114,7 @@ pub(crate) enum IntegratorFile {
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ErrorBarFile {
-    /// By a second run with a finer step or tolerance.
+    /// By a second run with a finer step or tolerance, and a third where several sets of contact forces keep all laws.
     #[default]
     Refine,
     /// Not at all.
