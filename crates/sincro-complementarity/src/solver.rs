@@ -36,6 +36,9 @@ const REFINED: f64 = 1e-12;
 /// Maximum number of mode updates before ADMM is used.
 const MAX_MODE_UPDATES: usize = 8;
 
+/// Error of slow friction up to which a solution stands whose directions have not converged within their turns.
+const NEARLY_TURNED: f64 = 1e-8;
+
 /// Maximum number of contacts whose sets of closed ones are enumerated.
 const MAX_ENUMERATED: usize = 5;
 
@@ -317,6 +320,9 @@ impl<R: Real> Solver<R> {
             } else if turns < MAX_TURNS && turn_slow_sliding(rates, blocks, lambda) {
                 turns += 1;
             } else {
+                if turns == MAX_TURNS && turning_error(rates, blocks, lambda) > NEARLY_TURNED {
+                    return false;
+                }
                 self.refine(problem, blocks, lambda);
                 // sweeps may have gone beyond all bounds, and what is not a number violates no law
                 return lambda.iter().all(|force| force.lane(0).is_finite());
@@ -524,6 +530,21 @@ fn turn_slow_sliding<R: Real>(rates: &[R], blocks: &mut [UnilateralConstraint<R>
         }
     }
     turned
+}
+
+/// Largest error of the friction of groups that slide slowly: relative force beyond its limit, or a hundredth of the
+/// angle to its velocity at the end of the step.
+fn turning_error<R: Real>(rates: &[R], blocks: &[UnilateralConstraint<R>], lambda: &[R]) -> f64 {
+    let closed = blocks.iter().filter(|block| !block.open);
+    let groups = closed.flat_map(|block| block.groups.iter().flatten().map(|group| (block.row, group)));
+    groups.fold(0.0, |largest, (row, group)| {
+        let normal = lambda[row].lane(0);
+        let Some(sliding) = group.sliding_rate(normal) else { return largest };
+        let ([d0, d1], rate) = (group.direction.map(|d| d.lane(0)), pair(group, rates));
+        let beyond = norm(pair(group, lambda)) / (group.coefficient * normal) - 1.0;
+        let across = d0 * rate[1] - d1 * sliding;
+        largest.max(beyond).max(0.01 * across.abs() / norm([sliding, rate[1]]))
+    })
 }
 
 /// Turns the friction of a group that slides slowly against its velocity at the end of the step; returns true if it was

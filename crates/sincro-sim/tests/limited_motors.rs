@@ -563,14 +563,14 @@ fn nth(seed: u64, k: usize, draw: impl Fn(&mut Draw) -> String) -> String {
 /// Arms that stopped just beyond a joint limit, whose weak motor gave way beside a strong one, that rocked between a
 /// limit and the floor without end, that jammed on the floor, whose tip one force there hardly accelerated, whose
 /// strong motor a blow stopped, and beside whose strong motor at a limit all other rates counted as none; loops and
-/// robots whose energy balance was outside its error bar; robots that rocked, and whose wheels were at the verge of
-/// slipping.
+/// robots whose energy balance was outside its error bar; robots that rocked, whose wheels were at the verge of
+/// slipping, and whose slow friction did not find its direction.
 #[test]
 fn mechanisms_that_once_missed_a_law_keep_it() {
     let arms = [(1020, 100), (5020, 0), (5020, 27), (5020, 56), (5020, 80), (5020, 95), (5020, 106), (9020, 2)];
     let more_arms = [(9020, 148), (91020, 108), (31020, 6), (777_020, 161)];
     let loops = [(1001, 14), (1001, 118), (5001, 2)];
-    let robots = [(1011, 30), (1011, 96), (5011, 14), (5011, 73), (5011, 124), (9011, 31), (9011, 35)];
+    let robots = [(1011, 30), (1011, 96), (5011, 14), (5011, 73), (5011, 124), (5011, 125), (9011, 31), (9011, 35)];
     let arms = arms.into_iter().chain(more_arms).map(|(seed, k)| (nth(seed, k, arm), 1.5));
     let loops = loops.map(|(seed, k)| (nth(seed, k, closed_loop), 0.5));
     let robots = robots.map(|(seed, k)| (nth(seed, k, robot_on_wheels), 1.0));
