@@ -4,6 +4,7 @@ use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Error of writing or reading a file or folder, with its path. Its text (`Display`) is a message for the user.
 #[derive(Debug)]
@@ -36,14 +37,15 @@ impl std::error::Error for FileError {
 }
 
 /// Prepares a folder for results: creates it if it is absent, and tries out that it takes a file. To be called before a
-/// simulation starts, so that the results are not lost at its end. Files in it stay.
+/// simulation starts, so that the results are not lost at its end. Files in it stay; several processes may prepare the
+/// same folder at the same time.
 ///
 /// # Errors
 ///
 /// [`FileError`] with the folder, if it cannot be created, is a file, or takes no files.
 pub fn prepare(out_dir: &Path) -> Result<(), FileError> {
     fs::create_dir_all(out_dir).map_err(|e| FileError::new("create the results folder", out_dir, e))?;
-    let trial = out_dir.join(".sincro-trial");
+    let trial = partial_of_process(&out_dir.join(".sincro-trial"));
     let written = fs::write(&trial, b"sincro").and_then(|()| fs::remove_file(&trial));
     written.map_err(|e| FileError::new("write into the results folder", out_dir, e))
 }
@@ -52,6 +54,18 @@ pub fn prepare(out_dir: &Path) -> Result<(), FileError> {
 pub(crate) fn partial(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".partial");
+    PathBuf::from(name)
+}
+
+/// Returns the path of a file until it is complete, in a folder that several processes share: no other process, machine
+/// or thread gets the same, and it ends with `.partial` too.
+#[must_use]
+pub fn partial_of_process(path: &Path) -> PathBuf {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    let host: String = host.trim().chars().filter(char::is_ascii_alphanumeric).collect();
+    let mut name = path.as_os_str().to_owned();
+    name.push(format!(".{host}-{}-{}.partial", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed)));
     PathBuf::from(name)
 }
 
@@ -66,6 +80,32 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let file = File::create(&partial).and_then(|mut file| file.write_all(content).map(|()| file));
     let file = file.map_err(|e| FileError::new("write", &partial, e))?;
     put_in_place(&file, &partial, path)
+}
+
+/// Writes a whole file atomically, as [`write_atomically`] does, in a folder that several processes share: each that
+/// writes this file at the same time has its own until it is complete.
+///
+/// # Errors
+///
+/// As [`write_atomically`]; the incomplete file is removed.
+pub fn write_atomically_shared(path: &Path, content: &[u8]) -> Result<(), FileError> {
+    let own = partial_of_process(path);
+    let written = File::create(&own).and_then(|mut file| file.write_all(content).and_then(|()| file.sync_all()));
+    put_in_shared_place(&own, path, written)
+}
+
+/// Gives a file of [`partial_of_process`] its name once it is `written`; removes one that could not be written.
+///
+/// # Errors
+///
+/// [`FileError`] with the path: that of `written`, or the file cannot be renamed.
+pub fn put_in_shared_place(own: &Path, path: &Path, written: io::Result<()>) -> Result<(), FileError> {
+    let renamed = || fs::rename(own, path).map_err(|e| FileError::new("rename a file to", path, e));
+    let done = written.map_err(|e| FileError::new("write", path, e)).and_then(|()| renamed());
+    if done.is_err() {
+        let _ = fs::remove_file(own);
+    }
+    done
 }
 
 /// Waits until a whole file is on the disk (some systems report a full one only then) and gives it its name.
@@ -95,6 +135,23 @@ mod tests {
         prepare(&folder).unwrap();
         let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(names, ["notes.txt"]);
+    }
+
+    #[test]
+    fn many_prepare_the_same_folder_and_write_the_same_file_at_once() {
+        let folder = test_folder("prepare-shared");
+        std::thread::scope(|scope| {
+            for _ in 0..8 {
+                scope.spawn(|| {
+                    for _ in 0..100 {
+                        prepare(&folder).unwrap();
+                        write_atomically_shared(&folder.join("plan.toml"), b"seed = 1").unwrap();
+                    }
+                });
+            }
+        });
+        let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(names, ["plan.toml"]);
     }
 
     #[test]

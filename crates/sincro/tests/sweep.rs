@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Stdio;
 use std::time::Duration;
 
 use sincro_testing::{CommandLine, SceneFolder};
@@ -56,6 +57,24 @@ fn killed_shards_leave_the_bytes_of_an_undisturbed_campaign() {
     let report = fs::read_to_string(again.join("run.json")).unwrap();
     let trace = report.split("\"trace_hash\": \"").nth(1).unwrap().split('"').next().unwrap().to_owned();
     assert!(table.windows(trace.len()).any(|bytes| bytes == trace.as_bytes()), "{trace}");
+}
+
+#[test]
+fn shards_that_begin_at_the_same_instant_share_a_new_folder() {
+    let folder = SceneFolder::new();
+    let plan = plan(&folder);
+    let (plan, shared) = (plan.to_str().unwrap(), folder.join("shared"));
+    let shard = |k: usize| {
+        let shard = format!("{k}/15");
+        let command = ["sweep", plan, "--out", shared.to_str().unwrap(), "--shard", &shard, "--threads", "1", "--quiet"];
+        (shard.clone(), SINCRO.command(&command).stderr(Stdio::piped()).spawn().unwrap())
+    };
+    let started: Vec<_> = (1..=15).map(shard).collect();
+    for (shard, child) in started {
+        let exit = child.wait_with_output().unwrap();
+        assert!(exit.status.success(), "{shard}: {}", String::from_utf8_lossy(&exit.stderr));
+    }
+    call(&["sweep", "collect", shared.to_str().unwrap(), "--replays", "0"]);
 }
 
 #[test]

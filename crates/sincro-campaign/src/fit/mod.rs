@@ -214,8 +214,8 @@ impl<'a> Fit<'a> {
     pub fn write(&self, folder: &Path) -> Result<(), FileError> {
         sincro_sim::file::prepare(folder)?;
         let json = serde_json::to_string_pretty(&self.json()).expect("plain data");
-        sincro_sim::file::write_atomically(&folder.join("fit.json"), (json + "\n").as_bytes())?;
-        sincro_sim::file::write_atomically(&folder.join("report.html"), page::html(self).as_bytes())
+        sincro_sim::file::write_atomically_shared(&folder.join("fit.json"), (json + "\n").as_bytes())?;
+        sincro_sim::file::write_atomically_shared(&folder.join("report.html"), page::html(self).as_bytes())
     }
 
     /// Returns the fit as the JSON object of `fit.json`; numbers that are not finite are null.

@@ -8,9 +8,10 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 use sincro_figures::plot::number::{short, significant};
+use sincro_sim::file::write_atomically_shared;
 
 use crate::statistics::{quantile, quantile_interval, wilson};
-use crate::store::{Store, StoreError, write_text};
+use crate::store::{Store, StoreError};
 
 pub use summary::{Indices, Sample, Summary, Worst};
 
@@ -30,8 +31,10 @@ pub struct Replay {
 ///
 /// [`StoreError::File`] with the path of the file that cannot be written.
 pub fn write(store: &Store, summary: &Summary, replays: &[Replay]) -> Result<(), StoreError> {
-    write_text(&store.folder.join("summary.json"), &(json_text(store, summary) + "\n"))?;
-    write_text(&store.folder.join("report.html"), &page::html(store, summary, replays)).map_err(StoreError::from)
+    let json = json_text(store, summary) + "\n";
+    write_atomically_shared(&store.folder.join("summary.json"), json.as_bytes())?;
+    let page = page::html(store, summary, replays);
+    write_atomically_shared(&store.folder.join("report.html"), page.as_bytes()).map_err(StoreError::from)
 }
 
 /// Finite values of a measure in ascending order, as far as the sample has them.

@@ -4,11 +4,11 @@ use std::fs::File;
 use std::hash::Hasher;
 use std::io::{BufWriter, ErrorKind, Write};
 
-use sincro_sim::file::FileError;
+use sincro_sim::file::{FileError, partial_of_process, put_in_shared_place};
 use sincro_sim::formats::parquet::{Values, Writer};
 use twox_hash::XxHash3_64;
 
-use super::{Store, StoreError, own_name, put};
+use super::{Store, StoreError};
 
 /// Rows of a row group of the table.
 const ROWS_PER_GROUP: usize = 1 << 16;
@@ -43,7 +43,7 @@ pub fn collect(store: &Store) -> Result<Collected, StoreError> {
     }
     refuse_foreign(store)?;
     let path = store.runs_path();
-    let own = own_name(&path);
+    let own = partial_of_process(&path);
     let file = File::create(&own).map_err(|e| FileError::new("write", &path, e))?;
     let collected = match write(store, file) {
         Ok(collected) => collected,
@@ -52,7 +52,7 @@ pub fn collect(store: &Store) -> Result<Collected, StoreError> {
             return Err(error);
         }
     };
-    put(&own, &path, Ok(()))?;
+    put_in_shared_place(&own, &path, Ok(()))?;
     Ok(Collected { n_partial: remove_partial(store), ..collected })
 }
 

@@ -24,7 +24,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use sincro_sim::file::{FileError, write_atomically};
+use sincro_sim::file::{FileError, partial_of_process, put_in_shared_place, write_atomically_shared};
 use sincro_sim::formats::parquet::{ParquetError, ParquetFile, Values};
 
 use crate::campaign::{Campaign, Column};
@@ -187,7 +187,7 @@ impl Store {
         }
         let plan = folder.join("plan.toml");
         if !plan.is_file() {
-            write_own(&plan, campaign.plan.source.text.as_bytes())?;
+            write_atomically_shared(&plan, campaign.plan.source.text.as_bytes())?;
         }
         Ok(Self { folder: folder.to_owned(), manifest: found })
     }
@@ -346,24 +346,12 @@ fn foreign_entry(folder: &Path) -> Option<String> {
     let known = [MANIFEST, "plan.toml", "parts", "signals", "runs", "jobs", ".lock"];
     let names = std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
     // other processes that begin at the same time
-    names
-        .into_iter()
-        .find(|name| !known.contains(&name.as_str()) && !name.contains(".partial") && name != ".sincro-trial")
-}
-
-/// Writes a file under a name of this process, and moves it to its place.
-pub(crate) fn write_own(path: &Path, content: &[u8]) -> Result<(), FileError> {
-    let own = own_name(path);
-    let written = File::create(&own).and_then(|mut file| {
-        std::io::Write::write_all(&mut file, content)?;
-        file.sync_all()
-    });
-    put(&own, path, written)
+    names.into_iter().find(|name| !known.contains(&name.as_str()) && !name.ends_with(".partial"))
 }
 
 /// Writes a file under a name of this process, and gives it its place unless that is taken.
 fn publish_once(path: &Path, content: &[u8]) -> Result<(), FileError> {
-    let own = own_name(path);
+    let own = partial_of_process(path);
     let written = File::create(&own).and_then(|mut file| {
         std::io::Write::write_all(&mut file, content)?;
         file.sync_all()
@@ -374,43 +362,14 @@ fn publish_once(path: &Path, content: &[u8]) -> Result<(), FileError> {
     }
     match std::fs::hard_link(&own, path) {
         // some file systems have no links
-        Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => put(&own, path, Ok(())),
+        Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => {
+            put_in_shared_place(&own, path, Ok(()))
+        }
         _ => {
             let _ = std::fs::remove_file(&own);
             Ok(())
         }
     }
-}
-
-/// Name of a file until it is complete: one of this process alone.
-pub(crate) fn own_name(path: &Path) -> PathBuf {
-    use std::sync::atomic::{AtomicU64, Ordering};
-    static NEXT: AtomicU64 = AtomicU64::new(0);
-    let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
-    let host: String = host.trim().chars().filter(char::is_ascii_alphanumeric).collect();
-    let mut name = path.as_os_str().to_owned();
-    name.push(format!(".{host}-{}-{}.partial", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed)));
-    PathBuf::from(name)
-}
-
-/// Moves a file that was written to its place; one that could not be written is taken away.
-pub(crate) fn put(own: &Path, path: &Path, written: std::io::Result<()>) -> Result<(), FileError> {
-    let done = written
-        .map_err(|e| FileError::new("write", path, e))
-        .and_then(|()| std::fs::rename(own, path).map_err(|e| FileError::new("rename a file to", path, e)));
-    if done.is_err() {
-        let _ = std::fs::remove_file(own);
-    }
-    done
-}
-
-/// Writes a text of the report.
-///
-/// # Errors
-///
-/// The file cannot be written.
-pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), FileError> {
-    write_atomically(path, text.as_bytes())
 }
 
 fn damaged(path: &Path, error: ParquetError) -> StoreError {

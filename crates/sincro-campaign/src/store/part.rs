@@ -5,11 +5,11 @@ use std::hash::Hasher;
 use std::io::{BufWriter, ErrorKind, Write};
 use std::path::Path;
 
-use sincro_sim::file::FileError;
+use sincro_sim::file::{FileError, partial_of_process, put_in_shared_place};
 use sincro_sim::formats::parquet::{ParquetFile, Values, Writer};
 use twox_hash::XxHash3_64;
 
-use super::{Store, StoreError, damaged, own_name, put};
+use super::{Store, StoreError, damaged};
 use crate::row::Row;
 
 /// State of a part.
@@ -41,7 +41,7 @@ impl Store {
             ("version".to_owned(), self.manifest.sincro_version.clone()),
             ("content".to_owned(), content_hash(&group)),
         ];
-        let own = own_name(&path);
+        let own = partial_of_process(&path);
         let written = File::create(&own).and_then(|file| {
             let mut writer = Writer::new(BufWriter::new(file), "runs", self.layout().columns())?;
             writer.group(&group)?;
@@ -49,7 +49,11 @@ impl Store {
             sink.flush()?;
             sink.get_ref().sync_all()
         });
-        Ok(put(&own, &path, written)?)
+        match put_in_shared_place(&own, &path, written) {
+            // another process made the same part, and collected: it took away what it held for incomplete
+            Err(error) if error.cause.kind() == ErrorKind::NotFound && path.is_file() => Ok(()),
+            placed => Ok(placed?),
+        }
     }
 
     /// Writes the long table of the signals of a part: a row for each run and recorded time.
@@ -86,7 +90,7 @@ impl Store {
             ("version".to_owned(), self.manifest.sincro_version.clone()),
             ("content".to_owned(), content_hash(&values)),
         ];
-        let own = own_name(&path);
+        let own = partial_of_process(&path);
         let written = File::create(&own).and_then(|file| {
             let mut writer = Writer::new(BufWriter::new(file), "signals", columns)?;
             if !values[0].is_empty() {
@@ -96,7 +100,7 @@ impl Store {
             sink.flush()?;
             sink.get_ref().sync_all()
         });
-        Ok(put(&own, &path, written)?)
+        Ok(put_in_shared_place(&own, &path, written)?)
     }
 
     /// Refuses a part whose series are not there or were made of other runs.

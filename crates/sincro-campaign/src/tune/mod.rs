@@ -408,8 +408,8 @@ impl Tuning<'_> {
             "candidates": tuned.n_candidates, "converged": tuned.has_converged,
         });
         let text = serde_json::to_string_pretty(&document).expect("plain data") + "\n";
-        sincro_sim::file::write_atomically(&folder.join("tune.json"), text.as_bytes())?;
-        sincro_sim::file::write_atomically(&folder.join("report.html"), page::html(self, tuned).as_bytes())
+        sincro_sim::file::write_atomically_shared(&folder.join("tune.json"), text.as_bytes())?;
+        sincro_sim::file::write_atomically_shared(&folder.join("report.html"), page::html(self, tuned).as_bytes())
     }
 }
 

@@ -235,6 +235,7 @@ def hyperqueue(sincro, work, plan, table):
     """Shards as tasks of a server and a worker of HyperQueue on loopback, from its Python package."""
     try:
         from hyperqueue import Job, LocalCluster
+        from hyperqueue.client import FailedJobsException
         from hyperqueue.cluster import WorkerConfig
     except ImportError:
         skip("hyperqueue: the Python package is not installed")
@@ -248,7 +249,10 @@ def hyperqueue(sincro, work, plan, table):
             job.program([str(a) for a in arguments])
         client = cluster.client()
         clock = time.monotonic()
-        client.wait_for_jobs([client.submit(job)])
+        try:
+            client.wait_for_jobs([client.submit(job)])
+        except FailedJobsException as failed:
+            raise SystemExit("\n".join([str(failed), *(path.read_text() for path in work.glob("*.stderr"))])) from failed
         seconds = time.monotonic() - clock
     call(sincro, "sweep", "collect", out, "--replays", "0")
     bound((out / "runs.parquet").read_bytes() == table, f"hyperqueue, {n} shards in {seconds:.1f} s: the same bytes")

@@ -273,8 +273,8 @@ impl Excitation<'_> {
     pub fn write(&self, excited: &Excited, folder: &Path) -> Result<(), FileError> {
         sincro_sim::file::prepare(folder)?;
         let json = serde_json::to_string_pretty(&self.json(excited)).expect("plain data");
-        sincro_sim::file::write_atomically(&folder.join("design.json"), (json + "\n").as_bytes())?;
-        sincro_sim::file::write_atomically(&folder.join("report.html"), page::html(self, excited).as_bytes())
+        sincro_sim::file::write_atomically_shared(&folder.join("design.json"), (json + "\n").as_bytes())?;
+        sincro_sim::file::write_atomically_shared(&folder.join("report.html"), page::html(self, excited).as_bytes())
     }
 
     /// Returns the result as the JSON object of `design.json`; numbers that are not finite are null.
