@@ -71,7 +71,7 @@ fn a_filtered_torque_has_its_closed_form_at_the_order_of_each_method() {
         println!("{kind:?}: {fine:.2e}, order {found:.3}");
         assert!((found - order).abs() < 0.2, "{kind:?}: {coarse:e} {fine:e}, order {found}");
     }
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let found = error(kind, 4);
         println!("{kind:?}: {found:.2e}");
         assert!(found < 1e-9, "{kind:?}: {found:e}");
@@ -104,7 +104,9 @@ fn an_integrator_stops_at_the_end_of_its_range_and_leaves_it_at_once() {
         match kind {
             // of first order
             MethodKind::SemiImplicitEuler => assert!(fine < 0.2 * coarse && fine < 2e-2, "{fine:e} {coarse:e}"),
-            MethodKind::DormandPrince => assert!(coarse.max(fine) < 1e-7, "{kind:?}: {coarse:e}"),
+            MethodKind::DormandPrince | MethodKind::DormandPrince8 => {
+                assert!(coarse.max(fine) < 1e-7, "{kind:?}: {coarse:e}")
+            }
             _ => assert!(fine < 0.05 * coarse && fine < 1e-4, "{kind:?}: {fine:e} {coarse:e}"),
         }
     }
@@ -162,7 +164,7 @@ fn carts(activation: Activation<f64>) -> Model<f64> {
 
 #[test]
 fn an_actuator_along_a_line_takes_its_activation() {
-    for kind in [MethodKind::Rk4, MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::Rk4, MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let mut world = started(carts(FILTER), kind, 1e-11);
         run(&mut world, 1e-3, 100);
         let lag = 1.0 - libm::exp(-0.1 / 0.05);

@@ -174,7 +174,7 @@ fn drag_and_rotors_in_rough_air_are_accounted_for() {
         let mut x = State::new(&model);
         x.v.copy_from_slice(&[0.3, -0.2, 0.5, 1.0, 0.5, -0.4]);
         x.commands.copy_from_slice(&[650.0, 700.0]);
-        for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+        for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
             let e = imbalance(model.clone(), x.clone(), kind);
             assert!(e.abs() < 1e-7, "{drive:?} {kind:?} {e:e}");
         }

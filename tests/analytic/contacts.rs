@@ -12,7 +12,8 @@ use crate::mechanisms::run;
 const G: f64 = 9.81;
 
 /// Methods that locate events.
-const LOCATING: [MethodKind; 4] = [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff];
+const LOCATING: [MethodKind; 5] =
+    [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff];
 
 /// A free body of a shape over a plane that is tilted about y by an angle; gravity points down.
 fn on_a_plane(shape: Shape, tilt: f64, floor: Material, body: Material) -> Model<f64> {
@@ -144,7 +145,7 @@ fn a_ball_slips_then_rolls() {
         assert_eq!(world.statistics().events, 1, "{kind:?}");
         (world.state.q[0] - slipped - 5.0 / 7.0 * v0 * (0.5 - t)).abs()
     };
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         assert!(error(kind, 100) < 1e-9, "{kind:?}");
     }
     // the order of the method survives the transition

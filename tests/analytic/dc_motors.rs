@@ -73,7 +73,7 @@ fn a_step_of_voltage_has_its_closed_form_at_the_order_of_each_method() {
         println!("{kind:?}: {fine:.2e}, order {found:.3}");
         assert!((found - order).abs() < 0.2, "{kind:?}: {coarse:e} {fine:e}, order {found}");
     }
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let found = error(kind, 4);
         println!("{kind:?}: {found:.2e}");
         assert!(found < 1e-9, "{kind:?}: {found:e}");

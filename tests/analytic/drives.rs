@@ -60,7 +60,13 @@ fn drives_that_reach_their_targets_in_one_step_do_so_one_after_the_other() {
             b.body(&format!("cart{k}"), rail, Pose::identity(), BodySpec { mass });
         }
         let model = b.build().unwrap().0;
-        for kind in [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff] {
+        for kind in [
+            MethodKind::Rk4,
+            MethodKind::Implicit,
+            MethodKind::DormandPrince,
+            MethodKind::DormandPrince8,
+            MethodKind::Stiff,
+        ] {
             let mut x = State::new(&model);
             x.commands.fill(target);
             let mut world = World::new(model.clone(), x, kind, 1e-9, 0.1);
@@ -125,7 +131,13 @@ fn friction_sticks_just_below_its_limit_and_slips_just_above() {
 #[test]
 fn friction_stops_a_sliding_body_where_the_closed_form_says() {
     // v0²/(2 limit/m), then rest, exactly
-    for kind in [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [
+        MethodKind::Rk4,
+        MethodKind::Implicit,
+        MethodKind::DormandPrince,
+        MethodKind::DormandPrince8,
+        MethodKind::Stiff,
+    ] {
         let model = cart(2.0, JointSpec { friction: vec![4.0.into()], ..slider() });
         let mut x = State::new(&model);
         x.v[0] = 1.3;
@@ -157,7 +169,7 @@ fn stiction_breaks_at_its_limit_and_stribecks_curve_stops_a_body_where_its_integ
     };
     let weight = |k: usize| if k == 0 || k == n { 1.0 } else { 2.0 + 2.0 * (k % 2) as f64 };
     let distance = (0..=n).map(|k| weight(k) * integrand(k)).sum::<f64>() * v0 / n as f64 / 3.0;
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let model = cart(m, JointSpec { friction: vec![friction], ..slider() });
         let mut x = State::new(&model);
         x.v[0] = v0;

@@ -61,7 +61,7 @@ fn without_backlash_the_mesh_is_a_damped_oscillator() {
         println!("{kind:?}: {fine:.2e}, order {found:.2}");
         assert!((found - order).abs() < 0.3, "{kind:?}: {coarse:e} {fine:e}");
     }
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let found = error(kind, 5);
         println!("{kind:?}: {found:.2e}");
         assert!(found < 1e-8, "{kind:?}: {found:e}");

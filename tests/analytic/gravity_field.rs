@@ -53,7 +53,7 @@ fn center(world: &World) -> Vec3<f64> {
 
 #[test]
 fn an_orbit_of_inverse_square_gravity_closes() {
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let mut world = orbit(inverse_square(Some(POTENTIAL)), kind);
         let energy = world.energy().total();
         // −μ/2a of the centre of mass

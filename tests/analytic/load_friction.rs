@@ -6,7 +6,8 @@ use sincro_dynamics::signal::Signal;
 
 use crate::mechanisms::run;
 
-const LOCATED: [MethodKind; 4] = [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff];
+const LOCATED: [MethodKind; 5] =
+    [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff];
 
 fn loaded(load_coefficient: f64) -> Vec<Friction<f64>> {
     vec![Friction { load_coefficient, ..Friction::none() }]

@@ -13,7 +13,8 @@ use sincro_dynamics::world::{MethodKind, World};
 
 use crate::mechanisms::{ALL, cart, run, slider};
 
-const LOCATING: [MethodKind; 4] = [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff];
+const LOCATING: [MethodKind; 5] =
+    [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff];
 
 #[test]
 fn a_cart_bounces_between_its_stops() {
@@ -293,7 +294,7 @@ fn steps_may_end_at_singular_positions() {
             let n = libm::round(10.0 / tick) as u32;
             let mut exact = world_of(of_four_bars(2), MethodKind::DormandPrince, 1e-13, tick);
             run(&mut exact, tick, n);
-            for method in [MethodKind::DormandPrince, MethodKind::Stiff] {
+            for method in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
                 for accuracy in [1e-6, 1e-9, 1e-13] {
                     let mut world = world_of(four_bars(2), method, accuracy, tick);
                     run(&mut world, tick, n);
@@ -306,7 +307,9 @@ fn steps_may_end_at_singular_positions() {
                     // steps of a tenth of a turn and more do not show every passage
                     let is_enough = if accuracy > 1e-9 { passed.count >= 1 } else { passed.count == expected };
                     assert!(is_enough, "{case}: {} of {expected} passages", passed.count);
-                    assert!((passed.first - instant).abs() < 0.02, "{case}: first at {} s", passed.first);
+                    // told by the step that passes it, which is longer by order 8
+                    let step = if method == MethodKind::DormandPrince8 { 0.05 } else { 0.02 };
+                    assert!((passed.first - instant).abs() < step, "{case}: first at {} s", passed.first);
                 }
             }
         }

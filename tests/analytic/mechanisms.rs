@@ -8,7 +8,7 @@ use sincro_dynamics::spatial::{Pose, Vec3};
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::{MethodKind, World};
 
-pub const ALL: [MethodKind; 5] = MethodKind::ALL;
+pub const ALL: [MethodKind; 6] = MethodKind::ALL;
 
 /// A cart on a rail, mass `[kg]`.
 pub fn cart(mass: f64, spec: JointSpec) -> Model<f64> {

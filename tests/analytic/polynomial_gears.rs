@@ -92,7 +92,7 @@ fn a_cam_follows_its_reduced_equation_at_the_order_of_each_method() {
         assert!((world.state.v[1] - slope * world.state.v[0]).abs() < 1e-9, "{kind:?}");
         (world.state.q[0] - exact[0]).abs().max((world.state.v[0] - exact[1]).abs())
     };
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let found = error(kind, 100);
         println!("{kind:?}: {found:.1e}");
         assert!(found < 1e-8, "{kind:?}: {found:e}");

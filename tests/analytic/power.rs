@@ -39,7 +39,7 @@ fn motors_in_every_mode_are_accounted_for() {
         let model = cart(2.0, JointSpec { spring: vec![(7.0, 0.1)], damping: vec![0.3], ..motor(m) });
         let mut x = State::new(&model);
         (x.q[0], x.v[0], x.commands[0]) = (0.2, 1.0, 0.7);
-        for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+        for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
             let e = imbalance(model.clone(), x.clone(), kind, 0.01, 50);
             assert!(e.abs() < 1e-9, "{:?} {kind:?} {e:e}", m.mode);
         }

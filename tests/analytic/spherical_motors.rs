@@ -80,7 +80,13 @@ fn velocity_motors_of_a_free_joint_drive_it_along_a_screw() {
 fn limited_motors_of_a_ball_joint_reach_their_velocities_one_after_the_other() {
     // the inertia of a sphere has no gyroscopic torque: each axis speeds up by itself
     let (inertia, limits, targets) = (0.4, [0.2, 0.5, 1.0], [0.3, -0.6, 0.9]);
-    for kind in [MethodKind::Rk4, MethodKind::Implicit, MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [
+        MethodKind::Rk4,
+        MethodKind::Implicit,
+        MethodKind::DormandPrince,
+        MethodKind::DormandPrince8,
+        MethodKind::Stiff,
+    ] {
         let model = body(JointKind::Ball, [inertia; 3], motors(MotorMode::Velocity, &limits), Vec::new());
         let mut x = State::new(&model);
         x.commands.copy_from_slice(&targets);

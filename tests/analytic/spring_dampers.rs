@@ -86,7 +86,7 @@ fn seen(world: &mut World) -> [Vec3<f64>; 3] {
 
 /// Runs to each instant and compares with the figures, each to `tolerance` of the largest component.
 fn compare(model: &Model<f64>, x: &State<f64>, expected: &[(u32, [[f64; 3]; 3], f64)]) {
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let mut world = World::new(model.clone(), x.clone(), kind, 1e-10, 1e-3);
         let mut done = 0;
         for (seconds, figures, tolerance) in expected {
@@ -337,7 +337,7 @@ fn every_kind_of_line_is_accounted_for() {
         let model = carts(law, tension_only, Some(6.0));
         let mut x = State::new(&model);
         (x.q[0], x.v[0], x.v[1], x.commands[0]) = (-0.3, -1.0, 2.0, 2.5);
-        for kind in [MethodKind::DormandPrince, MethodKind::Stiff] {
+        for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
             let mut world = World::new(model.clone(), x.clone(), kind, 1e-11, 1e-3);
             let start = total(&mut world);
             run(&mut world, 0.01, 100);

@@ -106,7 +106,7 @@ fn it_rolls_down_a_slope_on_its_whole_radius() {
         run(&mut world, 1.0 / f64::from(n), n);
         (world.state.q[0] / (0.5 * expected) - 1.0).abs()
     };
-    for kind in [MethodKind::DormandPrince, MethodKind::Stiff, MethodKind::Rk4] {
+    for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff, MethodKind::Rk4] {
         assert!(error(kind, 100) < 1e-8, "{kind:?}: {:e}", error(kind, 100));
     }
     let (coarse, fine) = (error(MethodKind::Implicit, 200), error(MethodKind::Implicit, 400));

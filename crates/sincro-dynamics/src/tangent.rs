@@ -16,7 +16,7 @@ use sincro_math::Dual;
 use crate::actuation::DriveKind;
 use crate::aero::rotor::SpeedSource;
 use crate::coupled::{Coupled, CoupledSystem, StateView};
-use crate::integrate::{Bracket, Control, DormandPrince, Extrapolated, Failure, FixedStep, Rk4, System};
+use crate::integrate::{Adaptive, Bracket, Control, Extrapolated, Failure, FixedStep, Rk4, System};
 use crate::mechanism::Mechanism;
 use crate::model::{Limit, Model};
 use crate::state::State;
@@ -28,9 +28,6 @@ const RESOLUTION: f64 = 1e-13;
 const SAME_INSTANT: f64 = 1e-9;
 /// Maximum number of impacts in one tick; more are a joint that comes to rest.
 const MAX_IMPACTS: usize = 100;
-/// Rows of the stiff method that are expected for its first step.
-const STIFF_ROWS: usize = 6;
-
 /// Number with one derivative.
 type D = Dual<1>;
 
@@ -85,8 +82,7 @@ pub struct TangentWorld {
 enum Method {
     Rk4(Rk4<D>),
     Implicit(Extrapolated<D>),
-    DormandPrince(DormandPrince<D>),
-    Stiff(Extrapolated<D>),
+    Adaptive(Adaptive<D>),
 }
 
 /// Reason for which a [`TangentWorld`] cannot go on.
@@ -313,8 +309,7 @@ impl TangentWorld {
         match &mut self.method {
             Method::Rk4(method) => method.step(system, t, h_max, &mut self.y),
             Method::Implicit(method) => method.step(system, t, h_max, &mut self.y),
-            Method::DormandPrince(method) => return method.step(system, t, h_max, &mut self.y),
-            Method::Stiff(method) => return method.adaptive_step(system, t, h_max, &mut self.y),
+            Method::Adaptive(method) => return method.step(system, t, h_max, &mut self.y),
         }
         Ok(h_max)
     }
@@ -427,28 +422,24 @@ impl TangentWorld {
 
 impl Method {
     fn new(kind: MethodKind, dim: usize, control: Control) -> Self {
-        match kind {
-            MethodKind::Rk4 => Self::Rk4(Rk4::new(dim)),
-            MethodKind::Implicit => Self::Implicit(Extrapolated::new(dim, 2, Control::new(1.0, 1.0))),
-            MethodKind::Stiff => Self::Stiff(Extrapolated::new(dim, STIFF_ROWS, control)),
-            MethodKind::DormandPrince => Self::DormandPrince(DormandPrince::new(dim, control)),
-            MethodKind::SemiImplicitEuler => panic!("it has no derivative here"),
+        match (kind, kind.adaptive()) {
+            (_, Some(adaptive)) => Self::Adaptive(Adaptive::new(adaptive, dim, control)),
+            (MethodKind::Rk4, _) => Self::Rk4(Rk4::new(dim)),
+            (MethodKind::Implicit, _) => Self::Implicit(Extrapolated::new(dim, 2, Control::new(1.0, 1.0))),
+            _ => panic!("it has no derivative here"),
         }
     }
 
     fn control(&self) -> Option<Control> {
         match self {
             Self::Rk4(_) | Self::Implicit(_) => None,
-            Self::DormandPrince(method) => Some(method.control),
-            Self::Stiff(method) => Some(method.control),
+            Self::Adaptive(method) => Some(method.control()),
         }
     }
 
     fn set_control(&mut self, control: Option<Control>) {
-        match (self, control) {
-            (Self::DormandPrince(method), Some(control)) => method.control = control,
-            (Self::Stiff(method), Some(control)) => method.control = control,
-            _ => {}
+        if let (Self::Adaptive(method), Some(control)) = (self, control) {
+            method.set_control(control);
         }
     }
 }

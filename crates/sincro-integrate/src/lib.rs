@@ -11,21 +11,27 @@
 //! | [`Rk4`] | 4 | smooth mechanisms at a fixed step |
 //! | [`Extrapolated`], two rows | 2 | fixed step, stable for any stiffness and damping of joints |
 //! | [`DormandPrince`] | 5(4) | smooth mechanisms, error control |
+//! | [`DormandPrince8`] | 8(5,3) | smooth mechanisms at high accuracy, error control |
 //! | [`Extrapolated`], with [`Extrapolated::control`] | 2…8 | stiff mechanisms, error control |
 //!
-//! [`Bracket`] locates events between two instants, and a [`Hermite`] polynomial tells what may have happened within a
-//! step; [`quadrature`] integrates functions of one variable.
+//! [`Adaptive`] is any of those with error control. [`Bracket`] locates events between two instants, and a [`Hermite`]
+//! polynomial tells what may have happened within a step; [`quadrature`] integrates functions of one variable.
 
+mod adaptive;
 mod bracket;
 mod dormand_prince;
+mod dormand_prince_8;
+mod embedded;
 mod euler;
 mod extrapolated;
 mod hermite;
 mod quadrature;
 mod rk4;
 
+pub use adaptive::{Adaptive, AdaptiveKind};
 pub use bracket::{Bracket, Sample};
 pub use dormand_prince::DormandPrince;
+pub use dormand_prince_8::DormandPrince8;
 pub use euler::SemiImplicitEuler;
 pub use extrapolated::Extrapolated;
 pub use hermite::{Hermite, dip, distance_dip};

@@ -30,7 +30,7 @@ const KEYS: [(&str, &str); 23] = [
 ];
 
 /// Words that are understood in the place of one of a list: written, meant.
-const WORDS: [(&str, &str); 22] = [
+const WORDS: [(&str, &str); 25] = [
     ("hinge", "revolute"),
     ("continuous", "revolute"),
     ("rotary", "revolute"),
@@ -52,6 +52,9 @@ const WORDS: [(&str, &str); 22] = [
     ("runge-kutta", "rk4"),
     ("ode45", "dormand-prince"),
     ("rk45", "dormand-prince"),
+    ("dop853", "dormand-prince-8"),
+    ("ode78", "dormand-prince-8"),
+    ("ode89", "dormand-prince-8"),
     ("ode15s", "stiff"),
 ];
 

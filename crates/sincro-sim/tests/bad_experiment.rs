@@ -205,7 +205,7 @@ experiment.toml:14:12: error: formula: unknown name `k`
         "experiment.toml",
         r#""integrator" = "rk4""#,
         r#""integrator" = "rk5""#,
-        r#"experiment.toml:43:61: error: `integrator` is "rk5", expected one of `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`, `stiff`
+        r#"experiment.toml:43:61: error: `integrator` is "rk5", expected one of `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`, `dormand-prince-8`, `stiff`
   help: did you mean `rk4`?"#,
     ),
     (

@@ -211,7 +211,7 @@ record_every = 2.5
         r#"duration = 1.0
 integrator = "RK4"
 "#,
-        r#"experiment.toml:4:14: error: `integrator` is "RK4", expected one of `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`, `stiff`
+        r#"experiment.toml:4:14: error: `integrator` is "RK4", expected one of `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`, `dormand-prince-8`, `stiff`
   help: did you mean `rk4`?"#,
     ),
     (

@@ -34,7 +34,7 @@ fn what_follows_a_held_acceleration_and_a_velocity_is_seen_between_ticks() {
     let blocks = "[[block]]\nname = \"held\"\ntype = \"zero-order-hold\"\nsample_time = 10.0\n\
                   [[block]]\nname = \"both\"\ntype = \"expression\"\ninputs = [\"a\", \"v\"]\nexpression = \"a + v\"\n[[block]]\nname = \"x\"\ntype = \"integrator\"\n";
     let (_folder, loaded) = load("", wires, blocks);
-    for method in [MethodKind::Rk4, MethodKind::DormandPrince, MethodKind::Stiff] {
+    for method in [MethodKind::Rk4, MethodKind::DormandPrince, MethodKind::DormandPrince8, MethodKind::Stiff] {
         let mut run = started(&loaded, method);
         let held = run.observe(0.0).0.accelerations[0];
         let start = run.state().q[0];

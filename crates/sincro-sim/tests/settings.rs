@@ -85,7 +85,7 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "integrator=rk5",
-        r#"--set:1:12: error: `integrator` is "rk5", expected one of `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`, `stiff`
+        r#"--set:1:12: error: `integrator` is "rk5", expected one of `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`, `dormand-prince-8`, `stiff`
   help: did you mean `rk4`?"#,
     ),
     (

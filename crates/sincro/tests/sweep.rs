@@ -66,7 +66,8 @@ fn shards_that_begin_at_the_same_instant_share_a_new_folder() {
     let (plan, shared) = (plan.to_str().unwrap(), folder.join("shared"));
     let shard = |k: usize| {
         let shard = format!("{k}/15");
-        let command = ["sweep", plan, "--out", shared.to_str().unwrap(), "--shard", &shard, "--threads", "1", "--quiet"];
+        let command =
+            ["sweep", plan, "--out", shared.to_str().unwrap(), "--shard", &shard, "--threads", "1", "--quiet"];
         (shard.clone(), SINCRO.command(&command).stderr(Stdio::piped()).spawn().unwrap())
     };
     let started: Vec<_> = (1..=15).map(shard).collect();

@@ -165,6 +165,7 @@ fn method_name(method: MethodKind) -> &'static str {
         MethodKind::Rk4 => "Runge-Kutta of order 4",
         MethodKind::Implicit => "linearly implicit, order 2",
         MethodKind::DormandPrince => "Dormand-Prince",
+        MethodKind::DormandPrince8 => "Dormand-Prince of order 8",
         MethodKind::Stiff => "stiff",
     }
 }

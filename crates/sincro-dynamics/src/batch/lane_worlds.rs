@@ -186,7 +186,9 @@ impl<R: Real> LaneWorlds<R> {
             MethodKind::SemiImplicitEuler => FixedMethod::Euler(SemiImplicitEuler::new(dim)),
             MethodKind::Rk4 => FixedMethod::Rk4(Rk4::new(dim)),
             MethodKind::Implicit => FixedMethod::Implicit(Extrapolated::new(dim, 2, Control::new(1.0, 1.0))),
-            MethodKind::DormandPrince | MethodKind::Stiff => panic!("lanes have a fixed step"),
+            MethodKind::DormandPrince | MethodKind::DormandPrince8 | MethodKind::Stiff => {
+                panic!("lanes have a fixed step")
+            }
         };
         let reach_target_velocities = vec![R::zero(); mechanism.model().n_v()];
         let (compiled, rows) = (None, Vec::new());

@@ -41,6 +41,12 @@ impl World {
         self.mechanism.constraints.is_some()
     }
 
+    /// Returns true if the mechanism has constraints or limited drives, whose modes change the equations of motion.
+    #[must_use]
+    pub fn switches(&self) -> bool {
+        self.is_constrained() || self.has_limited_drives()
+    }
+
     /// Returns true if friction hangs on the forces of contacts or bearings: only then can there be no finite forces
     /// that keep all laws (Painlevé).
     pub(super) fn has_friction_by_load(&self) -> bool {
@@ -256,7 +262,7 @@ impl World {
         let mut method = self.time_stepping.take().unwrap_or_else(|| SemiImplicitEuler::new(self.y.len()));
         self.mechanism.set_sweeps(is_large);
         self.save_step_start();
-        let switches = self.is_constrained() || self.has_limited_drives();
+        let switches = self.switches();
         let is_compiled = !switches && self.compiled_step(h, system.acts());
         let mut step = |world: &mut Self| {
             if let Some(constraints) = &mut world.mechanism.constraints {

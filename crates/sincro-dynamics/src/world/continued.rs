@@ -21,8 +21,8 @@ impl World {
         let n_coupled = self.y.len() - self.mechanism.dim();
         let kind = self.method();
         let control = match &self.method {
-            Method::Implicit(method) | Method::Stiff(method) => method.control,
-            Method::DormandPrince(method) => method.control,
+            Method::Implicit(method) => method.control,
+            Method::Adaptive(method) => method.control(),
             Method::SemiImplicitEuler | Method::Rk4(_) => Control::new(1e-6, self.step_size),
         };
         let tracks_totals = self.mechanism.layout().tracks_totals();

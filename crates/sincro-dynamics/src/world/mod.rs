@@ -37,7 +37,7 @@ use crate::constraint::kink::Kink;
 use crate::constraint::{ContactPoint, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::ids::{MotorId, RotorId};
-use crate::integrate::{Control, DormandPrince, Extrapolated, Failure, Rk4, SemiImplicitEuler, System};
+use crate::integrate::{Adaptive, AdaptiveKind, Control, Extrapolated, Failure, Rk4, SemiImplicitEuler, System};
 use crate::mechanism::constraints::ActivationRule;
 use crate::mechanism::layout::Layout;
 use crate::mechanism::{Mechanism, copy_any};
@@ -54,9 +54,6 @@ const SAME_INSTANT: f64 = 1e-9;
 /// Number of changes of modes in a step above which they are called chatter.
 const CHATTER: u32 = 20;
 
-/// Rows of the extrapolation of the stiff method: it has order 8 at most.
-const STIFF_ROWS: usize = 6;
-
 /// Integration method with its working memory.
 #[derive(Clone, Debug)]
 enum Method {
@@ -66,10 +63,8 @@ enum Method {
     Rk4(Rk4<f64>),
     /// Extrapolated implicit Euler with two rows, fixed step, order 2.
     Implicit(Extrapolated<f64>),
-    /// Dormand–Prince 5(4), error control.
-    DormandPrince(DormandPrince),
-    /// Extrapolated implicit Euler, error control.
-    Stiff(Extrapolated<f64>),
+    /// Method with error control.
+    Adaptive(Adaptive),
 }
 
 /// Integration method of a world, chosen with [`WorldBuilder::method`].
@@ -107,18 +102,30 @@ pub enum MethodKind {
     Implicit,
     /// Dormand–Prince 5(4), error control: for smooth mechanisms.
     DormandPrince,
+    /// Dormand–Prince 8(5,3), error control: for smooth mechanisms at high accuracy.
+    DormandPrince8,
     /// Extrapolated linearly implicit Euler, order 2 to 8, error control: for stiff mechanisms.
     Stiff,
 }
 
 impl MethodKind {
     /// All methods.
-    pub const ALL: [Self; 5] = [Self::SemiImplicitEuler, Self::Rk4, Self::Implicit, Self::DormandPrince, Self::Stiff];
+    pub const ALL: [Self; 6] =
+        [Self::SemiImplicitEuler, Self::Rk4, Self::Implicit, Self::DormandPrince, Self::Stiff, Self::DormandPrince8];
 
     /// Returns true if the method chooses its steps by an estimate of their error.
     #[must_use]
     pub fn controls_error(self) -> bool {
-        matches!(self, Self::DormandPrince | Self::Stiff)
+        self.adaptive().is_some()
+    }
+
+    pub(crate) fn adaptive(self) -> Option<AdaptiveKind> {
+        match self {
+            Self::DormandPrince => Some(AdaptiveKind::DormandPrince),
+            Self::DormandPrince8 => Some(AdaptiveKind::DormandPrince8),
+            Self::Stiff => Some(AdaptiveKind::Stiff),
+            Self::SemiImplicitEuler | Self::Rk4 | Self::Implicit => None,
+        }
     }
 }
 
@@ -183,7 +190,7 @@ pub struct World {
     compiled_kind: CompiledKind,
     method: Method,
     /// The method before the last change.
-    spare_method: Option<Method>,
+    spare_methods: Vec<Adaptive>,
     y: Vec<f64>,
     before: Vec<f64>,
     base_before: Vec<f64>,
@@ -284,12 +291,11 @@ impl World {
             mechanism.set_contact_accuracy(control.accuracy);
         }
         let dim = mechanism.dim() + n_states;
-        let method = match kind {
-            MethodKind::SemiImplicitEuler => Method::SemiImplicitEuler,
-            MethodKind::Rk4 => Method::Rk4(Rk4::new(dim)),
-            MethodKind::Implicit => Method::Implicit(Extrapolated::new(dim, 2, control)),
-            MethodKind::DormandPrince => Method::DormandPrince(DormandPrince::new(dim, control)),
-            MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, STIFF_ROWS, control)),
+        let method = match (kind, kind.adaptive()) {
+            (_, Some(adaptive)) => Method::Adaptive(Adaptive::new(adaptive, dim, control)),
+            (MethodKind::Rk4, _) => Method::Rk4(Rk4::new(dim)),
+            (MethodKind::Implicit, _) => Method::Implicit(Extrapolated::new(dim, 2, control)),
+            _ => Method::SemiImplicitEuler,
         };
         let switches = n_drives > 0 || !mechanism.model().constraints().is_empty();
         let time_stepping = (switches || kind == MethodKind::SemiImplicitEuler).then(|| SemiImplicitEuler::new(dim));
@@ -301,7 +307,7 @@ impl World {
             compiled: None,
             compiled_kind: CompiledKind::Slope,
             method,
-            spare_method: None,
+            spare_methods: Vec::new(),
             y: vec![0.0; dim],
             before: vec![0.0; dim],
             slope: vec![0.0; dim],
@@ -404,18 +410,15 @@ impl World {
     #[must_use]
     pub fn control(&self) -> Option<Control> {
         match &self.method {
-            Method::DormandPrince(m) => Some(m.control),
-            Method::Stiff(m) => Some(m.control),
+            Method::Adaptive(m) => Some(m.control()),
             _ => None,
         }
     }
 
     /// Sets the step-size control, such as that of a snapshot; no effect on methods with a fixed step.
     pub fn set_control(&mut self, control: Control) {
-        match &mut self.method {
-            Method::DormandPrince(m) => m.control = control,
-            Method::Stiff(m) => m.control = control,
-            _ => {}
+        if let Method::Adaptive(m) = &mut self.method {
+            m.set_control(control);
         }
     }
 
@@ -426,13 +429,17 @@ impl World {
             Method::SemiImplicitEuler => MethodKind::SemiImplicitEuler,
             Method::Rk4(_) => MethodKind::Rk4,
             Method::Implicit(_) => MethodKind::Implicit,
-            Method::DormandPrince(_) => MethodKind::DormandPrince,
-            Method::Stiff(_) => MethodKind::Stiff,
+            Method::Adaptive(m) => match m.kind() {
+                AdaptiveKind::DormandPrince => MethodKind::DormandPrince,
+                AdaptiveKind::DormandPrince8 => MethodKind::DormandPrince8,
+                AdaptiveKind::Stiff => MethodKind::Stiff,
+            },
         }
     }
 
-    /// Changes the integration method between two base steps, from one with error control to the other; accuracy and
-    /// step size go on. No effect if it is the present one. Memory is allocated at the first change alone.
+    /// Changes the integration method between two base steps, from one with error control to another; accuracy and
+    /// step size go on. No effect if it is the present one. Memory is allocated at the first change to each, unless it
+    /// was reserved ([`World::reserve_method`]).
     ///
     /// # Panics
     ///
@@ -441,15 +448,23 @@ impl World {
         if kind == self.method() {
             return;
         }
-        let control = self.control().expect("a method with error control");
-        assert!(kind.controls_error(), "{kind:?} has a fixed step");
-        let dim = self.y.len();
-        let new = self.spare_method.take().unwrap_or_else(|| match kind {
-            MethodKind::Stiff => Method::Stiff(Extrapolated::new(dim, STIFF_ROWS, control)),
-            _ => Method::DormandPrince(DormandPrince::new(dim, control)),
-        });
-        self.spare_method = Some(std::mem::replace(&mut self.method, new));
-        self.set_control(control);
+        let Method::Adaptive(method) = &mut self.method else { panic!("the present method has a fixed step") };
+        let new_kind = kind.adaptive().unwrap_or_else(|| panic!("{kind:?} has a fixed step"));
+        let control = method.control();
+        let mut new = match self.spare_methods.iter().position(|spare| spare.kind() == new_kind) {
+            Some(k) => self.spare_methods.swap_remove(k),
+            None => Adaptive::new(new_kind, self.y.len(), control),
+        };
+        new.set_control(control);
+        self.spare_methods.push(std::mem::replace(method, new));
+    }
+
+    /// Allocates the memory of a method with error control that [`World::set_method`] may change to during a run.
+    pub fn reserve_method(&mut self, kind: MethodKind) {
+        let (Some(adaptive), Some(control)) = (kind.adaptive(), self.control()) else { return };
+        if kind != self.method() && self.spare_methods.iter().all(|spare| spare.kind() != adaptive) {
+            self.spare_methods.push(Adaptive::new(adaptive, self.y.len(), control));
+        }
     }
 
     /// Divides every fixed step into `n` equal ones (0 counts as 1), and limits steps of error control to that length;
@@ -506,8 +521,8 @@ impl World {
         let method = match &self.method {
             Method::SemiImplicitEuler => self.y.len(),
             Method::Rk4(_) => 5 * self.y.len(),
-            Method::Implicit(_) | Method::Stiff(_) => 10 * self.y.len(),
-            Method::DormandPrince(_) => 9 * self.y.len(),
+            Method::Implicit(_) => 10 * self.y.len(),
+            Method::Adaptive(m) => m.vector_count() * self.y.len(),
         };
         self.state.heap_bytes() + self.mechanism.heap_bytes() + 8 * (own + method)
     }

@@ -77,7 +77,7 @@ impl World {
         system: &mut A,
     ) -> Result<(), (f64, Stop)> {
         let has_events = system.zero_crossing_count().is_some();
-        if !(has_events || self.is_constrained() || self.has_limited_drives()) {
+        if !(has_events || self.switches()) {
             return self.smooth_sub_steps(start, span, system);
         }
         let (mut t, end, mut events, mut idle, mut close) = (start, start + span, 0, 0, 0);
@@ -298,8 +298,10 @@ impl World {
         Ok(reached)
     }
 
-    /// Longest step within a tick of `span`, for methods with error control too: a finer run must not end up the same.
-    pub(super) fn substep(&self, span: f64) -> f64 {
+    /// Longest step within a tick of `span` `[s]`, for methods with error control too: a finer run must not end up the
+    /// same ([`World::set_substeps`]).
+    #[must_use]
+    pub fn substep(&self, span: f64) -> f64 {
         // a hair longer, so that rounding leaves no sliver behind
         span / f64::from(self.substeps) * (1.0 + 1e-12)
     }
@@ -340,8 +342,7 @@ impl World {
                 m.step(system, t, h_max, y);
                 Ok(h_max)
             }
-            Method::DormandPrince(m) => m.step(system, t, h_max, y),
-            Method::Stiff(m) => m.adaptive_step(system, t, h_max, y),
+            Method::Adaptive(m) => m.step(system, t, h_max, y),
         };
         self.mechanism.set_mode_rule(ModeRule::Decided);
         self.exchange_slope(acts);

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::Integrator;
 use super::check::Measure;
 
 /// An experiment: what is run, recorded and checked. SI units and radians.
@@ -47,7 +48,7 @@ pub(crate) struct ExperimentFile {
     pub record_every: u64,
     /// How the equations of motion are integrated.
     #[serde(default)]
-    pub integrator: IntegratorFile,
+    pub integrator: Integrator,
     /// Local tolerance of the variable-step methods.
     #[serde(default = "fine")]
     #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0.0)))]
@@ -87,26 +88,6 @@ pub(crate) struct ExperimentFile {
     pub plot: Vec<PlotFile>,
     /// A task for reinforcement learning.
     pub task: Option<super::task_file::TaskFile>,
-}
-
-/// How the equations of motion are integrated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum IntegratorFile {
-    /// Chosen for the scene; second order or better.
-    #[default]
-    Auto,
-    /// Semi-implicit Euler at the base step: first order, as game engines do.
-    SemiImplicitEuler,
-    /// The classical Runge–Kutta method at the base step.
-    Rk4,
-    /// Springs and dampers implicit, at the base step.
-    Implicit,
-    /// Explicit pair of order 5(4) with error control.
-    DormandPrince,
-    /// Implicit method with error control, for stiff scenes.
-    Stiff,
 }
 
 /// How the error bar of the recorded signals is found.

@@ -17,6 +17,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 #[cfg(test)]
 pub(crate) use file::ExperimentFile;
 pub(crate) use grid::short;
@@ -107,11 +109,14 @@ impl Experiment {
 }
 
 /// Integration method of the equations of motion, key `integrator` of the experiment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum Integrator {
-    /// Chosen for the scene by stiffness and elements; of second order or better.
+    /// Chosen for the scene by stiffness, elements and accuracy; of second order or better.
+    #[default]
     Auto,
-    /// Semi-implicit Euler method at the base step; first order.
+    /// Semi-implicit Euler method at the base step; first order, as game engines do.
     SemiImplicitEuler,
     /// Classical Runge–Kutta method at the base step; fourth order.
     Rk4,
@@ -119,13 +124,16 @@ pub enum Integrator {
     Implicit,
     /// Explicit Dormand–Prince pair of order 5(4) with error control.
     DormandPrince,
+    /// Explicit Dormand–Prince method of order 8(5,3) (DOP853) with error control: fewer steps at high accuracy.
+    #[serde(rename = "dormand-prince-8")]
+    DormandPrince8,
     /// Linearly implicit extrapolation with error control, for stiff scenes.
     Stiff,
 }
 
 impl Integrator {
-    /// Returns the name of the method in the file: `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`
-    /// or `stiff`.
+    /// Returns the name of the method in the file: `auto`, `semi-implicit-euler`, `rk4`, `implicit`, `dormand-prince`,
+    /// `dormand-prince-8` or `stiff`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -134,6 +142,7 @@ impl Integrator {
             Self::Rk4 => "rk4",
             Self::Implicit => "implicit",
             Self::DormandPrince => "dormand-prince",
+            Self::DormandPrince8 => "dormand-prince-8",
             Self::Stiff => "stiff",
         }
     }

@@ -7,13 +7,12 @@ use sincro_math::expression::is_name;
 
 use super::checks::{CheckReader, Keys, parsed_unit};
 use super::file::{
-    DifferenceFile, ErrorBarFile, ExperimentFile, IntegratorFile, PlotFile, PlotKindFile, RangeFile, StopFile,
-    SweepFile,
+    DifferenceFile, ErrorBarFile, ExperimentFile, PlotFile, PlotKindFile, RangeFile, StopFile, SweepFile,
 };
 use super::grid::Grid;
 use super::stop::{Side, StopWhen};
 use super::task;
-use super::{ErrorBar, Experiment, Integrator, Plot, SMALLEST_ACCURACY, Sweep, Variant, path_components};
+use super::{ErrorBar, Experiment, Plot, SMALLEST_ACCURACY, Sweep, Variant, path_components};
 use crate::diagnostic::{Diagnostic, Diagnostics, Located};
 use crate::document::{Document, escape};
 use crate::folder::Folder;
@@ -74,7 +73,7 @@ impl Resolver<'_> {
             n_steps: n_steps?,
             simulation_ticks,
             record_every: file.record_every,
-            integrator: file.integrator.into(),
+            integrator: file.integrator,
             accuracy: file.accuracy,
             error_bar: file.error_bar.into(),
             seed: file.seed,
@@ -380,19 +379,6 @@ fn own_grid(main: Grid, set: &BTreeMap<String, serde_json::Value>) -> Grid {
 fn own_parameters(main: &Arc<[(String, f64)]>, set: &BTreeMap<String, serde_json::Value>) -> Arc<[(String, f64)]> {
     let own = |name: &str| set.get(&format!("parameters.{name}")).and_then(serde_json::Value::as_f64);
     main.iter().map(|(name, x)| (name.clone(), own(name).unwrap_or(*x))).collect()
-}
-
-impl From<IntegratorFile> for Integrator {
-    fn from(file: IntegratorFile) -> Self {
-        match file {
-            IntegratorFile::Auto => Self::Auto,
-            IntegratorFile::SemiImplicitEuler => Self::SemiImplicitEuler,
-            IntegratorFile::Rk4 => Self::Rk4,
-            IntegratorFile::Implicit => Self::Implicit,
-            IntegratorFile::DormandPrince => Self::DormandPrince,
-            IntegratorFile::Stiff => Self::Stiff,
-        }
-    }
 }
 
 impl From<ErrorBarFile> for ErrorBar {

@@ -40,7 +40,7 @@ impl Limits {
     /// Tolerances of a method at the accuracy of an experiment.
     pub fn new(experiment: &Experiment, method: MethodKind) -> Self {
         let accuracy = match method {
-            MethodKind::DormandPrince | MethodKind::Stiff => experiment.accuracy,
+            method if method.controls_error() => experiment.accuracy,
             _ => FIXED_STEP_ACCURACY,
         };
         let h = experiment.step;

@@ -136,7 +136,7 @@ fn estimate(method: MethodKind, accuracy: f64) -> (f64, String) {
         MethodKind::SemiImplicitEuler => 1,
         MethodKind::Implicit => 2,
         MethodKind::Rk4 => 4,
-        MethodKind::DormandPrince | MethodKind::Stiff => {
+        MethodKind::DormandPrince | MethodKind::DormandPrince8 | MethodKind::Stiff => {
             let finer = accuracy / finer_accuracy(accuracy);
             let words = format!("tolerance tightened {finer:.0}-fold: largest difference from that run");
             return (finer / (finer - 1.0), words);

@@ -101,7 +101,7 @@ fn compiled(step: f64, (is_refined, acts): (bool, bool), world: &mut World) -> R
     }
     let method = world.method();
     let kind = match method {
-        MethodKind::DormandPrince => CompiledKind::Slope,
+        MethodKind::DormandPrince | MethodKind::DormandPrince8 => CompiledKind::Slope,
         MethodKind::Stiff => return Err(Obstacle::new("the stiff method has no step of a fixed length")),
         MethodKind::SemiImplicitEuler if is_refined => CompiledKind::Step { h: step / 2.0 },
         _ if is_refined => return Err(Obstacle::new("the steps of its finer run differ in length")),

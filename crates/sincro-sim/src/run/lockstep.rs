@@ -167,7 +167,8 @@ impl LockStep {
         let Loaded { scene, experiment, controller, .. } = loaded;
         let control = controller.as_ref().map(|c| DiagramController::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
-        let world = world_with_room(scene, experiment, method, refined, n_states);
+        let mut world = world_with_room(scene, experiment, method, refined, n_states);
+        let choice = MethodChoice::new(loaded, method, &mut world);
         let engine = loaded.extensions.scripts.filter(|_| !scene.scripts.is_empty());
         let controllers = engine.map(|engine| engine.controller(loaded)).into_iter().collect();
         let timing = Timing::new(experiment);
@@ -179,7 +180,7 @@ impl LockStep {
         let (sources, is_started) = (vec![Source::Scene; world.state.commands.len()], false);
         let mut new = Self {
             world,
-            method: MethodChoice::new(loaded, method),
+            method: choice,
             control,
             sensors,
             signals,
@@ -578,7 +579,9 @@ impl LockStep {
         all(&mut self.control, &mut self.controllers).for_each(|controller| controller.latched(tick, t));
         // 4 advance
         if let Some(method) = &mut self.method {
-            method.choose(tick, t, &mut self.world);
+            let part = self.control.as_mut().and_then(Controller::continuous);
+            let locates_events = part.is_some_and(|part| part.zero_crossing_count().is_some());
+            method.choose((tick, t), locates_events, &mut self.world);
         }
         #[cfg(feature = "jit")]
         self.compile_if_it_pays();

@@ -215,6 +215,7 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
         Integrator::Rk4 => MethodKind::Rk4,
         Integrator::Implicit => MethodKind::Implicit,
         Integrator::DormandPrince => MethodKind::DormandPrince,
+        Integrator::DormandPrince8 => MethodKind::DormandPrince8,
         Integrator::Stiff => MethodKind::Stiff,
         Integrator::Auto if product > STIFF_FROM || has_fast_lag(scene, experiment) => MethodKind::Stiff,
         Integrator::Auto => MethodKind::DormandPrince,
@@ -230,11 +231,14 @@ pub fn choose_method(scene: &Scene, experiment: &Experiment) -> (MethodKind, Vec
                 experiment.step
             ));
         }
-        if kind == MethodKind::DormandPrince && product > SLOW_FROM {
+        if let Some(limit) = explicit_limit(kind)
+            && product > SLOW_FROM
+        {
             warnings.push(format!(
-                "{} makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \"stiff\"",
+                "{} makes `{}` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \"stiff\"",
                 describe(scene, &s),
-                product / 3.3
+                method_word(kind),
+                product / limit
             ));
         }
     }
@@ -278,26 +282,35 @@ fn is_stiff_otherwise(loaded: &Loaded) -> bool {
     has_fast_lag(&loaded.scene, &loaded.experiment) || fast_block(loaded).is_some()
 }
 
+/// Step times decay rate up to which an explicit method with error control is stable; `None` for others.
+fn explicit_limit(kind: MethodKind) -> Option<f64> {
+    match kind {
+        MethodKind::DormandPrince => Some(3.3),
+        MethodKind::DormandPrince8 => Some(6.4),
+        _ => None,
+    }
+}
+
 /// Warnings about the lag of rotors and activations under an explicit method.
 fn warn_of_lag(scene: &Scene, experiment: &Experiment, kind: MethodKind) -> Option<String> {
     let (lag, rate) = fastest_lag(scene)?;
     let product = rate * experiment.step;
-    match kind {
-        MethodKind::Rk4 if product > RK4_LIMIT => Some(format!(
+    if kind == MethodKind::Rk4 && product > RK4_LIMIT {
+        return Some(format!(
             "{lag} ({:.3e} s) is too short for `rk4` at a step of {} s, which is stable up to {:.2e} s: the run will \
              diverge. Use integrator = \"implicit\" (same step) or \"auto\"",
             1.0 / rate,
             experiment.step,
             RK4_LIMIT / rate
-        )),
-        MethodKind::DormandPrince if product > SLOW_FROM => Some(format!(
-            "{lag} ({:.3e} s) makes `dormand-prince` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \
-             \"stiff\"",
-            1.0 / rate,
-            product / 3.3
-        )),
-        _ => None,
+        ));
     }
+    let limit = explicit_limit(kind).filter(|_| product > SLOW_FROM)?;
+    Some(format!(
+        "{lag} ({:.3e} s) makes `{}` take about {:.0} sub-steps a step. Use integrator = \"auto\" or \"stiff\"",
+        1.0 / rate,
+        method_word(kind),
+        product / limit
+    ))
 }
 
 /// As [`choose_method`], with the diagram's continuous blocks taken into account: by their own decay rates, and by the
@@ -326,14 +339,14 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     }
     let step = loaded.experiment.step;
     if let Some((block, rate)) = fast_block(loaded)
-        && kind == MethodKind::DormandPrince
+        && let Some(limit) = explicit_limit(kind)
     {
         if loaded.experiment.integrator == Integrator::Auto {
             return (MethodKind::Stiff, warnings);
         }
-        let sub_steps = rate * step / 3.3;
+        let (word, sub_steps) = (method_word(kind), rate * step / limit);
         warnings.push(format!(
-            "block `{block}` decays at {rate:.3e} 1/s and makes `dormand-prince` take about {sub_steps:.0} sub-steps a step. Use \
+            "block `{block}` decays at {rate:.3e} 1/s and makes `{word}` take about {sub_steps:.0} sub-steps a step. Use \
              integrator = \"auto\" or \"stiff\""
         ));
     }
@@ -341,7 +354,7 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
     let limit = match kind {
         MethodKind::Rk4 => RK4_LIMIT,
         MethodKind::SemiImplicitEuler | MethodKind::Implicit => EULER_LIMIT,
-        MethodKind::DormandPrince | MethodKind::Stiff => return (kind, warnings),
+        MethodKind::DormandPrince | MethodKind::DormandPrince8 | MethodKind::Stiff => return (kind, warnings),
     };
     // poles would run the code of FMUs, which a scene that is only looked at must not
     let has_foreign =
@@ -383,6 +396,7 @@ pub fn method_word(kind: MethodKind) -> &'static str {
         MethodKind::Rk4 => "rk4",
         MethodKind::Implicit => "implicit",
         MethodKind::DormandPrince => "dormand-prince",
+        MethodKind::DormandPrince8 => "dormand-prince-8",
         MethodKind::Stiff => "stiff",
     }
 }

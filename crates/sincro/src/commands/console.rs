@@ -106,7 +106,7 @@ pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
 fn how(report: &RunReport) -> String {
     let s = &report.settings;
     let accuracy = match s.integrator.as_str() {
-        "dormand-prince" | "stiff" => format!(", accuracy {}", short(s.accuracy)),
+        "dormand-prince" | "dormand-prince-8" | "stiff" => format!(", accuracy {}", short(s.accuracy)),
         _ => String::new(),
     };
     format!(

@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// Base step `[s]`
     #[arg(long, value_name = "S")]
     step: Option<f64>,
-    /// auto, semi-implicit-euler, rk4, implicit, dormand-prince or stiff
+    /// auto, semi-implicit-euler, rk4, implicit, dormand-prince, dormand-prince-8 or stiff
     #[arg(long, value_name = "NAME")]
     integrator: Option<String>,
     /// Local tolerance of the variable-step integrators
