@@ -14,7 +14,8 @@ function r = sincro_run(scene, settings, varargin)
 %   'until'       end of the run [s]
 %   'step'        base step [s]
 %   'seed'        seed of all random generators, a whole number
-%   'integrator'  'auto', 'semi-implicit-euler', 'rk4', 'implicit', 'dormand-prince' or 'stiff'
+%   'integrator'  'auto', 'semi-implicit-euler', 'rk4', 'implicit', 'dormand-prince',
+%                 'dormand-prince-8' or 'stiff'
 %   'accuracy'    local tolerance of the variable-step integrators
 %   'only'        'main', or the name of one variant
 %   'out'         folder of the result: absent, empty or an earlier result, which is replaced.

@@ -7,7 +7,7 @@ use sincro_scene::record::Recorder;
 use sincro_sim::Extensions;
 use sincro_sim::audit::LawAudit;
 use sincro_sim::load;
-use sincro_sim::run::LockStep;
+use sincro_sim::run::{LockStep, method_word};
 
 /// With a step at which the explicit methods are stable, too.
 const PID: &[(&str, &str)] = &[
@@ -78,9 +78,12 @@ fn a_step_and_a_row_allocate_nothing() {
         ("slider-crank", &[]),
         ("four-bar", &[]),
     ] {
-        let set: Vec<Override> = set.iter().map(|(path, value)| Override::new(path, value)).collect();
-        let loaded = load(&sincro_testing::repository_scene(name), &set, Extensions::default()).unwrap();
         for method in MethodKind::ALL {
+            // by name: `auto` would change it
+            let integrator = format!("\"{}\"", method_word(method));
+            let all = set.iter().copied().chain([("integrator", integrator.as_str())]);
+            let set: Vec<Override> = all.map(|(path, value)| Override::new(path, value)).collect();
+            let loaded = load(&sincro_testing::repository_scene(name), &set, Extensions::default()).unwrap();
             let mut lockstep = LockStep::new(&loaded, method, false);
             let signals = loaded.controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
             let mut recorder = Recorder::new(&loaded.experiment.record, &loaded.scene.model, &signals).unwrap();

@@ -127,14 +127,14 @@ fn height(t: f64) -> f64 {
 #[test]
 fn state_events_are_located_and_states_are_integrated_with_the_run() {
     for version in [FmiVersion::V2, FmiVersion::V3] {
-        for integrator in ["rk4", "dormand-prince", "implicit", "stiff"] {
+        for integrator in ["rk4", "dormand-prince", "dormand-prince-8", "implicit", "stiff"] {
             let (_folder, loaded) = scene(version, integrator, PLAIN, DRIVEN, RECORD);
             let loaded = loaded.unwrap();
             let heights = column(&loaded, "ball.h");
             assert_eq!(heights.len(), 25, "{integrator}");
             for (k, h) in heights.iter().enumerate() {
                 let expected = height(k as f64 * 0.05);
-                // parabolas are exact for all four; what is left is where the events are located
+                // parabolas are exact for all; what is left is where the events are located
                 assert!((h - expected).abs() < 1e-9, "{version:?} {integrator}, row {k}: {h} {expected}");
             }
             assert_eq!(column(&loaded, "ball.bounces").last(), Some(&3.0));

@@ -147,7 +147,7 @@ impl Live {
     }
 
     fn end(&mut self, halt: sincro_sim::run::Halt) -> LiveError {
-        let status = Box::new(halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));
+        let status = Box::new(halt.explain(&mut self.lockstep, &self.loaded.experiment));
         self.ended = Some(status.clone());
         match self.raised.lock().unwrap_or_else(PoisonError::into_inner).take() {
             Some(cause) => LiveError::Raised(status, cause),

@@ -4,7 +4,9 @@ use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Error of writing or reading a file or folder, with its path. Its text (`Display`) is a message for the user.
 #[derive(Debug)]
@@ -62,10 +64,14 @@ pub(crate) fn partial(path: &Path) -> PathBuf {
 #[must_use]
 pub fn partial_of_process(path: &Path) -> PathBuf {
     static NEXT: AtomicU64 = AtomicU64::new(0);
+    // containers may have equal hosts and numbers of processes
+    static START: LazyLock<u128> =
+        LazyLock::new(|| SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_nanos()));
     let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
     let host: String = host.trim().chars().filter(char::is_ascii_alphanumeric).collect();
     let mut name = path.as_os_str().to_owned();
-    name.push(format!(".{host}-{}-{}.partial", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed)));
+    let (process, next) = (std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+    name.push(format!(".{host}-{process}-{:x}-{next}.partial", *START));
     PathBuf::from(name)
 }
 

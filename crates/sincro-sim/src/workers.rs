@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// Time between two calls of `between` of [`on_all_processors`].
-const POLL_INTERVAL: Duration = Duration::from_millis(20);
+/// Time between two looks at threads that are waited for, and two calls of `between` of [`on_all_processors`].
+pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Stack of a thread, as large as that of the first thread of a program.
-const STACK_BYTES: usize = 8 << 20;
+pub(crate) const STACK_BYTES: usize = 8 << 20;
 
 /// Results of `job(0)` to `job(n − 1)`, made on as many threads as there are processors. Until the last is done
 /// `between` is called from time to time, on the calling thread.

@@ -140,7 +140,7 @@ fn a_changed_parameter_costs_a_compilation() {
 
 #[test]
 fn forces_from_outside_are_left_to_the_recursions() {
-    for integrator in ["rk4", "dormand-prince"] {
+    for integrator in ["rk4", "dormand-prince", "dormand-prince-8"] {
         let mut runs = both(&double_pendulum(&[("integrator", integrator)]));
         advance(&mut runs, 2);
         let before = runs[0].world().compiled_evaluations().unwrap();

@@ -41,7 +41,7 @@ fn a_division_by_zero_names_block_and_tick() {
 
 #[test]
 fn roots_and_logarithms_of_negative_numbers_name_the_block() {
-    for integrator in ["semi-implicit-euler", "rk4", "implicit", "dormand-prince", "stiff"] {
+    for integrator in ["semi-implicit-euler", "rk4", "implicit", "dormand-prince", "dormand-prince-8", "stiff"] {
         for formula in ["sqrt(0.255 - u)", "ln(0.255 - u)"] {
             let (_, tick, reason, help) = stops(r#""clock -> f -> /shoulder""#, &expression(formula), integrator);
             println!("{integrator} {formula}: {tick} {reason} {help}");

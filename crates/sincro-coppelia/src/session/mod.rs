@@ -355,7 +355,7 @@ impl Session {
     /// As [`Session::follow_structure`], while shapes wait to become bodies.
     fn follow_changes(&mut self) -> Result<(), ApiError> {
         self.lockstep.follow_structure().map_err(|halt| {
-            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment);
             self.fail(status)
         })
     }
@@ -424,7 +424,7 @@ impl Session {
         }
         self.registry().has_begun = true;
         if let Err(halt) = first {
-            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment);
             return Err(self.fail(status));
         }
         Ok(())
@@ -561,7 +561,7 @@ impl Session {
     /// Tells the scripts of the run of a pause.
     fn notify_scripts(&mut self, phase: host::Phase) -> Result<(), ApiError> {
         ApiController::notify_scripts(&mut self.lockstep, phase).map_err(|halt| {
-            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+            let status = halt.explain(&mut self.lockstep, &self.loaded.experiment);
             self.fail(status)
         })
     }
@@ -613,7 +613,7 @@ impl Session {
                 run.recording.tick(&mut self.lockstep, advanced.is_err()).map_err(|e| told(e.into()))?;
             }
             if let Err(halt) = advanced {
-                let status = halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method);
+                let status = halt.explain(&mut self.lockstep, &self.loaded.experiment);
                 return Err(self.fail(status));
             }
         }
@@ -717,7 +717,7 @@ impl Session {
         let Some(run) = self.run.take() else { return };
         if let Err(halt) = self.lockstep.end() {
             let experiment = &self.loaded.experiment;
-            let words = match halt.explain(&mut self.lockstep, experiment, self.method) {
+            let words = match halt.explain(&mut self.lockstep, experiment) {
                 Status::Stopped { reason, .. } => reason,
                 _ => String::new(),
             };

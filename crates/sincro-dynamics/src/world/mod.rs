@@ -522,7 +522,7 @@ impl World {
             Method::SemiImplicitEuler => self.y.len(),
             Method::Rk4(_) => 5 * self.y.len(),
             Method::Implicit(_) => 10 * self.y.len(),
-            Method::Adaptive(m) => m.vector_count() * self.y.len(),
+            Method::Adaptive(m) => self.spare_methods.iter().chain([m]).map(|m| m.vector_count() * self.y.len()).sum(),
         };
         self.state.heap_bytes() + self.mechanism.heap_bytes() + 8 * (own + method)
     }

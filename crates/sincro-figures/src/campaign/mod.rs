@@ -207,7 +207,7 @@ fn settings(campaign: &Campaign) -> Vec<(String, String)> {
         ("integrator".to_owned(), s.integrator.clone()),
         ("base step".to_owned(), format!("{} s", number(s.step))),
     ];
-    if matches!(s.integrator.as_str(), "dormand-prince" | "stiff") {
+    if matches!(s.integrator.as_str(), "dormand-prince" | "dormand-prince-8" | "stiff") {
         rows.push(("accuracy".to_owned(), number(s.accuracy)));
     }
     rows.extend([

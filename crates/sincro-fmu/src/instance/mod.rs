@@ -537,8 +537,7 @@ impl Run {
 
 /// A stop in words.
 fn explain(halt: Halt, lockstep: &mut LockStep, loaded: &Loaded) -> String {
-    let (method, _) = method_for(loaded);
-    match halt.explain(lockstep, &loaded.experiment, method) {
+    match halt.explain(lockstep, &loaded.experiment) {
         Status::Stopped { reason, help, .. } if help.is_empty() => reason,
         Status::Stopped { reason, help, .. } => format!("{reason}; help: {help}"),
         other => format!("{other:?}"),

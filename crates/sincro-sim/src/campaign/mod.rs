@@ -257,10 +257,10 @@ fn one_run(
 ) -> Result<CompletedRun, RunError> {
     let csv = dir.map(|dir| dir.join("signals.csv"));
     let options = RunOptions { csv: csv.as_deref(), variant, keyframes: true, ..RunOptions::default() };
-    let simulated = simulate(loaded, options, monitor)?;
-    let (columns, finer) = match simulated.status {
-        Status::Completed => refine::columns(loaded, &simulated, monitor)?,
-        _ => (ColumnReport::of_table(&simulated.table), None),
+    let (simulated, finer) = refine::with_finer_run(loaded, options, monitor)?;
+    let columns = match simulated.status {
+        Status::Completed => refine::columns(loaded, &simulated, finer.as_ref(), monitor)?,
+        _ => ColumnReport::of_table(&simulated.table),
     };
     let audit = audit(loaded, &simulated, finer.as_ref());
     let settings = settings(&loaded.experiment, &simulated);

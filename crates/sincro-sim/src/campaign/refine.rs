@@ -7,35 +7,79 @@
 //! tolerance to which it is projected onto them. Where several sets of contact forces keep all laws, one more run
 //! follows others, and bars cover it. Where the finer run cannot halve the step of scripts, which is part of
 //! the error, there are no bars.
+//!
+//! Both runs are made at the same time, on two processors; one after the other where code of others takes part, which
+//! may have a memory that both would share, or write files: scripts, FMUs, controllers of a program.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 
 use sincro_dynamics::mechanism::PROJECTION_TOLERANCE;
 use sincro_dynamics::world::MethodKind;
 
 use crate::load::Loaded;
 use crate::results::{ColumnReport, Status};
-use crate::run::{RunError, RunMonitor, RunOptions, Simulated, finer_accuracy, simulate};
+use crate::run::{RunError, RunMonitor, RunOptions, Simulated, finer_accuracy, has_foreign_blocks, simulate};
+use crate::workers::{POLL_INTERVAL, STACK_BYTES};
 use sincro_scene::experiment::ErrorBar;
 
-/// The recorded columns with their error bars, and the finer run if there was one.
+/// A run and the finer run of its error bars: none if the experiment wants no bars, the run does not come to its end,
+/// or the finer one cannot halve the step of scripts.
+pub(super) fn with_finer_run(
+    loaded: &Loaded,
+    options: RunOptions<'_>,
+    monitor: &mut RunMonitor<'_>,
+) -> Result<(Simulated, Option<Simulated>), RunError> {
+    if loaded.experiment.error_bar == ErrorBar::None {
+        return Ok((simulate(loaded, options, monitor)?, None));
+    }
+    if !loaded.controllers.is_empty() || !loaded.scene.scripts.is_empty() || has_foreign_blocks(loaded) {
+        let run = simulate(loaded, options, monitor)?;
+        let finer = if run.status == Status::Completed { finer_run(loaded, monitor)? } else { None };
+        return Ok((run, finer));
+    }
+    let (user, is_cancelled, caller) = (monitor.interrupt, AtomicBool::new(false), thread::current());
+    let finer = || {
+        let finer = finer_run(loaded, &mut RunMonitor { interrupt: &is_cancelled, progress: &mut |_| {} });
+        caller.unpark();
+        finer
+    };
+    let (run, finer) = thread::scope(|scope| {
+        let finer = thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, finer);
+        let finer = finer.expect("a thread can be made");
+        let run = simulate(loaded, options, monitor);
+        let is_whole = run.as_ref().is_ok_and(|run| run.status == Status::Completed);
+        while !finer.is_finished() {
+            is_cancelled.fetch_or(!is_whole || user.load(Ordering::Relaxed), Ordering::Relaxed);
+            thread::park_timeout(POLL_INTERVAL);
+        }
+        (run, finer.join().expect("a run does not panic"))
+    });
+    let run = run?;
+    Ok(if run.status == Status::Completed { (run, finer?) } else { (run, None) })
+}
+
+/// The recorded columns of a run that came to its end, with their error bars by the `finer` run.
 pub(super) fn columns(
     loaded: &Loaded,
     run: &Simulated,
+    finer: Option<&Simulated>,
     monitor: &mut RunMonitor<'_>,
-) -> Result<(Vec<ColumnReport>, Option<Simulated>), RunError> {
+) -> Result<Vec<ColumnReport>, RunError> {
     let mut columns = ColumnReport::of_table(&run.table);
     if loaded.experiment.error_bar == ErrorBar::None {
-        return Ok((columns, None));
+        return Ok(columns);
     }
     columns[0].error_bar_method = "exact: tick times step".into();
-    let Some(finer) = finer_run(loaded, run.energy_scale, monitor)? else {
+    let Some(finer) = finer else {
         let reason = "not estimated: scripts act once a step, which a finer run cannot halve; with an even number of base \
                       steps as `simulation_step` it can";
         without_bars(&mut columns, reason);
-        return Ok((columns, None));
+        return Ok(columns);
     };
     if let Some(reason) = why_unfinished(&finer.status) {
         without_bars(&mut columns, &format!("not estimated: the finer run stopped: {reason}"));
-        return Ok((columns, Some(finer)));
+        return Ok(columns);
     }
     let (factor, mut method) = estimate(run.method, loaded.experiment.accuracy);
     if !loaded.scene.scripts.is_empty() {
@@ -44,7 +88,7 @@ pub(super) fn columns(
     let other = if run.is_ambiguous { Some(other_run(loaded, monitor)?) } else { None };
     if let Some(reason) = other.as_ref().and_then(|other| why_unfinished(&other.status)) {
         without_bars(&mut columns, &format!("not estimated: the run with other contact forces stopped: {reason}"));
-        return Ok((columns, Some(finer)));
+        return Ok(columns);
     }
     let is_constrained = !loaded.scene.model.constraints().is_empty();
     // the first column is time, which is exact
@@ -57,7 +101,7 @@ pub(super) fn columns(
         column.error_bar_method =
             if least > bar { format!("{of_least}; by a finer run {bar:.1e}: {method}") } else { method.clone() };
     }
-    Ok((columns, Some(finer)))
+    Ok(columns)
 }
 
 /// Least error bar of column `k` whatever a finer run says, and its source; `other` is the run with other contact
@@ -85,8 +129,8 @@ fn least_of_run(column: &ColumnReport, run: &Simulated, is_constrained: bool) ->
 }
 
 /// The finer run; none if it cannot halve the step of scripts.
-fn finer_run(loaded: &Loaded, energy_scale: f64, monitor: &mut RunMonitor<'_>) -> Result<Option<Simulated>, RunError> {
-    let options = RunOptions { refined: true, energy_scale: Some(energy_scale), ..RunOptions::default() };
+fn finer_run(loaded: &Loaded, monitor: &mut RunMonitor<'_>) -> Result<Option<Simulated>, RunError> {
+    let options = RunOptions { refined: true, ..RunOptions::default() };
     if loaded.scene.scripts.is_empty() {
         return simulate(loaded, options, monitor).map(Some);
     }

@@ -495,7 +495,7 @@ impl LockStep {
         }
         self.sensors = self.sensors.continued(scene, self.timing);
         if let Some(method) = &mut self.method {
-            method.restructured(&scene.model);
+            method.restructured(&scene.model, &mut self.world);
         }
         self.structure = Some(Structure::after(self.structure.as_ref(), change));
         let (tick, t) = (self.tick, self.t());

@@ -46,6 +46,19 @@ pub(super) struct MethodChoice {
     pub changes: MethodChanges,
 }
 
+/// Reserves the memory of both orders where they may be taken.
+fn reserve(world: &mut World) {
+    if may_be_of_order_8(world) {
+        world.reserve_method(MethodKind::DormandPrince);
+        world.reserve_method(MethodKind::DormandPrince8);
+    }
+}
+
+/// Returns true if nothing of the mechanism is located within steps, and the tolerance is fine enough.
+fn may_be_of_order_8(world: &World) -> bool {
+    !world.switches() && world.control().is_some_and(|control| control.accuracy <= LOOSEST)
+}
+
 /// Changes of the integration method during a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MethodChanges {
@@ -63,9 +76,7 @@ impl MethodChoice {
         let has_control = method.controls_error();
         // rotors with a lag and blocks stay as fast as they are
         (is_auto && has_control && !is_stiff_otherwise(loaded)).then(|| {
-            for kind in [MethodKind::DormandPrince, MethodKind::DormandPrince8] {
-                world.reserve_method(kind);
-            }
+            reserve(world);
             Self {
                 probe: StiffnessProbe::new(&loaded.scene.model),
                 step: loaded.experiment.step,
@@ -74,9 +85,10 @@ impl MethodChoice {
         })
     }
 
-    /// Goes on with another model.
-    pub fn restructured(&mut self, model: &Model<f64>) {
+    /// Goes on with another model in another `world`.
+    pub fn restructured(&mut self, model: &Model<f64>, world: &mut World) {
         self.probe = StiffnessProbe::new(model);
+        reserve(world);
     }
 
     /// Chooses the method at the start of tick `tick`, at time `t` `[s]`, of a run with a diagram that
@@ -85,7 +97,7 @@ impl MethodChoice {
         if tick == 0 {
             return;
         }
-        self.choose_order(locates_events, world);
+        self.choose_order(tick, locates_events, world);
         if !tick.is_multiple_of(PERIOD) {
             return;
         }
@@ -102,17 +114,22 @@ impl MethodChoice {
     }
 
     /// Chooses the order of the explicit method.
-    fn choose_order(&self, locates_events: bool, world: &mut World) {
+    fn choose_order(&self, tick: u64, locates_events: bool, world: &mut World) {
         let (Some(control), method) = (world.control(), world.method()) else { return };
         let longest = world.substep(self.step);
-        let is_smooth = !locates_events && !world.switches() && control.accuracy <= LOOSEST;
+        let is_smooth = !locates_events && may_be_of_order_8(world);
         // length of a step of order 5 over that of one of order 8
         let ratio = || sincro_math::elementary::pow(control.accuracy, EXPONENT).0;
         let (chosen, h) = match method {
             MethodKind::DormandPrince if is_smooth && control.h < SHORT * longest => {
                 (MethodKind::DormandPrince8, control.h / ratio())
             }
-            MethodKind::DormandPrince8 if !is_smooth || control.h * ratio() > longest => {
+            MethodKind::DormandPrince8
+                if !is_smooth
+                    || control.h * ratio() > longest
+                    // steps that a tick cuts short tell little of what they could be: order 5 is tried
+                    || (control.h > longest && tick.is_multiple_of(PERIOD)) =>
+            {
                 (MethodKind::DormandPrince, control.h * ratio())
             }
             _ => return,

@@ -155,14 +155,12 @@ pub struct RunMonitor<'a> {
 pub struct RunOptions<'a> {
     /// Path of a CSV file to which rows are written as they come; `None`: no file.
     pub csv: Option<&'a Path>,
-    /// True for the finer run of an error estimate.
+    /// True for the finer run of an error estimate: smaller steps, or a tighter tolerance that work and dissipation are
+    /// kept to as well, relative to the largest energy so far.
     pub refined: bool,
     /// True for a run that goes on with another set of contact forces wherever several keep all laws, for the error
     /// bars.
     pub takes_other_solutions: bool,
-    /// Size of the energies `[J]`, relative to which work and dissipation are kept to the accuracy; `None`: they take
-    /// no part in error control.
-    pub energy_scale: Option<f64>,
     /// True if frames for the replay are recorded.
     pub keyframes: bool,
     /// Name of the variant whose checks for divergence end the run; `None`: those of the main run.
@@ -277,6 +275,13 @@ fn fast_block(loaded: &Loaded) -> Option<(String, f64)> {
     controller.fastest_decay().filter(|(_, rate)| rate * loaded.experiment.step > SLOW_FROM)
 }
 
+/// Returns true if the diagram has blocks that run code of others, of FMUs.
+pub(crate) fn has_foreign_blocks(loaded: &Loaded) -> bool {
+    let is_foreign =
+        |c: &ControlDiagram| c.wiring.program().steps.iter().any(|step| step.template.zero_crossing_count().is_some());
+    loaded.controller.as_ref().is_some_and(is_foreign)
+}
+
 /// Returns true if something else than springs and dampers asks for the stiff method.
 fn is_stiff_otherwise(loaded: &Loaded) -> bool {
     has_fast_lag(&loaded.scene, &loaded.experiment) || fast_block(loaded).is_some()
@@ -357,9 +362,7 @@ pub fn method_for(loaded: &Loaded) -> (MethodKind, Vec<String>) {
         MethodKind::DormandPrince | MethodKind::DormandPrince8 | MethodKind::Stiff => return (kind, warnings),
     };
     // poles would run the code of FMUs, which a scene that is only looked at must not
-    let has_foreign =
-        |c: &ControlDiagram| c.wiring.program().steps.iter().any(|step| step.template.zero_crossing_count().is_some());
-    if loaded.controller.as_ref().is_some_and(has_foreign) {
+    if has_foreign_blocks(loaded) {
         return (kind, warnings);
     }
     if let Some((closed, open)) = loaded.extensions.fastest_poles.and_then(|fastest| fastest(loaded, kind))
@@ -452,13 +455,12 @@ pub fn simulate(loaded: &Loaded, options: RunOptions<'_>, monitor: &mut RunMonit
     let (method, warnings) = method_for(loaded);
     let mut lockstep = LockStep::new(loaded, method, options.refined);
     lockstep.world().take_other_solutions(options.takes_other_solutions);
-    options.energy_scale.into_iter().for_each(|scale| lockstep.world().control_energies(scale));
     let mut recording = Recording::new(loaded, &mut lockstep, options)?;
     let mut status = Status::Completed;
     let first = lockstep.start();
     let end = recording.start(&mut lockstep)?;
     if let Err(halt) = first {
-        status = halt.explain(&mut lockstep, experiment, method);
+        status = halt.explain(&mut lockstep, experiment);
     } else if let Some(reason) = end {
         status = Status::Ended { tick: 0, time: 0.0, reason };
     }
@@ -466,14 +468,17 @@ pub fn simulate(loaded: &Loaded, options: RunOptions<'_>, monitor: &mut RunMonit
         if status != Status::Completed {
             break;
         }
+        if options.refined {
+            lockstep.world().control_energies(recording.energy_scale());
+        }
         let advanced = lockstep.advance();
         if advanced.as_ref().is_err_and(|halt| !halt.is_after_step()) {
-            status = advanced.map_or_else(|halt| halt.explain(&mut lockstep, experiment, method), |()| status);
+            status = advanced.map_or_else(|halt| halt.explain(&mut lockstep, experiment), |()| status);
             break;
         }
         let end = recording.tick(&mut lockstep, advanced.is_err())?;
         if let Err(halt) = advanced {
-            status = halt.explain(&mut lockstep, experiment, method);
+            status = halt.explain(&mut lockstep, experiment);
             break;
         }
         if let Some(reason) = end {
@@ -495,7 +500,7 @@ pub fn simulate(loaded: &Loaded, options: RunOptions<'_>, monitor: &mut RunMonit
     if let Err(halt) = lockstep.end()
         && status == Status::Completed
     {
-        status = halt.explain(&mut lockstep, experiment, method);
+        status = halt.explain(&mut lockstep, experiment);
     }
     Ok(recording.finish(&mut lockstep, status, method, warnings)?)
 }

@@ -194,6 +194,11 @@ impl Recording {
         Ok(end)
     }
 
+    /// Largest energy so far `[J]`.
+    pub fn energy_scale(&self) -> f64 {
+        self.ledger.scale
+    }
+
     /// Completes the recording and returns the result of the run; `status` and `method` are those of the run,
     /// `warnings` those found before it.
     ///
@@ -373,7 +378,7 @@ impl Ledger {
     fn start(world: &mut World, rows: usize) -> Self {
         let e = world.observe(0.0).energy();
         let (start, balances) = ((e.kinetic, e.potential), Vec::with_capacity(rows));
-        Self { start, added: 0.0, worst: 0.0, last: start, balances, scale: 0.0 }
+        Self { start, added: 0.0, worst: 0.0, last: start, balances, scale: start.0.abs().max(start.1.abs()) }
     }
 
     fn update(&mut self, seen: &Observation<'_>) {

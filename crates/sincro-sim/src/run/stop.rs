@@ -15,9 +15,9 @@ impl Halt {
     /// Explains the stop of a run as its status: tick, time, likely physical cause and remedy; for a world from the
     /// last state that was finite. `method` is the integration method of the run.
     #[must_use]
-    pub fn explain(self, lockstep: &mut LockStep, experiment: &Experiment, method: MethodKind) -> Status {
+    pub fn explain(self, lockstep: &mut LockStep, experiment: &Experiment) -> Status {
         match self {
-            Self::World { tick, t, cause } => explain(lockstep.world(), experiment, (tick, t, cause), method),
+            Self::World { tick, t, cause } => explain(lockstep.world(), experiment, (tick, t, cause)),
             Self::Block { tick, t, culprit } => of_block(tick, t, &culprit),
             Self::Controller { tick, t, fault, .. } => {
                 let reason = format!("{fault} (tick {tick}, t = {t:.6} s)");
@@ -55,12 +55,8 @@ fn number(x: &f64) -> String {
 }
 
 /// The stop in words, from the last state that was still finite.
-fn explain(
-    world: &World,
-    experiment: &Experiment,
-    (tick, time, cause): (u64, f64, Stop),
-    method: MethodKind,
-) -> Status {
+fn explain(world: &World, experiment: &Experiment, (tick, time, cause): (u64, f64, Stop)) -> Status {
+    let method = world.method();
     let what = match cause {
         Stop::Integration(Failure::NotFinite { .. }) => "the motion stopped being finite".to_owned(),
         Stop::Integration(Failure::StepTooSmall { h, .. }) => {

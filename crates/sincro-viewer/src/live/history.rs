@@ -131,7 +131,7 @@ impl KeptRun {
                 }
             }
             if let Some(halt) = halted {
-                status = halt.explain(&mut lockstep, &last.experiment, method);
+                status = halt.explain(&mut lockstep, &last.experiment);
             }
             run = Some((lockstep, recording));
         }

@@ -118,7 +118,7 @@ impl Track {
     /// Evaluates the diagram at the present state.
     fn record(&mut self) {
         if let Err(halt) = self.lockstep.start() {
-            self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));
+            self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment));
         }
     }
 
@@ -151,7 +151,7 @@ impl Track {
             self.lockstep.hash_into(&mut self.trace);
         }
         if let Err(halt) = advanced {
-            self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment, self.method));
+            self.stop = stop_words(&halt.explain(&mut self.lockstep, &self.loaded.experiment));
         }
         !is_world_halt && (self.lockstep.tick().is_multiple_of(self.every) || self.is_done())
     }
