@@ -5,7 +5,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use sincro_dynamics::spatial::Pose;
-use sincro_dynamics::world::MethodKind;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::draft::SceneDraft;
 use sincro_scene::record::Recorder;
@@ -95,7 +94,6 @@ impl Snapshot {
 pub struct Live {
     loaded: Arc<Loaded>,
     pub(crate) lockstep: LockStep,
-    method: MethodKind,
     trace: Trace,
     raised: Raised,
     /// Reason of the end, if it is over.
@@ -120,7 +118,6 @@ impl Live {
         let mut live = Self {
             loaded: loaded.clone(),
             lockstep,
-            method,
             trace,
             raised,
             ended: None,

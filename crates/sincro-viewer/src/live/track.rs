@@ -35,7 +35,6 @@ pub(super) struct Track {
     /// Reason for which it cannot go on; empty if it can.
     pub stop: String,
     recorder: Recorder,
-    method: sincro_dynamics::world::MethodKind,
     every: u64,
     /// States at the frames.
     snapshots: Thinned<Snapshot>,
@@ -81,7 +80,6 @@ impl Track {
             columns,
             stop: String::new(),
             recorder,
-            method,
             every,
             snapshots: Thinned::new(usize::MAX),
             push: None,
