@@ -42,8 +42,7 @@ impl World {
     }
 
     /// Returns true if the mechanism has constraints or limited drives, whose modes change the equations of motion.
-    #[must_use]
-    pub fn switches(&self) -> bool {
+    pub(super) fn switches(&self) -> bool {
         self.is_constrained() || self.has_limited_drives()
     }
 

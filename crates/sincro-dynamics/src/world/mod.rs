@@ -438,8 +438,7 @@ impl World {
     }
 
     /// Changes the integration method between two base steps, from one with error control to another; accuracy and
-    /// step size go on. No effect if it is the present one. Memory is allocated at the first change to each, unless it
-    /// was reserved ([`World::reserve_method`]).
+    /// step size go on. No effect if it is the present one. Memory is allocated at the first change to each alone.
     ///
     /// # Panics
     ///
@@ -457,14 +456,6 @@ impl World {
         };
         new.set_control(control);
         self.spare_methods.push(std::mem::replace(method, new));
-    }
-
-    /// Allocates the memory of a method with error control that [`World::set_method`] may change to during a run.
-    pub fn reserve_method(&mut self, kind: MethodKind) {
-        let (Some(adaptive), Some(control)) = (kind.adaptive(), self.control()) else { return };
-        if kind != self.method() && self.spare_methods.iter().all(|spare| spare.kind() != adaptive) {
-            self.spare_methods.push(Adaptive::new(adaptive, self.y.len(), control));
-        }
     }
 
     /// Divides every fixed step into `n` equal ones (0 counts as 1), and limits steps of error control to that length;

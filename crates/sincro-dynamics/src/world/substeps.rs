@@ -298,10 +298,8 @@ impl World {
         Ok(reached)
     }
 
-    /// Longest step within a tick of `span` `[s]`, for methods with error control too: a finer run must not end up the
-    /// same ([`World::set_substeps`]).
-    #[must_use]
-    pub fn substep(&self, span: f64) -> f64 {
+    /// Longest step within a tick of `span`, for methods with error control too: a finer run must not end up the same.
+    pub(super) fn substep(&self, span: f64) -> f64 {
         // a hair longer, so that rounding leaves no sliver behind
         span / f64::from(self.substeps) * (1.0 + 1e-12)
     }

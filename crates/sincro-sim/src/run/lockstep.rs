@@ -167,8 +167,7 @@ impl LockStep {
         let Loaded { scene, experiment, controller, .. } = loaded;
         let control = controller.as_ref().map(|c| DiagramController::new(&c.wiring, &scene.model));
         let n_states = control.as_ref().map_or(0, |c| c.wiring().program().n_states);
-        let mut world = world_with_room(scene, experiment, method, refined, n_states);
-        let choice = MethodChoice::new(loaded, method, &mut world);
+        let world = world_with_room(scene, experiment, method, refined, n_states);
         let engine = loaded.extensions.scripts.filter(|_| !scene.scripts.is_empty());
         let controllers = engine.map(|engine| engine.controller(loaded)).into_iter().collect();
         let timing = Timing::new(experiment);
@@ -180,7 +179,7 @@ impl LockStep {
         let (sources, is_started) = (vec![Source::Scene; world.state.commands.len()], false);
         let mut new = Self {
             world,
-            method: choice,
+            method: MethodChoice::new(loaded, method),
             control,
             sensors,
             signals,
@@ -495,7 +494,7 @@ impl LockStep {
         }
         self.sensors = self.sensors.continued(scene, self.timing);
         if let Some(method) = &mut self.method {
-            method.restructured(&scene.model, &mut self.world);
+            method.restructured(&scene.model);
         }
         self.structure = Some(Structure::after(self.structure.as_ref(), change));
         let (tick, t) = (self.tick, self.t());
@@ -579,9 +578,7 @@ impl LockStep {
         all(&mut self.control, &mut self.controllers).for_each(|controller| controller.latched(tick, t));
         // 4 advance
         if let Some(method) = &mut self.method {
-            let part = self.control.as_mut().and_then(Controller::continuous);
-            let locates_events = part.is_some_and(|part| part.zero_crossing_count().is_some());
-            method.choose((tick, t), locates_events, &mut self.world);
+            method.choose(tick, t, &mut self.world);
         }
         #[cfg(feature = "jit")]
         self.compile_if_it_pays();
