@@ -6,7 +6,7 @@
 
 use sincro_math::Real;
 
-use crate::embedded::{self, EmbeddedPair, add_weighted, find_error};
+use crate::embedded::{self, EmbeddedPair, add_weighted, find_error, slope};
 use crate::{Control, Failure, System};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -70,7 +70,7 @@ impl<R: Real> EmbeddedPair<R> for DormandPrince<R> {
                 5 => add_weighted(stage, y, [k_0, k_1, k_2, k_3, k_4], A_5, h),
                 _ => add_weighted(stage, y, [k_0, k_1, k_2, k_3, k_4, k_5], A_6, h),
             }
-            system.slope(t + C[s] * h, &self.stage, &mut self.k[s]);
+            slope(system, t + C[s] * h, &self.stage, &mut self.k[s]);
         }
         find_error(&mut self.error, self.k.each_ref().map(|k| &k[..]), E, h);
     }

@@ -5,7 +5,7 @@
 
 use sincro_math::Real;
 
-use crate::embedded::{self, EmbeddedPair, add_weighted, find_error};
+use crate::embedded::{self, EmbeddedPair, add_weighted, find_error, slope};
 use crate::{Control, Failure, System};
 
 const C: [f64; 12] = [
@@ -154,7 +154,7 @@ impl<R: Real> EmbeddedPair<R> for DormandPrince8<R> {
             }
             if s < 12 {
                 let n = y.len();
-                system.slope(t + C[s] * h, &self.stage, &mut self.slopes[s * n..(s + 1) * n]);
+                slope(system, t + C[s] * h, &self.stage, &mut self.slopes[s * n..(s + 1) * n]);
             }
         }
         let k = split(&self.slopes);

@@ -81,6 +81,12 @@ pub(crate) fn step<R: Real, P: EmbeddedPair<R>, S: System<R>>(
     }
 }
 
+/// Slope of a stage: one copy for all pairs, which would each have the whole system within their stages.
+#[inline(never)]
+pub(crate) fn slope<R: Real, S: System<R>>(system: &mut S, t: f64, y: &[R], slope: &mut [R]) {
+    system.slope(t, y, slope);
+}
+
 /// `out = y + Σ (h a_j) k_j` over `S` slopes, added in their order, one unknown after the other; one copy for all
 /// systems.
 #[inline(never)]
