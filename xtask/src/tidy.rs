@@ -17,7 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("sincro-integrate", &["sincro-math"]),
     ("sincro-camera", &["sincro-math", "sincro-geometry"]),
     ("sincro-aero", &["sincro-math", "sincro-geometry"]),
-    ("sincro-actuation", &["sincro-math", "sincro-integrate"]),
+    ("sincro-actuation", &["sincro-math", "sincro-integrate", "sincro-geometry"]),
     ("sincro-motion", &[]),
     ("sincro-vision", &["sincro-math", "sincro-values"]),
     ("sincro-values", &[]),

@@ -7,16 +7,25 @@
 //! | [`winding`] | N k_t i | ½ L i² | R i² |
 //! | [`activation`] | none: what acts in the place of a command | | |
 //! | [`velocity_band`] | none: where the velocity of a drive counts as its target | | |
+//! | [`kink`] | none: which limited drives are locked and which saturated | | |
+//! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
+//! | [`bushing`] | a force and torque between two frames | ½ Σ kᵢ xᵢ² | Σ cᵢ ẋᵢ² |
 //! | [`elastic_gear`] | −k p − c ẋ between two joints, outside of the backlash | ½ k p² | c ẋ² |
 
 pub mod activation;
+pub mod bushing;
 pub mod elastic_gear;
 pub mod force_law;
+pub mod kink;
+pub mod spring_damper;
 pub mod velocity_band;
 pub mod winding;
 
 pub use activation::{Activation, ActivationDynamics};
+pub use bushing::Bushing;
 pub use elastic_gear::ElasticGear;
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
+pub use kink::{Kink, Kinks, Pivoting};
+pub use spring_damper::SpringDamper;
 pub use velocity_band::VelocityBand;
 pub use winding::Winding;

@@ -6,6 +6,7 @@
 //! drives and contacts are redundant (a robot that brakes four wheels on the ground) they share the load. Source: key
 //! `acary2008`, chapter 3 (set-valued laws).
 
+use sincro_actuation::Kink;
 use sincro_complementarity::{ContactMode, FrictionGroup, HELD_RATE, NO_SLOT, UnilateralConstraint};
 use sincro_math::Real;
 
@@ -20,41 +21,6 @@ const NORMAL: f64 = 1.0 / (1_u128 << 100) as f64;
 
 /// Tolerance of torques beyond the limit, relative to that of friction forces.
 const LIMIT_SLACK: f64 = 1e-2;
-
-/// Limited drives of one degree of freedom at one kink.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Kink {
-    pub dof: usize,
-    /// Sum of the limits without load [N·m] or `[N]`.
-    pub limit: f64,
-    /// Sum of the load coefficients of its friction.
-    pub load_coefficient: f64,
-    /// Force that the bearing of the joint transmits, where friction grows with it `[N]`.
-    pub load: f64,
-    /// Target velocity [rad/s] or [m/s].
-    pub target: f64,
-    /// 0 locked, ±1 saturated.
-    pub saturation: f64,
-    pub infeasible: bool,
-}
-
-impl Kink {
-    /// Kink of a degree of freedom at target velocity zero, locked, without drives.
-    pub fn locked(dof: usize) -> Self {
-        Self { dof, limit: 0.0, load_coefficient: 0.0, load: 0.0, target: 0.0, saturation: 0.0, infeasible: false }
-    }
-
-    /// Adds a drive with these numbers.
-    pub fn add(&mut self, limit: f64, load_coefficient: f64) {
-        self.limit += limit;
-        self.load_coefficient += load_coefficient;
-    }
-
-    /// Sum of the limits under the force `load` `[N]` of the bearing [N·m] or `[N]`.
-    pub fn limit_under(&self, load: f64) -> f64 {
-        self.limit + self.load_coefficient * load
-    }
-}
 
 impl<R: Real> Constraints<R> {
     /// Adds the rows of the drives at their kink.

@@ -45,6 +45,7 @@ pub(crate) mod rank;
 pub(crate) mod row;
 mod time_stepping;
 
+use sincro_actuation::Kink;
 pub(crate) use sincro_complementarity::HeldLaw;
 use sincro_complementarity::sweeps::GivenForces;
 use sincro_complementarity::sweeps::rest::Rest;
@@ -65,7 +66,7 @@ use crate::scratch::Scratch;
 use crate::spatial::{Force, Vec3};
 use foresight::Foresight;
 use implicit_forces::ImplicitForces;
-use kink::{Kink, drive_groups};
+use kink::drive_groups;
 use row::{Motions, Row};
 pub(crate) use time_stepping::DIRECT_ROWS;
 use time_stepping::TimeStepping;

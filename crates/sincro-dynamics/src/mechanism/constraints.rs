@@ -94,8 +94,15 @@ impl ActivationRule {
         match self {
             Self::Touching => distance <= CLOSED_DISTANCE && rate <= zero_speed,
             Self::All => distance <= CLOSED_DISTANCE,
-            Self::Within(h) => distance <= CLOSED_DISTANCE + 2.0 * h * (-rate).max(0.0) + 4.0 * h * h * gravity,
+            Self::Within(h) => distance <= Self::reach(h, rate, gravity),
         }
+    }
+
+    /// Distance up to which a contact or limit with this `rate` may close within a step of `h` `[s]`, under the
+    /// strongest `gravity` [m/s²].
+    #[inline(always)]
+    pub(crate) fn reach<R: Real>(h: f64, rate: R, gravity: R) -> R {
+        R::splat(CLOSED_DISTANCE) + R::splat(2.0 * h) * (-rate).max(R::zero()) + R::splat(4.0 * h * h) * gravity
     }
 
     /// Margin within which candidates are looked for.

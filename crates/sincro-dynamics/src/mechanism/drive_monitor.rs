@@ -2,7 +2,7 @@
 //! velocity, each beyond the rounding of its terms; and a monitor of them, and of the laws of contacts, at the stages
 //! of a step, which notices a law that is violated within the step and holds again at its end.
 
-use sincro_actuation::VelocityBand;
+use sincro_actuation::{Kink, VelocityBand};
 use sincro_math::Real;
 
 use super::Mechanism;
@@ -79,13 +79,18 @@ impl<R: Real> Mechanism<R> {
     /// Terms of the reaction on a degree of freedom in the last evaluation, sum of their magnitudes [N·m] or `[N]`: its
     /// rounding is relative to this.
     pub(crate) fn reaction_scale(&self, dof: usize) -> f64 {
+        self.reaction_scale_in(0, dof)
+    }
+
+    /// As [`Mechanism::reaction_scale`], in lane `lane`.
+    fn reaction_scale_in(&self, lane: usize, dof: usize) -> f64 {
         let link = self.model.links.iter().rposition(|link| link.v_idx as usize <= dof).unwrap_or(0);
         let (a, of_dof) = (&self.scratch.links[link].a, &self.scratch.dofs[dof]);
-        let product = |a: &Vec3<R>, u: &Vec3<R>| (0..3).map(|k| (a[k] * u[k]).lane(0).abs()).sum::<f64>();
+        let product = |a: &Vec3<R>, u: &Vec3<R>| (0..3).map(|k| (a[k] * u[k]).lane(lane).abs()).sum::<f64>();
         product(&a.ang, &of_dof.u.ang)
             + product(&a.lin, &of_dof.u.lin)
-            + of_dof.force.lane(0).abs()
-            + self.scratch.reaction[dof].lane(0).abs()
+            + of_dof.force.lane(lane).abs()
+            + self.scratch.reaction[dof].lane(lane).abs()
     }
 
     /// Terms of the acceleration of a degree of freedom in the last evaluation, sum of their magnitudes [rad/s²] or
@@ -102,23 +107,41 @@ impl<R: Real> Mechanism<R> {
 
     /// Width within which the velocity of a drive counts as its target.
     pub(crate) fn velocity_band(&self) -> VelocityBand {
-        if self.constraints.is_some() { VelocityBand::CONSTRAINED } else { VelocityBand::default() }
+        if self.is_constrained { VelocityBand::CONSTRAINED } else { VelocityBand::default() }
     }
 
     /// Rounding of the last evaluation, relative to the sum of the magnitudes of its terms.
     pub(crate) fn rounding(&self) -> f64 {
-        if self.constraints.is_some() { ROUNDING_CONSTRAINED } else { ROUNDING }
+        if self.is_constrained { ROUNDING_CONSTRAINED } else { ROUNDING }
     }
 
-    /// Returns true if the reaction on a degree of freedom in the last evaluation exceeds `limit`.
-    pub(crate) fn is_overloaded(&self, dof: usize, limit: f64) -> bool {
-        self.overload(dof, limit) > 0.0
+    /// Returns true if the mode of a kink contradicts its law over the step at velocity level last made in lane `lane`,
+    /// at whose end its joint has the velocity `v`: a locked one needs more than its limit, a saturated one has passed
+    /// its target.
+    #[inline(always)]
+    pub(crate) fn contradicts_step(&self, kink: &Kink, v: f64, lane: usize) -> bool {
+        if kink.saturation != 0.0 {
+            return self.velocity_band().is_beyond(kink.target, v, kink.saturation);
+        }
+        let limit = kink.limit_under(self.loads[kink.dof].lane(lane));
+        self.overload_in(lane, kink.dof, limit) > 0.0
     }
 
     /// Reaction on a degree of freedom in the last evaluation beyond `limit` and rounding [N·m] or `[N]`.
     fn overload(&self, dof: usize, limit: f64) -> f64 {
-        let reaction = self.scratch.reaction[dof].lane(0).abs();
-        reaction - (limit * (1.0 + SAME_FORCE)).max(limit + self.rounding() * self.reaction_scale(dof))
+        self.overload_in(0, dof, limit)
+    }
+
+    /// As [`Mechanism::overload`], in lane `lane`; anything not above zero where it is none.
+    #[inline(always)]
+    fn overload_in(&self, lane: usize, dof: usize, limit: f64) -> f64 {
+        let reaction = self.scratch.reaction[dof].lane(lane).abs();
+        let beyond = reaction - limit * (1.0 + SAME_FORCE);
+        if beyond > 0.0 {
+            beyond.min(reaction - (limit + self.rounding() * self.reaction_scale_in(lane, dof)))
+        } else {
+            beyond
+        }
     }
 
     /// Torque limit of a drive under the loads of the last evaluation [N·m] or `[N]`; none without a limit.

@@ -4,6 +4,8 @@
 //! that were at rest, or turns them, and they would pass what lies in their new way: up to 25 mm at 5 m/s and 5 ms. A
 //! step is therefore tried first; what it passes counts as closed in the next try.
 
+use sincro_math::Real;
+
 use crate::constraint::{ConstraintSet, Constraints};
 use crate::contact::candidate_list::SlotCandidate;
 use crate::joint::WORLD;
@@ -13,6 +15,13 @@ use crate::spatial::Pose;
 
 /// Distance beyond which a step passes an open limit or contact, with what gravity adds within it `[m]` or `[rad]`.
 const PASSED: f64 = 1e-6;
+
+/// Distance below which a step of length `h` `[s]` has passed an open limit or contact, under the strongest `gravity`
+/// [m/s²].
+#[inline(always)]
+pub(crate) fn passed<R: Real>(h: f64, gravity: R) -> R {
+    R::splat(-PASSED) - R::splat(h * h) * gravity
+}
 
 impl Mechanism<f64> {
     /// Forgets what a former step would have passed.
@@ -30,7 +39,7 @@ impl Mechanism<f64> {
         let (model, poses) = (&self.model, &self.scratch.poses);
         let set = &*model.params.constraints;
         let gravity = model.strongest_gravity(poses);
-        let passed = -PASSED - h * h * gravity;
+        let passed = passed(h, gravity);
         let rule = ActivationRule::Within(h);
         let mut slots = core::mem::take(&mut c.foresight.slots);
         let known = slots.len();

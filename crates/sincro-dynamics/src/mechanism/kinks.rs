@@ -1,9 +1,9 @@
 //! Limited drives as constraints of the contact problem ([`crate::constraint::kink`]), for the evaluations that follow.
 
+use sincro_actuation::Kink;
 use sincro_complementarity::WarmStart;
 
 use super::Mechanism;
-use crate::constraint::kink::Kink;
 
 impl Mechanism<f64> {
     /// Returns true if a contact or limit is closed.

@@ -15,7 +15,7 @@ mod analysis;
 mod bearing_load;
 pub(crate) mod constraints;
 pub(crate) mod drive_monitor;
-mod foresight;
+pub(crate) mod foresight;
 mod kinks;
 pub mod layout;
 mod lines;
@@ -102,6 +102,8 @@ pub struct Mechanism<R> {
     motor_torque: Vec<R>,
     pub(crate) scratch: Scratch<R>,
     pub(crate) constraints: Option<Box<Constraints<R>>>,
+    /// True if the model has constraints; lanes have no memory of them.
+    is_constrained: bool,
     /// Working memory of projections and impacts.
     pub(crate) constraint_change: Vec<R>,
     /// Factor on the tolerance of projections: extent of a mechanism with loops that is smaller than 1 m, else 1.
@@ -156,6 +158,7 @@ impl<R: Real> Mechanism<R> {
             singular: SingularPassage::default(),
             drive_monitor: DriveMonitor::default(),
             compiled: None,
+            is_constrained: !model.constraints().is_empty(),
             // constraints branch, which lanes cannot
             constraints: if R::IS_SCALAR { Constraints::new(&model) } else { None },
             model,

@@ -19,6 +19,12 @@ impl<R: Real> Model<R> {
         limit.is_finite().then_some(limit)
     }
 
+    /// Returns true if a drive has a limit, of motors or of dry friction.
+    #[must_use]
+    pub fn has_limited_drives(&self) -> bool {
+        self.params.drives.iter().any(|drive| self.drive_limit(drive).is_some())
+    }
+
     /// Returns true if a drive without limit holds a degree of freedom.
     pub(crate) fn is_held(&self, dof: usize) -> bool {
         self.params.drives.iter().any(|drive| drive.dof == dof && self.drive_limit(drive).is_none())

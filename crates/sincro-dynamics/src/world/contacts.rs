@@ -234,7 +234,7 @@ impl World {
     fn leaves_drives_beyond_targets(&mut self) -> bool {
         self.mechanism.can_sweep()
             && self.mark_infeasible(Law::Velocity) > 0
-            && self.kinks.iter().any(|kink| kink.infeasible && kink.saturation != 0.0)
+            && self.kinks.list.iter().any(|kink| kink.infeasible && kink.saturation != 0.0)
     }
 
     /// Detects the contacts of a step of length `h` at velocity level; returns true if they make a problem that is
@@ -276,7 +276,7 @@ impl World {
         };
         if !switches {
             // no modes to decide: what is locked ends at its target velocity
-            self.kinks.clear();
+            self.kinks.list.clear();
             if !is_compiled {
                 self.mark_targets(h);
                 step(self);

@@ -104,8 +104,7 @@ impl World {
     }
 
     pub(super) fn has_limited_drives(&self) -> bool {
-        let model = self.model();
-        model.params.drives.iter().any(|drive| model.drive_limit(drive).is_some())
+        self.model().has_limited_drives()
     }
 
     /// Prescribes the accelerations by which locked drives reach their target velocity within `h`.

@@ -29,11 +29,11 @@ pub use compiled::CompiledKind;
 pub use observation::Observation;
 pub use step::{StepError, StepReport};
 
+use sincro_actuation::{Kink, Kinks};
 use sincro_math::compiled::CompiledEvaluation;
 
 use crate::actuation::{ExternalForce, Motor};
 use crate::aero::rotor::{RotorLaw, SpeedSource};
-use crate::constraint::kink::Kink;
 use crate::constraint::{ContactPoint, SolverReport};
 use crate::coupled::{Coupled, CoupledSystem, NoCoupling, StateView};
 use crate::ids::{MotorId, RotorId};
@@ -46,7 +46,6 @@ use crate::occurrences::Occurrences;
 use crate::state::State;
 use events::{Crossing, MAX_CROSSINGS};
 use observation::contacts_of;
-use switching::NO_KINK;
 
 /// Times closer than this are the same instant `[s]`.
 const SAME_INSTANT: f64 = 1e-9;
@@ -197,9 +196,8 @@ pub struct World {
     report_before: SolverReport,
     target_velocities: Vec<f64>,
     jumps: Vec<bool>,
-    /// Limited drives whose modes are being decided, and the kink of each drive among them.
-    kinks: Vec<Kink>,
-    kink_of: Vec<usize>,
+    /// Limited drives whose modes are being decided.
+    kinks: Kinks,
     /// Those at the present instant during a look-ahead.
     present_kinks: Vec<Kink>,
     /// Zero crossings last found.
@@ -325,8 +323,7 @@ impl World {
             report_before: SolverReport::default(),
             target_velocities: vec![0.0; n_drives],
             jumps: vec![false; n_drives],
-            kinks: Vec::with_capacity(n_drives),
-            kink_of: vec![NO_KINK; n_drives],
+            kinks: Kinks::new(n_drives),
             present_kinks: Vec::with_capacity(n_drives),
             crossings: Vec::with_capacity(MAX_CROSSINGS),
             coupled_crossings: Vec::new(),
@@ -713,7 +710,7 @@ impl World {
         self.state.drives.copy_from_slice(&self.mechanism.drives);
         self.target_velocities.resize(n, 0.0);
         self.jumps.resize(n, false);
-        self.kink_of.resize(n, NO_KINK);
+        self.kinks.resize(n);
     }
 
     /// Mechanism of the world, for kinematics and energies at the state; changes of its modes last until the next step.

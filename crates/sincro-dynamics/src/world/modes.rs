@@ -4,13 +4,13 @@
 //! problem ([`crate::constraint::kink`]), and one solution decides all modes. Elsewhere the drives are decided among
 //! themselves ([`super::switching`]).
 
+use sincro_actuation::Kink;
 use sincro_complementarity::WarmStart;
 use sincro_complementarity::sweeps::GivenForces;
 
 use super::World;
 use super::switching::Law;
 use crate::constraint::ModeRule;
-use crate::constraint::kink::Kink;
 use crate::coupled::CoupledSystem;
 
 /// Relative difference of accelerations above which solutions are different motions.
@@ -47,7 +47,7 @@ impl World {
             self.collect_kinks()
         } else {
             // decided among themselves
-            self.kinks.clear();
+            self.kinks.list.clear();
             true
         };
         let before = self.solver_report();
@@ -63,7 +63,7 @@ impl World {
     /// Returns true if the limited drives that are locked, as prescribed accelerations, contradict loops: their forces
     /// would open these, where as constraints beside the loops the weaker ones give way.
     fn contradict_loops(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
-        let is_locked = self.kinks.iter().any(|kink| kink.saturation == 0.0);
+        let is_locked = self.kinks.list.iter().any(|kink| kink.saturation == 0.0);
         if !is_locked || self.model().params.constraints.n_bilateral() == 0 {
             return false;
         }
@@ -99,16 +99,16 @@ impl World {
         (h, after_event, unchanged): (f64, bool, bool),
         system: &mut dyn CoupledSystem<f64>,
     ) {
-        self.present_kinks.clone_from(&self.kinks);
+        self.present_kinks.clone_from(&self.kinks.list);
         self.decide_kinks(t, system);
         let has_left = self.mechanism.contact_memory().is_some_and(|memory| memory.has_left_modes());
         if !after_event && unchanged && (has_left || self.has_other_kinks()) {
-            std::mem::swap(&mut self.kinks, &mut self.present_kinks);
+            std::mem::swap(&mut self.kinks.list, &mut self.present_kinks);
             self.pose_kinks();
             if !self.prefer_former_modes(t, system) {
-                std::mem::swap(&mut self.kinks, &mut self.present_kinks);
+                std::mem::swap(&mut self.kinks.list, &mut self.present_kinks);
             } else {
-                self.present_kinks.clone_from(&self.kinks);
+                self.present_kinks.clone_from(&self.kinks.list);
             }
         }
         self.mechanism.mark_start();
@@ -123,20 +123,21 @@ impl World {
     fn decide_kinks(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.pose_kinks();
         self.evaluate_slope(t, system);
-        self.mechanism.read_kinks(&mut self.kinks);
+        self.mechanism.read_kinks(&mut self.kinks.list);
     }
 
     /// Makes the kinks constraints of the next evaluations, whatever their modes.
     fn pose_kinks(&mut self) {
         self.release_kinks();
         self.mechanism.mark_locked();
-        self.mechanism.pose_kinks(self.kinks.iter());
+        self.mechanism.pose_kinks(self.kinks.list.iter());
     }
 
     /// Lets the drives of the kinks apply no torque of their own.
     fn release_kinks(&mut self) {
-        let drives = self.mechanism.drives.iter_mut().zip(&self.kink_of);
-        drives.filter(|(_, k)| **k < self.kinks.len()).for_each(|(saturation, _)| *saturation = 0.0);
+        let drives = self.mechanism.drives.iter_mut().enumerate();
+        let of_kinks = drives.filter(|(i, _)| self.kinks.saturation_of(*i).is_some());
+        of_kinks.for_each(|(_, saturation)| *saturation = 0.0);
     }
 
     /// Decides all limited drives together with the contacts over a step of length `h` at velocity level, which `step`
@@ -144,13 +145,13 @@ impl World {
     pub(super) fn solve_coupled_step_modes(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
         self.release_kinks();
         self.mark_targets(h);
-        self.mechanism.pose_kinks(self.kinks.iter());
+        self.mechanism.pose_kinks(self.kinks.list.iter());
         step(self);
         if self.has_unsolved_try() {
             // modes that are none: the whole step is made again by sweeps
             return;
         }
-        self.mechanism.read_kinks(&mut self.kinks);
+        self.mechanism.read_kinks(&mut self.kinks.list);
         self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
         self.step_in_modes(h, &mut step);
         if self.keeps_step_modes() {
@@ -168,15 +169,15 @@ impl World {
         if !self.keeps_step_modes() && self.lock_passed_kinks() {
             self.step_in_modes(h, &mut step);
             if !self.keeps_step_modes() {
-                self.kinks.clone_from(&self.present_kinks);
+                self.kinks.list.clone_from(&self.present_kinks);
                 self.step_in_modes(h, &mut step);
             }
         }
         if self.mark_slipped() {
-            for k in 0..self.kinks.len() {
-                let Kink { dof, target, infeasible, .. } = self.kinks[k];
+            for k in 0..self.kinks.list.len() {
+                let Kink { dof, target, infeasible, .. } = self.kinks.list[k];
                 if infeasible {
-                    self.kinks[k].saturation = (target - self.velocity(dof)).signum();
+                    self.kinks.list[k].saturation = (target - self.velocity(dof)).signum();
                 }
             }
             self.write_modes();
@@ -193,20 +194,20 @@ impl World {
     /// contact was stronger. Returns true if there are any.
     fn mark_slipped(&mut self) -> bool {
         let mut posed = 0;
-        for k in 0..self.kinks.len() {
-            let Kink { dof, target, saturation, .. } = self.kinks[k];
+        for k in 0..self.kinks.list.len() {
+            let Kink { dof, target, saturation, .. } = self.kinks.list[k];
             let is_short = self.mechanism.velocity_band().error(target, self.velocity(dof)) != 0.0;
-            self.kinks[k].infeasible = saturation == 0.0 && is_short && self.mechanism.posed_kink_slips(posed);
+            self.kinks.list[k].infeasible = saturation == 0.0 && is_short && self.mechanism.posed_kink_slips(posed);
             posed += usize::from(saturation == 0.0);
         }
-        self.kinks.iter().any(|kink| kink.infeasible)
+        self.kinks.list.iter().any(|kink| kink.infeasible)
     }
 
     /// Locks the kinks that are saturated but by rounding and have passed their targets: a little less than the limit
     /// holds them. Keeps the former modes in `present_kinks`; returns false if there is none.
     fn lock_passed_kinks(&mut self) -> bool {
-        self.present_kinks.clone_from(&self.kinks);
-        let passed = self.kinks.iter_mut().filter(|kink| kink.infeasible && kink.saturation != 0.0);
+        self.present_kinks.clone_from(&self.kinks.list);
+        let passed = self.kinks.list.iter_mut().filter(|kink| kink.infeasible && kink.saturation != 0.0);
         let count = passed.map(|kink| kink.saturation = 0.0).count();
         if count > 0 {
             self.separate_kinks();
@@ -218,7 +219,7 @@ impl World {
     fn step_in_modes(&mut self, h: f64, step: &mut impl FnMut(&mut Self)) {
         self.write_modes();
         self.mark_targets(h);
-        self.mechanism.pose_kinks(self.kinks.iter().filter(|kink| kink.saturation == 0.0));
+        self.mechanism.pose_kinks(self.kinks.list.iter().filter(|kink| kink.saturation == 0.0));
         self.mechanism.set_given_forces(GivenForces::Solution);
         step(self);
         self.mechanism.set_given_forces(GivenForces::Start);
@@ -226,7 +227,7 @@ impl World {
 
     /// Returns true if the modes of the kinks differ from those at the present instant.
     fn has_other_kinks(&self) -> bool {
-        self.kinks.iter().zip(&self.present_kinks).any(|(kink, present)| kink.saturation != present.saturation)
+        self.kinks.list.iter().zip(&self.present_kinks).any(|(kink, present)| kink.saturation != present.saturation)
     }
 
     /// Moves the state a little ahead of `t`, for a step of `h`, with the kinks at their targets, and decides the kinks
@@ -234,7 +235,7 @@ impl World {
     fn decide_ahead(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let ahead = self.move_ahead(t, h);
         let layout = self.layout();
-        for kink in &self.kinks {
+        for kink in &self.kinks.list {
             self.y[layout.velocity(kink.dof)] = kink.target;
         }
         self.decide_kinks(ahead, system);
@@ -244,17 +245,17 @@ impl World {
     /// that is due; state and time stay.
     fn look_ahead_at_contacts(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let report = self.solver_report();
-        self.present_kinks.clone_from(&self.kinks);
+        self.present_kinks.clone_from(&self.kinks.list);
         self.decide_ahead(t, h, system);
         if self.mechanism.constraints.as_ref().is_some_and(|c| c.solver.is_approximate) {
             self.y.copy_from_slice(&self.present);
-            self.kinks.clone_from(&self.present_kinks);
+            self.kinks.list.clone_from(&self.present_kinks);
             self.decide_ahead(t, FURTHER_AHEAD * h, system);
         }
         self.n_searches += 1;
         let is_apart = t - self.last_decision > SEARCH_PAUSE * self.next_step;
         self.last_decision = t;
-        let first = self.takes_other_solutions.then(|| self.kinks.clone());
+        let first = self.takes_other_solutions.then(|| self.kinks.list.clone());
         if first.is_some() {
             self.mechanism.contact_memory().into_iter().for_each(WarmStart::set_aside);
         }
@@ -262,7 +263,7 @@ impl World {
             && self.mechanism.has_other_solution(self.takes_other_solutions);
         if meets_other {
             self.ambiguous_events.note(t);
-            self.mechanism.read_kinks(&mut self.kinks);
+            self.mechanism.read_kinks(&mut self.kinks.list);
         }
         self.y.copy_from_slice(&self.present);
         if !self.take_modes_ahead(t, system)
@@ -270,7 +271,7 @@ impl World {
         {
             // the other solution holds a little later only
             self.mechanism.contact_memory().into_iter().for_each(WarmStart::take_set_aside);
-            self.kinks = first;
+            self.kinks.list = first;
             self.take_modes_ahead(t, system);
         }
         report.into_iter().for_each(|before| self.discard_failures(&before));
@@ -289,7 +290,7 @@ impl World {
         let is_possible = if self.may_graze { self.mechanism.is_grazing() } else { self.mechanism.keeps_laws() };
         if !is_possible {
             self.mechanism.contact_memory().into_iter().for_each(WarmStart::reject_modes);
-            self.kinks.clone_from(&self.present_kinks);
+            self.kinks.list.clone_from(&self.present_kinks);
         }
         is_possible
     }

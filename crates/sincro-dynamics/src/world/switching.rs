@@ -16,10 +16,9 @@
 //! **Dead band.** A reaction is beyond its limit, an acceleration beyond zero, only by more than the rounding of the
 //! terms that it is the sum of.
 
-use std::cmp::Ordering;
+use sincro_actuation::{Kink, Pivoting};
 
 use super::{Method, World};
-use crate::constraint::kink::Kink;
 use crate::coupled::{CoupledSystem, NoCoupling};
 
 /// Distance of a velocity from its target, relative to 1 + |v|, within which drives reach their targets at one event.
@@ -31,14 +30,8 @@ const LOOK_AHEAD: f64 = 1e-5;
 /// Least time of the look-ahead in units of rounding of the time.
 const LOOK_AHEAD_ULPS: f64 = 1e3;
 
-/// Block changes without progress before single ones.
-const BLOCK_CHANGES: u32 = 3;
-
 /// Maximum number of kinks whose modes are all tried.
 const MAX_ENUMERATED: usize = 5;
-
-/// Kink of a drive that is at none.
-pub(super) const NO_KINK: usize = usize::MAX;
 
 /// Level at which the problem is posed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +48,7 @@ impl World {
     pub(super) fn resolve_actuator_modes(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         if !self.has_limited_drives() {
             // those of motors that were limited before a change are none any more
-            self.kinks.clear();
+            self.kinks.list.clear();
             self.mechanism.mark_locked();
             return;
         }
@@ -68,7 +61,7 @@ impl World {
     fn decide_modes(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let unchanged = self.collect_kinks();
         self.mechanism.mark_locked();
-        if self.kinks.is_empty() {
+        if self.kinks.list.is_empty() {
             return;
         }
         self.evaluate_slope(t, system);
@@ -82,10 +75,10 @@ impl World {
     /// Collects the limited drives at their kink, with their present modes; saturates the others. Returns true if no
     /// mode was changed by that.
     pub(super) fn collect_kinks(&mut self) -> bool {
-        self.kinks.clear();
+        self.kinks.list.clear();
         let mut unchanged = true;
         for i in 0..self.target_velocities.len() {
-            self.kink_of[i] = NO_KINK;
+            self.kinks.release(i);
             if self.is_unlimited(i) {
                 continue;
             }
@@ -96,7 +89,7 @@ impl World {
                 self.mechanism.drives[i] = 0.0;
             } else {
                 let dof = self.mechanism.model.params.drives[i].dof;
-                let known = self.kinks.iter().position(|kink| kink.dof == dof);
+                let known = self.kinks.list.iter().position(|kink| kink.dof == dof);
                 self.add_to_kink(i, known);
                 if self.is_constrained() {
                     let velocity = self.layout().velocity(dof);
@@ -114,22 +107,15 @@ impl World {
         let model = &self.mechanism.model;
         let limit = model.saturated_torque(&drive, self.velocity(drive.dof), 0.0).unwrap_or(f64::INFINITY);
         let load_coefficient = model.load_coefficient(&drive);
-        let k = known.unwrap_or(self.kinks.len());
-        if known.is_none() {
-            let (target, saturation) = (self.target_velocities[i], self.mechanism.drives[i]);
-            self.kinks.push(Kink { target, saturation, ..Kink::locked(drive.dof) });
-        }
-        self.kinks[k].add(limit, load_coefficient);
-        self.kink_of[i] = k;
-        self.mechanism.drives[i] = self.kinks[k].saturation;
+        let (target, saturation) = (self.target_velocities[i], self.mechanism.drives[i]);
+        let new = Kink { target, saturation, ..Kink::locked(drive.dof) };
+        self.mechanism.drives[i] = self.kinks.add(i, known, new, (limit, load_coefficient));
     }
 
     /// Writes the modes of the kinks to their drives.
     pub(super) fn write_modes(&mut self) {
-        for (drive, k) in self.mechanism.drives.iter_mut().zip(&self.kink_of) {
-            if let Some(kink) = self.kinks.get(*k) {
-                *drive = kink.saturation;
-            }
+        for (i, drive) in self.mechanism.drives.iter_mut().enumerate() {
+            *drive = self.kinks.saturation_of(i).unwrap_or(*drive);
         }
         self.mechanism.mark_locked();
     }
@@ -137,15 +123,15 @@ impl World {
     /// Solves the complementarity problem of the kinks by principal pivoting, from their present modes. Returns false
     /// if no modes were found that fit.
     fn solve_modes(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
-        let (mut fewest, mut left) = (usize::MAX, BLOCK_CHANGES);
-        for _ in 0..16 + 16 * self.kinks.len() {
+        let mut pivoting = Pivoting::default();
+        for _ in 0..self.kinks.max_tries() {
             self.write_modes();
             self.evaluate_slope(t, system);
             let infeasible = self.mark_infeasible(Law::Acceleration);
             if infeasible == 0 {
                 return true;
             }
-            self.pivot(infeasible, &mut fewest, &mut left);
+            self.pivot(infeasible, &mut pivoting);
         }
         let is_decided = self.enumerate_modes(t, system);
         self.statistics.undecided_modes += u64::from(!is_decided);
@@ -155,11 +141,11 @@ impl World {
     /// Tries all modes of the kinks if they are few, and leaves those with the fewest infeasible drives: where contacts
     /// change with the drives, pivoting need not end. Returns true if none is infeasible.
     fn enumerate_modes(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) -> bool {
-        if self.kinks.len() > MAX_ENUMERATED {
+        if self.kinks.list.len() > MAX_ENUMERATED {
             return false;
         }
         let (mut best, mut fewest) = (0, usize::MAX);
-        for code in 0..3_usize.pow(self.kinks.len() as u32) {
+        for code in 0..3_usize.pow(self.kinks.list.len() as u32) {
             let infeasible = self.try_modes(code, t, system);
             if infeasible < fewest {
                 (best, fewest) = (code, infeasible);
@@ -174,7 +160,7 @@ impl World {
 
     /// Number of infeasible drives under the modes with a ternary `code`.
     fn try_modes(&mut self, mut code: usize, t: f64, system: &mut dyn CoupledSystem<f64>) -> usize {
-        for kink in &mut self.kinks {
+        for kink in &mut self.kinks.list {
             kink.saturation = [0.0, 1.0, -1.0][code % 3];
             code /= 3;
         }
@@ -183,40 +169,24 @@ impl World {
         self.mark_infeasible(Law::Acceleration)
     }
 
-    /// Changes the modes of infeasible drives: of all of them, or after some changes without progress of the last one
-    /// alone.
-    fn pivot(&mut self, infeasible: usize, fewest: &mut usize, left: &mut u32) {
-        if infeasible < *fewest {
-            (*fewest, *left) = (infeasible, BLOCK_CHANGES);
-        } else if *left > 0 {
-            *left -= 1;
-        }
-        let block = *left > 0;
-        for kink in self.kinks.iter_mut().rev().filter(|kink| kink.infeasible) {
-            let reaction = self.mechanism.scratch.reaction[kink.dof];
-            kink.saturation = if kink.saturation == 0.0 { reaction.signum() } else { 0.0 };
-            if !block {
-                break;
-            }
-        }
+    /// Changes the modes of infeasible drives.
+    fn pivot(&mut self, infeasible: usize, pivoting: &mut Pivoting) {
+        self.kinks.pivot(infeasible, pivoting, |dof| self.mechanism.scratch.reaction[dof]);
     }
 
     /// Marks the kinks whose modes contradict their law in the last evaluation, and counts them.
     pub(super) fn mark_infeasible(&mut self, law: Law) -> usize {
         let (layout, rounding) = (self.layout(), self.mechanism.rounding());
         let mut count = 0;
-        for k in 0..self.kinks.len() {
-            let Kink { dof, target, saturation, .. } = self.kinks[k];
-            let limit = self.kinks[k].limit_under(self.mechanism.loads[dof]);
-            let infeasible = if saturation == 0.0 {
-                self.mechanism.is_overloaded(dof, limit)
-            } else if law == Law::Acceleration {
-                let scale = self.mechanism.acceleration_scale(dof);
-                self.slope[layout.velocity(dof)] * saturation > rounding * scale
+        for k in 0..self.kinks.list.len() {
+            let kink = self.kinks.list[k];
+            let infeasible = if kink.saturation != 0.0 && law == Law::Acceleration {
+                let scale = self.mechanism.acceleration_scale(kink.dof);
+                self.slope[layout.velocity(kink.dof)] * kink.saturation > rounding * scale
             } else {
-                self.mechanism.velocity_band().is_beyond(target, self.velocity(dof), saturation)
+                self.mechanism.contradicts_step(&kink, self.velocity(kink.dof), 0)
             };
-            self.kinks[k].infeasible = infeasible;
+            self.kinks.list[k].infeasible = infeasible;
             count += usize::from(infeasible);
         }
         count
@@ -237,7 +207,7 @@ impl World {
     fn look_ahead(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<f64>) {
         let ahead = self.move_ahead(t, h);
         let layout = self.layout();
-        for kink in &self.kinks {
+        for kink in &self.kinks.list {
             self.y[layout.velocity(kink.dof)] = kink.target;
         }
         self.solve_modes(ahead, system);
@@ -292,15 +262,20 @@ impl World {
             self.solve_coupled_step_modes(h, step);
             return;
         }
-        let (mut fewest, mut left) = (usize::MAX, BLOCK_CHANGES);
-        for _ in 0..16 + 16 * self.kinks.len() {
+        let (mut pivoting, mut left) = (Pivoting::default(), self.kinks.max_tries());
+        loop {
             self.mark_targets(h);
             step(self);
             let infeasible = self.mark_infeasible(Law::Velocity);
+            left -= 1;
             if infeasible == 0 {
                 return;
             }
-            self.pivot(infeasible, &mut fewest, &mut left);
+            if left == 0 {
+                // the modes of the step that was made stay
+                break;
+            }
+            self.pivot(infeasible, &mut pivoting);
             self.separate_kinks();
         }
         self.statistics.undecided_modes += 1;
@@ -314,16 +289,16 @@ impl World {
         if !matches!(self.method, Method::SemiImplicitEuler) || self.mechanism.couples_drives() {
             return;
         }
-        self.kinks.clear();
+        self.kinks.list.clear();
         for i in 0..self.target_velocities.len() {
-            self.kink_of[i] = NO_KINK;
+            self.kinks.release(i);
             let dof = self.mechanism.model.params.drives[i].dof;
             if self.mechanism.drives[i] == 0.0 && !self.is_unlimited(i) && !self.model().is_held(dof) {
-                let known = self.kinks.iter().position(|kink| kink.dof == dof);
+                let known = self.kinks.list.iter().position(|kink| kink.dof == dof);
                 self.add_to_kink(i, known);
             }
         }
-        if self.kinks.is_empty() || self.mark_infeasible(Law::Acceleration) == 0 {
+        if self.kinks.list.is_empty() || self.mark_infeasible(Law::Acceleration) == 0 {
             return;
         }
         let (undecided, report) = (self.statistics.undecided_modes, self.solver_report());
@@ -335,34 +310,23 @@ impl World {
 
     /// Collects all limited drives, with their present modes.
     pub(super) fn collect_all_limited(&mut self) {
-        self.kinks.clear();
+        self.kinks.list.clear();
         for i in 0..self.target_velocities.len() {
-            self.kink_of[i] = NO_KINK;
+            self.kinks.release(i);
             let dof = self.mechanism.model.params.drives[i].dof;
             if !self.is_unlimited(i) && !self.model().is_held(dof) {
                 let target = self.target_velocities[i];
-                let known = self.kinks.iter().position(|kink| kink.dof == dof && kink.target == target);
+                let known = self.kinks.list.iter().position(|kink| kink.dof == dof && kink.target == target);
                 self.add_to_kink(i, known);
             }
         }
         self.separate_kinks();
     }
 
-    /// Saturates all but one of several kinks of one degree of freedom that are locked at different velocities: the one
-    /// nearest to the velocity at the start of the step stays.
+    /// Saturates all but one of several kinks of one degree of freedom that are locked at different velocities.
     pub(super) fn separate_kinks(&mut self) {
         let layout = self.layout();
-        for k in 0..self.kinks.len() {
-            let (v, kink) = (self.before[layout.velocity(self.kinks[k].dof)], self.kinks[k]);
-            let distance = |other: &Kink| (other.target - v).abs();
-            let is_nearer = |(j, other): (usize, &Kink)| {
-                let order = (distance(other), j).partial_cmp(&(distance(&kink), k));
-                j != k && other.dof == kink.dof && other.saturation == 0.0 && order == Some(Ordering::Less)
-            };
-            if kink.saturation == 0.0 && self.kinks.iter().enumerate().any(is_nearer) {
-                self.kinks[k].saturation = (kink.target - v).signum();
-            }
-        }
+        self.kinks.separate(|dof| self.before[layout.velocity(dof)]);
         self.write_modes();
     }
 }

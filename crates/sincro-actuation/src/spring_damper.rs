@@ -17,13 +17,13 @@
 use sincro_integrate::quadrature;
 use sincro_math::Real;
 
-use super::force_law::ForceLaw;
-use crate::spatial::{Force, Motion, Pose, Vec3};
+use crate::force_law::ForceLaw;
+use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
 
 /// Point fixed in a link, or in the world: one end of a [`SpringDamper`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkPoint<R> {
-    /// Index of the link in [`Model::links`](crate::model::Model::links); `None` for the world.
+    /// Index of the link in `Model::links`; `None` for the world.
     pub link: Option<usize>,
     /// Position in the link's frame, or in the world `[m]`.
     pub position: Vec3<R>,
@@ -75,7 +75,7 @@ pub struct PathLength<R> {
 }
 
 /// Spring, damper and actuator along a path: between two points, or a tendon; from
-/// [`SpringDamperSpec`](crate::model::SpringDamperSpec).
+/// `SpringDamperSpec`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringDamper<R> {
     /// Path whose length the force law takes.

@@ -23,19 +23,19 @@
 
 use sincro_math::Real;
 
-use crate::spatial::{Force, Mat3, Motion, Pose, Quat, Vec3};
+use sincro_geometry::spatial::{Force, Mat3, Motion, Pose, Quat, Vec3};
 
 /// Frame fixed in a link, or in the world: one end of a [`Bushing`].
 #[derive(Clone, Copy, Debug)]
 pub struct LinkFrame<R> {
-    /// Index of the link in [`Model::links`](crate::model::Model::links); `None` for the world.
+    /// Index of the link in `Model::links`; `None` for the world.
     pub link: Option<usize>,
     /// Pose in the link's frame, or in the world `[m]`.
     pub pose: Pose<R>,
 }
 
 /// Compliant element with six degrees of freedom between two frames; from
-/// [`BushingSpec`](crate::model::BushingSpec). Lists of six have x, y, z of the translation, then of the rotation.
+/// `BushingSpec`. Lists of six have x, y, z of the translation, then of the rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct Bushing<R> {
     /// The frames A and B.
@@ -54,15 +54,15 @@ pub struct BushingMotion<R> {
     /// Velocity of the origin of B `[m/s]` and angular velocity of B `[rad/s]` as seen from A, axes of A.
     pub rates: [R; 6],
     /// Rotation of A in the world.
-    pub(crate) axes: Mat3<R>,
+    pub axes: Mat3<R>,
     /// Origin of B in the world `[m]`.
-    pub(crate) point: Vec3<R>,
+    pub point: Vec3<R>,
     /// Velocity of the origin of B in the world `[m/s]`.
-    pub(crate) velocity: Vec3<R>,
+    pub velocity: Vec3<R>,
     /// Angular velocity of A in the world `[rad/s]`.
-    pub(crate) turning: Vec3<R>,
+    pub turning: Vec3<R>,
     /// Uᵀ: its rows are those of the rotation in a linearly implicit step.
-    pub(crate) rotation_rows: Mat3<R>,
+    pub rotation_rows: Mat3<R>,
 }
 
 /// Components `from` to `from + 2` of a list of six.
@@ -147,7 +147,7 @@ impl<R: Real> Bushing<R> {
     /// Prepares a linearly implicit step with the steps of dampers and springs `[s]`: sets the rows of `at`, writes
     /// their coefficients to `kappa`, and returns the part of the force that the springs have by the present rates.
     #[inline(always)]
-    pub(crate) fn implicit(&self, at: &mut BushingMotion<R>, steps: (R, R), kappa: &mut [R]) -> [R; 6] {
+    pub fn implicit(&self, at: &mut BushingMotion<R>, steps: (R, R), kappa: &mut [R]) -> [R; 6] {
         let phi = part(&at.deflection, 3);
         let (k_phi, skew) = (part(&self.stiffness, 3), Mat3::skew(phi));
         let half = Mat3(skew.0.map(|row| row.map(|x| x * R::splat(-0.5))));
@@ -193,7 +193,7 @@ fn factored<R: Real>(mut a: [[R; 3]; 3], diagonal: &mut [R]) -> Mat3<R> {
 
 impl<R: Real> BushingMotion<R> {
     /// Rates `[m/s]`, `[rad/s]` of the deflection from those of the rows of a linearly implicit step.
-    pub(crate) fn rates_of_rows(&self, rows: [R; 6]) -> [R; 6] {
+    pub fn rates_of_rows(&self, rows: [R; 6]) -> [R; 6] {
         let (mut rates, u) = (rows, &self.rotation_rows.0);
         rates[4] -= u[1][2] * rates[5];
         rates[3] -= u[0][1] * rates[4] + u[0][2] * rates[5];
