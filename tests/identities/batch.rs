@@ -1,7 +1,7 @@
 //! World k of a batch has the bits it would have alone.
 
 use sincro_dynamics::actuation::{Motor, MotorMode};
-use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
+use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone, obstacle_to_lanes};
 use sincro_dynamics::joint::JointKind;
 use sincro_dynamics::model::{BodySpec, JointSpec, Model, ModelBuilder, NodeId, Shape};
 use sincro_dynamics::signal::Signal;
@@ -13,7 +13,8 @@ use crate::random::Random;
 
 const METHODS: [MethodKind; 3] = [MethodKind::SemiImplicitEuler, MethodKind::Rk4, MethodKind::Implicit];
 
-/// An arm with every kind of joint whose numbers depend on `r`; `friction` makes worlds want sub-steps of their own.
+/// An arm with every kind of joint whose numbers depend on `r`; with `friction` explicit methods want sub-steps of
+/// their own in each world.
 fn arm(r: &mut Random, friction: f64) -> Model<f64> {
     let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
     let kinds = [
@@ -76,6 +77,141 @@ fn a_lane_has_the_bits_of_the_world_alone() {
             }
         }
     }
+}
+
+/// Joint of an arm that switches.
+#[derive(Clone)]
+struct Switching {
+    kind: JointKind,
+    has_motor: bool,
+    has_friction: bool,
+    range: Option<(f64, f64)>,
+    restitution: f64,
+}
+
+impl Switching {
+    fn random(r: &mut Random, has_ranges: bool) -> Self {
+        let axis = [r.unit(), r.unit(), 1.0 + 0.5 * r.unit()];
+        let is_prismatic = r.unit() > 0.5;
+        let size = if is_prismatic { 0.2 } else { 0.5 };
+        let range = (-0.05 - size * r.unit().abs(), 0.05 + size * r.unit().abs());
+        Self {
+            kind: if is_prismatic { JointKind::Prismatic { axis } } else { JointKind::Revolute { axis } },
+            has_motor: r.unit() > -0.6,
+            has_friction: r.unit() > -0.2,
+            range: (has_ranges && r.unit() > -0.4).then_some(range),
+            restitution: if r.unit() > 0.0 { 0.5 } else { 0.0 },
+        }
+    }
+}
+
+/// An arm whose drives have limits from those that hold everything to those that hold nothing.
+fn switching_arm(r: &mut Random, joints: &[Switching]) -> Model<f64> {
+    let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
+    let mut parent = NodeId::WORLD;
+    for (i, of_joint) in joints.iter().enumerate() {
+        let mut spec = JointSpec::new(of_joint.kind);
+        let mut limit = || 10.0_f64.powi((r.unit() * 3.0).round() as i32 - 1) * (1.5 + r.unit());
+        if of_joint.has_motor {
+            spec.motor = vec![Motor { max_torque: limit(), ..Motor::new(MotorMode::Velocity) }];
+        }
+        if of_joint.has_friction {
+            spec.friction = vec![(0.3 * limit()).into()];
+        }
+        spec.limits = of_joint.range.into_iter().collect();
+        spec.limit_restitution = of_joint.restitution;
+        let at = Pose::translation(Vec3([0.1, 0.0, 0.05 * r.unit()]));
+        let joint = b.joint(&format!("j{i}"), parent, at, spec);
+        let mass = Shape::Cuboid { size: [0.1, 0.2, 0.3] }.mass_properties(200.0 + 50.0 * r.unit());
+        parent = b.body(&format!("b{i}"), joint, Pose::translation(Vec3([0.1, 0.0, 0.0])), BodySpec { mass });
+    }
+    b.build().unwrap().0
+}
+
+/// Number of steps of the worlds that switch.
+const SWITCHING_STEPS: u32 = 60;
+
+/// A world of such an arm whose commands are held for some steps, so that motors arrive.
+fn switching_world(r: &mut Random, joints: &[Switching]) -> BatchWorld {
+    let model = switching_arm(r, joints);
+    let mut x = State::new(&model);
+    x.v.iter_mut().for_each(|v| *v = if r.unit() > 0.0 { 3.0 * r.unit() } else { 0.0 });
+    let mut world = BatchWorld::new(model, x);
+    let n = world.model.n_commands();
+    for k in 0..SWITCHING_STEPS {
+        for i in 0..n {
+            let held = world.commands.len().checked_sub(n).filter(|_| k % 15 > 0);
+            world.commands.push(held.map_or_else(|| [r.unit(), 0.0][i % 2], |k| world.commands[k]));
+        }
+    }
+    world
+}
+
+fn bits(x: &[f64]) -> Vec<u64> {
+    x.iter().map(|x| x.to_bits()).collect()
+}
+
+/// Advances worlds together, and compares them with each alone.
+fn advance_and_compare(together: &mut [BatchWorld]) {
+    let settings =
+        BatchSettings { method: MethodKind::SemiImplicitEuler, h: 0.004, n_steps: SWITCHING_STEPS, record_every: 1 };
+    assert_eq!(obstacle_to_lanes(&together[0].model, settings.method), None);
+    let mut alone = together.to_vec();
+    advance(together, &settings).unwrap();
+    alone.iter_mut().for_each(|w| advance_alone(w, &settings));
+    for (a, b) in together.iter().zip(&alone) {
+        assert_eq!(bits(&a.record), bits(&b.record));
+        assert_eq!((&a.state.drives, &a.state.contacts), (&b.state.drives, &b.state.contacts));
+        assert_eq!(a.stop, b.stop);
+    }
+}
+
+#[test]
+fn each_lane_decides_its_limited_drives_by_itself() {
+    let mut r = Random::new(11);
+    let mut modes = [0_usize; 3];
+    for _ in 0..40 {
+        let n = 1 + (2.5 * (1.0 + r.unit())) as usize;
+        let joints: Vec<_> = (0..n).map(|_| Switching::random(&mut r, false)).collect();
+        let mut worlds: Vec<_> = (0..19).map(|_| switching_world(&mut r, &joints)).collect();
+        advance_and_compare(&mut worlds);
+        for world in &worlds {
+            assert!(world.steps_alone == 0 || sincro_math::lanes::width() == 1);
+            world.state.drives.iter().for_each(|mode| modes[(mode + 1.0) as usize] += 1);
+        }
+    }
+    assert!(modes.iter().all(|n| *n > 200), "locked and saturated ones, at the end alone: {modes:?}");
+}
+
+#[test]
+fn a_lane_that_reaches_a_limit_of_a_joint_makes_its_step_alone() {
+    let mut r = Random::new(12);
+    let (mut n_alone, mut n_steps) = (0, 0);
+    for _ in 0..40 {
+        let n = 1 + (2.5 * (1.0 + r.unit())) as usize;
+        let mut joints: Vec<_> = (0..n).map(|_| Switching::random(&mut r, true)).collect();
+        joints[0].range = Some((-0.3, 0.2));
+        let mut worlds: Vec<_> = (0..19).map(|_| switching_world(&mut r, &joints)).collect();
+        advance_and_compare(&mut worlds);
+        n_alone += worlds.iter().map(|world| world.steps_alone).sum::<u64>();
+        n_steps += worlds.len() as u64 * u64::from(SWITCHING_STEPS);
+    }
+    let share = n_alone as f64 / n_steps as f64;
+    assert!((0.05..0.8).contains(&share) || sincro_math::lanes::width() == 1, "{share}");
+}
+
+#[test]
+fn worlds_with_other_limits_of_joints_are_advanced_alone() {
+    let mut r = Random::new(13);
+    let mut joint = Switching::random(&mut r, false);
+    let mut worlds: Vec<_> = (0..8)
+        .map(|k| {
+            joint.range = Some((-0.1, 0.1 + 0.01 * f64::from(k)));
+            switching_world(&mut r, std::slice::from_ref(&joint))
+        })
+        .collect();
+    advance_and_compare(&mut worlds);
+    assert!(worlds.iter().all(|world| world.steps_alone == u64::from(SWITCHING_STEPS)));
 }
 
 #[test]

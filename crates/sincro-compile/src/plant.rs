@@ -1,7 +1,7 @@
 //! Programs of a model's dynamics: step, rates, forward and inverse dynamics, Jacobians.
 
 use sincro_dynamics::aba::{self, Input};
-use sincro_dynamics::batch::{LaneWorlds, is_time_invariant, obstacle_to_lanes};
+use sincro_dynamics::batch::{LaneWorlds, is_time_invariant, obstacle_to_programs};
 use sincro_dynamics::ids::BodyId;
 use sincro_dynamics::integrate::{Control, Extrapolated, FixedStep, Rk4, SemiImplicitEuler, System};
 use sincro_dynamics::kinematics;
@@ -29,14 +29,14 @@ pub fn check(model: &Model<f64>, method: MethodKind) -> Result<(), Obstacle> {
         None => Ok(()),
     };
     // what no other method would mend comes first
-    unless(obstacle_to_lanes(model, MethodKind::Rk4))?;
+    unless(obstacle_to_programs(model, MethodKind::Rk4))?;
     if !is_time_invariant(model) {
         return Err(Obstacle::new("a force or the wind depends on time"));
     }
     if method.controls_error() {
         return Err(Obstacle::new("the steps of a method with error control differ in length"));
     }
-    unless(obstacle_to_lanes(model, method))
+    unless(obstacle_to_programs(model, method))
 }
 
 /// Numbers of inputs of the programs of a model's step and rates, in their order: coordinates, velocities, rotor

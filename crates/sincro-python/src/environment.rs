@@ -173,6 +173,12 @@ impl Worlds {
         self.worlds(py, |worlds| worlds.plan().lanes_refused().map(ToOwned::to_owned))
     }
 
+    /// Base steps that worlds in lanes have made by themselves, because a limit of a joint took part in them.
+    #[getter]
+    fn steps_alone(&self, py: Python<'_>) -> PyResult<u64> {
+        self.worlds(py, TaskWorlds::steps_alone)
+    }
+
     /// Reason why the steps are not compiled; none if they are.
     #[getter]
     fn compilation_refused(&self, py: Python<'_>) -> PyResult<Option<String>> {

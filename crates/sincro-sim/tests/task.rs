@@ -620,3 +620,99 @@ fn diagrams_whose_steps_end_between_ticks_are_refused_in_lanes_by_name() {
     }
     assert_eq!(refused("semi-implicit-euler", &jump("0.163")), none);
 }
+
+/// A task with a motor that its limit stops, dry friction and joints that reach their limits, some at the start.
+const SWITCHING_TASK: &str = r#"
+title = "Switching"
+duration = 1.0
+step = 0.01
+integrator = "semi-implicit-euler"
+record = ["/rail.position"]
+
+[task]
+period = 0.05
+time_limit = 0.6
+signals = { x = "/rail.position", q = "/rail/cart/hinge.position", w = "/rail/cart/hinge.velocity", e = "energy.kinetic" }
+observations = ["x", "q", "w", "e", "push"]
+reward = "x"
+terminated = "abs(w) > 4"
+
+[task.commands]
+"/rail" = "if(t > 0.4, 0, 0.5*push)"
+
+[[task.action]]
+name = "push"
+range = [-3.0, 3.0]
+
+[[task.random]]
+signal = "/rail.position"
+range = [-0.1, 0.1]
+
+[[task.random]]
+signal = "/rail.velocity"
+range = [-1.0, 1.0]
+
+[[task.random]]
+signal = "/rail/cart/hinge.position"
+range = [-0.3, 0.3]
+"#;
+
+/// Commands of the motor at the hinge at ticks.
+const SWITCHING_DIAGRAM: &str = r#"
+sample_time = 0.02
+wires = ["/rail/cart/hinge.position -> spring -> /rail/cart/hinge"]
+
+[[block]]
+name = "spring"
+type = "gain"
+gain = -5.0
+"#;
+
+/// The cart with these limits: of the motor at the hinge `[N·m]`, or none that acts, and ranges of the joints.
+fn switching_scene(text: &str, has_ranges: bool) -> String {
+    let range = |range: &str| if has_ranges { format!("limits = {range}\n") } else { String::new() };
+    let rail = "kind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\nmotor = { mode = \"torque\" }";
+    let driven = "kind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\nmotor = { mode = \"velocity\", max_torque = 6.0 }\nfriction = 0.4\n";
+    let hinge = "parent = \"/rail/cart\"\nmotor = { mode = \"torque\" }";
+    assert!(text.contains(rail) && text.contains(hinge));
+    let text = text.replace(rail, &(driven.to_owned() + &range("{ lower = -0.1, upper = 0.12, restitution = 0.3 }")));
+    text.replace(
+        hinge,
+        &format!(
+            "{hinge}\nfriction = {{ sliding = 0.02, static = 0.03, stribeck_velocity = 0.1 }}\n{}",
+            range("{ lower = -0.4, upper = 0.4 }")
+        ),
+    )
+}
+
+#[test]
+fn worlds_with_limits_and_friction_run_in_lanes_as_one_by_one() {
+    let n = 64 + 3;
+    for (name, has_ranges) in [("limited", false), ("ranges", true)] {
+        let scene = |text: String| switching_scene(&text, has_ranges);
+        let task = SWITCHING_TASK.replace("step = 0.01", "step = 0.01\ndiagram = \"control.toml\"");
+        let lanes = OwnTask::with_scene(name, &task, SWITCHING_DIAGRAM, scene);
+        let alone = OwnTask::with_scene(&format!("{name}-alone"), &(task + ONE_BY_ONE), SWITCHING_DIAGRAM, scene);
+        let [lanes, alone] = [&lanes, &alone]
+            .map(|own| load(&own.0, &[], Extensions::default()).unwrap_or_else(|found| panic!("{name}: {found}")));
+        for autoreset in [Autoreset::SameStep, Autoreset::NextStep, Autoreset::Disabled] {
+            let mut worlds = TaskWorlds::new(&alone, n, 2).unwrap();
+            assert!(worlds.plan().lanes_refused().is_some_and(|why| why.contains("drawn")), "{name}");
+            let expected = episodes(&mut worlds, autoreset, 60);
+            for threads in [1, 2] {
+                let mut worlds = TaskWorlds::new(&lanes, n, threads).unwrap();
+                let found = episodes(&mut worlds, autoreset, 60);
+                if sincro_math::lanes::width() > 1 {
+                    assert_eq!(worlds.plan().lanes_refused(), None, "{name}");
+                    assert_eq!(worlds.steps_alone() > 1000, has_ranges, "{}", worlds.steps_alone());
+                }
+                for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                    let differs = found.iter().zip(expected).position(|(a, b)| a != b);
+                    let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
+                    assert_eq!(differs.map(of), None, "{name}, {autoreset:?}, {threads} threads, world {world}");
+                    assert_eq!(found.len(), expected.len());
+                }
+            }
+        }
+    }
+}

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use sincro_math::{Real, Task};
 
+use super::joint_limits::JointLimits;
+use super::step_modes::StepModes;
 use super::{BatchSettings, BatchWorld, CompiledStep};
 use crate::coupled::{Coupled, CoupledSystem, StateView};
 use crate::integrate::{Control, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
@@ -48,8 +50,12 @@ pub struct LaneWorlds<R> {
     slope: Vec<R>,
     /// Diagonal of −∂f/∂z of the coupled system; its length is the number of its states.
     negated_jacobian_diagonal: Vec<R>,
-    /// Target velocities of the drives in a step with a coupled system.
-    target_velocities: Vec<R>,
+    /// Target velocities of the drives in the present step.
+    pub(super) target_velocities: Vec<R>,
+    /// Decision of the modes of limited drives; none if there are none.
+    pub(super) modes: Option<Box<StepModes<R>>>,
+    /// Limits of joints; none if there are none.
+    pub(super) limits: Option<Box<JointLimits<R>>>,
     method: FixedMethod<R>,
     compiled: Option<Arc<dyn CompiledStep>>,
     /// State and commands as the compiled step has them.
@@ -90,10 +96,20 @@ impl<R: Real> Task for Step<'_, R> {
         let Self { worlds, t, h } = self;
         let is_driven = !worlds.mechanism.drives.is_empty();
         if is_driven {
-            worlds.drive(h);
+            worlds.latch_target_velocities();
         }
-        let LaneWorlds { mechanism, y, method, .. } = worlds;
-        method.step(mechanism, t, h, y);
+        let step = |worlds: &mut LaneWorlds<R>| {
+            let LaneWorlds { mechanism, y, method, .. } = worlds;
+            method.step(mechanism, t, h, y);
+        };
+        if worlds.modes.is_some() {
+            worlds.step_in_modes(h, step);
+        } else {
+            if is_driven {
+                worlds.drive(h);
+            }
+            step(worlds);
+        }
         if is_driven && worlds.is_euler() {
             worlds.set_driven_velocities();
         }
@@ -116,22 +132,24 @@ impl<R: Real> Task for StepWith<'_, R> {
         let Self { worlds, system, t, h } = self;
         let own = worlds.mechanism.dim();
         worlds.y[own..].copy_from_slice(system.states());
-        let n_drives = worlds.mechanism.drives.len();
-        if n_drives > 0 {
-            for i in 0..n_drives {
-                worlds.target_velocities[i] = worlds.target_velocity(i);
-            }
-            worlds.drive(h);
+        let is_driven = !worlds.mechanism.drives.is_empty();
+        if is_driven {
+            worlds.latch_target_velocities();
         }
-        let LaneWorlds { mechanism, y, method, negated_jacobian_diagonal, .. } = worlds;
-        method.step(&mut Coupled { mechanism, system: &mut *system, negated_jacobian_diagonal }, t, h, y);
-        if worlds.is_euler() {
-            // those that were latched: the system may have changed the commands since
-            let layout = worlds.mechanism.layout();
-            for i in 0..n_drives {
-                let dof = worlds.mechanism.model.params.drives[i].dof;
-                worlds.y[layout.velocity(dof)] = worlds.target_velocities[i];
+        let mut step = |worlds: &mut LaneWorlds<R>| {
+            let LaneWorlds { mechanism, y, method, negated_jacobian_diagonal, .. } = worlds;
+            method.step(&mut Coupled { mechanism, system: &mut *system, negated_jacobian_diagonal }, t, h, y);
+        };
+        if worlds.modes.is_some() {
+            worlds.step_in_modes(h, step);
+        } else {
+            if is_driven {
+                worlds.drive(h);
             }
+            step(worlds);
+        }
+        if worlds.is_euler() {
+            worlds.set_driven_velocities();
         }
         system.states().copy_from_slice(&worlds.y[own..]);
     }
@@ -198,6 +216,8 @@ impl<R: Real> LaneWorlds<R> {
             slope: zeros(own),
             negated_jacobian_diagonal: zeros(n_states),
             target_velocities: zeros(mechanism.drives.len()),
+            modes: StepModes::new(&mechanism, dim).map(Box::new),
+            limits: JointLimits::new(models, dim).map(Box::new),
             reach_target_velocities,
             mechanism,
             method,
@@ -314,6 +334,11 @@ impl<R: Real> LaneWorlds<R> {
         self.y[rotors].copy_from_slice(&gather(n, &|s| &s.rotors));
         let commands = gather(self.mechanism.commands.len(), &|s| &s.commands);
         self.mechanism.commands.copy_from_slice(&commands);
+        let drives = gather(self.mechanism.drives.len(), &|s| &s.drives);
+        self.mechanism.drives.copy_from_slice(&drives);
+        if let Some(limits) = &mut self.limits {
+            limits.load(|k| of(k));
+        }
     }
 
     fn store(&self, worlds: &mut [BatchWorld]) {
@@ -334,6 +359,12 @@ impl<R: Real> LaneWorlds<R> {
             for (c, lanes) in world.state.commands.iter_mut().zip(&self.mechanism.commands) {
                 *c = lanes.lane(k);
             }
+            for (mode, lanes) in world.state.drives.iter_mut().zip(&self.mechanism.drives) {
+                *mode = lanes.lane(k);
+            }
+            if let Some(limits) = &self.limits {
+                world.state.contacts.clone_from(limits.contacts(k));
+            }
         }
     }
 
@@ -347,6 +378,9 @@ impl<R: Real> LaneWorlds<R> {
             self.command(worlds, k as usize);
             let t = (first + u64::from(k)) as f64 * settings.h;
             self.step(t, settings.h);
+            if let Some(limits) = &mut self.limits {
+                limits.note(worlds);
+            }
             self.note_stops(worlds, t);
             self.record(worlds, settings.record_every > 0 && (k + 1) % settings.record_every == 0);
             for world in worlds.iter_mut().filter(|w| w.stop.is_none()) {
@@ -361,7 +395,12 @@ impl<R: Real> LaneWorlds<R> {
     #[inline(always)]
     pub fn step(&mut self, t: f64, h: f64) {
         // one world alone is a `World`: no copy of the step for it
-        if !R::IS_SCALAR && !self.compiled_step() {
+        if R::IS_SCALAR {
+            return;
+        }
+        if self.limits.is_some() {
+            self.step_beside_limits(t, h, |worlds| R::run_hot(Step { worlds, t, h }));
+        } else if !self.compiled_step() {
             R::run_hot(Step { worlds: self, t, h });
         }
     }
@@ -372,8 +411,9 @@ impl<R: Real> LaneWorlds<R> {
     ///
     /// # Panics
     ///
-    /// If the system has another number of states than the worlds were made for.
+    /// If the system has another number of states than the worlds were made for, or if joints have limits.
     pub fn step_with(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<R>) {
+        assert!(self.limits.is_none(), "a coupled system acts on lanes all together");
         if !R::IS_SCALAR {
             R::run_hot(StepWith { worlds: self, system, t, h });
         }
@@ -425,7 +465,7 @@ impl<R: Real> LaneWorlds<R> {
         self.mechanism.mark_locked();
         for i in 0..self.mechanism.drives.len() {
             let dof = self.mechanism.model.params.drives[i].dof;
-            let missing = self.target_velocity(i) - self.y[layout.velocity(dof)];
+            let missing = self.target_velocities[i] - self.y[layout.velocity(dof)];
             let scale = if is_euler { R::splat(h) } else { R::one() };
             self.mechanism.prescribed_acceleration[dof] = missing / scale;
         }
@@ -440,17 +480,22 @@ impl<R: Real> LaneWorlds<R> {
         self.mechanism.mark_locked();
     }
 
+    /// Latches the target velocities of the drives for a step.
     #[inline(always)]
-    fn target_velocity(&self, i: usize) -> R {
-        let drive = &self.mechanism.model.params.drives[i];
-        self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands)
+    fn latch_target_velocities(&mut self) {
+        let mechanism = &self.mechanism;
+        for (drive, velocity) in mechanism.model.params.drives.iter().zip(&mut self.target_velocities) {
+            *velocity = mechanism.model.target_velocity(drive, mechanism.base(), &mechanism.commands);
+        }
     }
 
+    /// Sets the velocities of locked drives to their targets.
     #[inline(always)]
     fn set_driven_velocities(&mut self) {
         let layout = self.mechanism.layout();
-        for i in 0..self.mechanism.drives.len() {
-            self.y[layout.velocity(self.mechanism.model.params.drives[i].dof)] = self.target_velocity(i);
+        for (i, target) in self.target_velocities.iter().enumerate() {
+            let at = layout.velocity(self.mechanism.model.params.drives[i].dof);
+            self.y[at] = self.mechanism.drives[i].abs().if_less(R::splat(0.5), *target, self.y[at]);
         }
     }
 

@@ -1,13 +1,15 @@
 //! Many worlds of one structure, several at a time in the lanes of vector registers.
 //!
 //! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has
-//! the bits that [`World`] gives it alone: lanes do the same operations in the same order. What lanes cannot do
-//! together (drives with a limit, inputs with corners: each world would want its own sub-steps) is done one world at a
-//! time; the result does not tell.
+//! the bits that [`World`] gives it alone: lanes do the same operations in the same order. Limits of
+//! drives and dry friction are decided in each lane by itself over a step of semi-implicit Euler; what lanes cannot do
+//! together ([`obstacle_to_lanes`], and inputs with corners) is done one world at a time; the result does not tell.
 //!
 //! Steps are fixed: semi-implicit Euler, RK4 or implicit. No threads here; `sincro-sim` deals bundles to threads.
 
+mod joint_limits;
 mod lane_worlds;
+mod step_modes;
 mod stepped;
 
 use core::fmt;
@@ -41,13 +43,16 @@ pub struct BatchWorld {
     /// Recorded coordinates and velocities in SI units: rows of n_q + n_v numbers, one row after the other, the first
     /// at the start, then one every `record_every` steps. A run appends to it.
     pub record: Vec<f64>,
+    /// Number of steps that it made by itself, not in the lanes: all if lanes do not advance it, else those in which a
+    /// limit of a joint took part. Runs add to it.
+    pub steps_alone: u64,
 }
 
 impl BatchWorld {
     /// World that starts in `state` and holds the commands in it.
     #[must_use]
     pub fn new(model: Model<f64>, state: State<f64>) -> Self {
-        Self { model, state, commands: Vec::new(), stop: None, record: Vec::new() }
+        Self { model, state, commands: Vec::new(), stop: None, record: Vec::new(), steps_alone: 0 }
     }
 }
 
@@ -125,7 +130,7 @@ pub fn advance_compiled(
     assert!(fixed, "a batch has a fixed step");
     let width = sincro_math::lanes::width();
     for (k, bundle) in worlds.chunks_mut(width).enumerate() {
-        if bundle.iter().all(|w| suits_lanes(w, settings)) {
+        if bundle.iter().all(|w| suits_lanes(w, settings) && has_limits_of(&w.model, &bundle[0].model)) {
             let compiled = compiled.map(|of| of(k * width));
             dispatch_lanes(Bundle { worlds: bundle, settings, compiled })?;
         } else {
@@ -140,12 +145,45 @@ fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
     obstacle_to_lanes(&world.model, settings.method).is_none() && world.model.next_time_event(-1.0) >= end
 }
 
+/// Returns true if the same drives of two models of one structure have limits, and their joints the same limits.
+fn has_limits_of(model: &Model<f64>, other: &Model<f64>) -> bool {
+    let mut drives = model.drives().iter().zip(other.drives());
+    drives.all(|(a, b)| model.drive_limit(a).is_some() == other.drive_limit(b).is_some())
+        && model.constraints() == other.constraints()
+}
+
 /// Part of a model that lanes cannot advance together with `method`, in words for a message; `None` if there is none.
 #[must_use]
 pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'static str> {
-    if model.params.drives.iter().any(|d| model.drive_limit(d).is_some()) {
+    let constraints = model.constraints();
+    if !(constraints.loop_joints.is_empty() && constraints.gears.is_empty() && constraints.pairs.is_empty()) {
+        return Some("contacts, loop joints or gears");
+    }
+    if method != MethodKind::SemiImplicitEuler && !constraints.is_empty() {
+        return Some("limits of joints, with another method than semi-implicit Euler");
+    }
+    if method != MethodKind::SemiImplicitEuler && model.has_limited_drives() {
+        return Some("a drive with a limit or friction, with another method than semi-implicit Euler");
+    }
+    if model.drives().iter().any(|drive| model.load_coefficient(drive) != 0.0) {
+        return Some("friction that grows with the load of its bearing");
+    }
+    obstacle_to_equations(model, method)
+}
+
+/// Part of a model whose step by `method` is no program without branches, in words for a message: what switches, and
+/// what lanes cannot advance. `None` if there is none.
+#[must_use]
+pub fn obstacle_to_programs(model: &Model<f64>, method: MethodKind) -> Option<&'static str> {
+    if model.has_limited_drives() {
         return Some("a drive with a limit or friction");
     }
+    let constraints = "contacts, loop joints or limits of joints";
+    obstacle_to_equations(model, method).or_else(|| (!model.constraints().is_empty()).then_some(constraints))
+}
+
+/// Part of the equations of motion that neither lanes nor programs evaluate with `method`.
+fn obstacle_to_equations(model: &Model<f64>, method: MethodKind) -> Option<&'static str> {
     if model.gravity_field.is_some() {
         return Some("gravity that depends on the position");
     }
@@ -156,10 +194,8 @@ pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'sta
     if model.rotors.iter().any(|r| matches!(r.speed, SpeedSource::Particles { .. })) {
         return Some("a rotor of particles");
     }
-    if method != MethodKind::Rk4 && model.has_lines() {
-        return Some("a spring or damper between two points, an elastic gear or a bushing, with an implicit method");
-    }
-    (!model.constraints().is_empty()).then_some("contacts, loop joints or limits of joints")
+    let has_lines = method != MethodKind::Rk4 && model.has_lines();
+    has_lines.then_some("a spring or damper between two points, an elastic gear or a bushing, with an implicit method")
 }
 
 /// Returns true if the forces on a model do not depend on time explicitly: its signals are constant, the wind is
@@ -188,6 +224,7 @@ pub fn advance_alone(world: &mut BatchWorld, settings: &BatchSettings) {
             world.stop = Some(stop);
             break;
         }
+        world.steps_alone += 1;
         let due = settings.record_every > 0 && (k + 1) % settings.record_every == 0;
         record(&mut world.record, &alone.state.q, &alone.state.v, due);
     }

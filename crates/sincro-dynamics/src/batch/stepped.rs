@@ -116,9 +116,20 @@ impl SteppedLanes {
     }
 
     /// Sets the state of lane `lane`, 0 to the number of lanes − 1 (others: no effect): coordinates (n_q), velocities
-    /// (n_v) and rotor states of `state`, in SI units. Commands and the rest of it are ignored.
+    /// (n_v), rotor states and modes of drives of `state`, in SI units. Commands and the rest of it are ignored.
     pub fn set_lane(&mut self, lane: usize, state: &State<f64>) {
-        dispatch_lanes(SetLane { lanes: self, lane, state });
+        dispatch_lanes(SetLane { lanes: self, lane, state, is_start: false });
+    }
+
+    /// As [`SteppedLanes::set_lane`], at the start of a run: limits of joints act that the state has reached, as in
+    /// [`World::initialize`](crate::world::World::initialize).
+    pub fn start_lane(&mut self, lane: usize, state: &State<f64>) {
+        dispatch_lanes(SetLane { lanes: self, lane, state, is_start: true });
+    }
+
+    /// Number of steps that worlds have made by themselves, because a limit of a joint took part in them.
+    pub fn steps_alone(&mut self) -> u64 {
+        dispatch_lanes(StepsAlone { lanes: self })
     }
 
     /// Sets the commands of all lanes, held until they are set again: for each lane [`Model::n_commands`] numbers in
@@ -202,6 +213,7 @@ struct SetLane<'a> {
     lanes: &'a mut SteppedLanes,
     lane: usize,
     state: &'a State<f64>,
+    is_start: bool,
 }
 
 impl LaneVisitor for SetLane<'_> {
@@ -209,20 +221,21 @@ impl LaneVisitor for SetLane<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) {
-        let Self { lanes, lane, state } = self;
-        let LaneWorlds { mechanism, y, .. } = lanes.worlds::<R>();
-        let with = |old: R, new: f64| R::from_lanes(|k| if k == lane { new } else { old.lane(k) });
-        let base: Vec<R> = mechanism.base().iter().zip(&state.q).map(|(old, new)| with(*old, *new)).collect();
-        mechanism.set_base(&base);
-        let layout = mechanism.layout();
-        for (k, new) in state.v.iter().enumerate() {
-            let at = layout.velocity(k);
-            y[at] = with(y[at], *new);
-            y[k] = with(y[k], 0.0);
-        }
-        for (k, new) in layout.rotor_states().zip(&state.rotors) {
-            y[k] = with(y[k], *new);
-        }
+        let Self { lanes, lane, state, is_start } = self;
+        lanes.worlds::<R>().set_lane(lane, state, is_start);
+    }
+}
+
+struct StepsAlone<'a> {
+    lanes: &'a mut SteppedLanes,
+}
+
+impl LaneVisitor for StepsAlone<'_> {
+    type Output = u64;
+
+    #[inline(always)]
+    fn visit<R: Real>(self) -> u64 {
+        self.lanes.worlds::<R>().limits.as_ref().map_or(0, |limits| limits.n_alone.iter().sum())
     }
 }
 

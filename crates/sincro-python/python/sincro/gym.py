@@ -198,6 +198,11 @@ class SceneVectorEnv(VectorEnv):
         return self._worlds.lanes_refused
 
     @property
+    def steps_alone(self) -> int:
+        """Base steps that worlds in lanes have made by themselves, because a limit of a joint took part in them."""
+        return self._worlds.steps_alone
+
+    @property
     def compilation_refused(self) -> str | None:
         """Reason for steps that are not compiled by the system's C compiler; None if they are. The results are the same."""
         return self._worlds.compilation_refused

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sincro_blocks::library::sources::random::{gaussian, uniform};
 use sincro_blocks::program::{Program, Step};
-use sincro_dynamics::batch::{is_time_invariant, obstacle_to_lanes};
+use sincro_dynamics::batch::{is_time_invariant, obstacle_to_lanes, obstacle_to_programs};
 use sincro_dynamics::model::Model;
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::state::State;
@@ -178,11 +178,23 @@ impl Plan {
     /// Part of the scene that keeps the recursions from advancing its worlds in lanes, in words.
     fn obstacle_to_recursions(&self) -> Option<String> {
         let common = self.common_obstacle().map(ToOwned::to_owned);
-        common.or_else(|| self.obstacle_in_diagram()).or_else(|| {
+        common.or_else(|| self.obstacle_in_diagram()).or_else(|| self.obstacle_in_sensors()).or_else(|| {
             let is_known = |probe: &Probe| is_of_state(&self.loaded.scene.model, *probe) || self.is_of_lanes(*probe);
             let words = "a signal that lanes do not compute, such as a contact, an acceleration or a proximity sensor";
             (!self.probes.iter().all(is_known)).then(|| words.to_owned())
         })
+    }
+
+    /// Sensors that lanes cannot measure though they can others of their kind, in words.
+    fn obstacle_in_sensors(&self) -> Option<String> {
+        let reads_accelerations = || {
+            let kinds = self.read_sensor_values().filter_map(|value| self.sensor_of(value));
+            kinds.into_iter().any(|kind| matches!(kind, SensorKind::Imu { .. }))
+        };
+        let model = &self.scene().model;
+        let switches = model.has_limited_drives() || !model.constraints().is_empty();
+        let words = "a sensor of accelerations, which limits of joints, limited drives and friction change";
+        (switches && reads_accelerations()).then(|| words.to_owned())
     }
 
     /// Part of the diagram that keeps it from running in or beside lanes, in words.
@@ -191,6 +203,9 @@ impl Plan {
         let program = wiring.program();
         if let Some(step) = program.steps.iter().find(|step| step.template.zero_crossing_count().is_some()) {
             return Some(format!("block `{}` of the diagram, which has events between ticks", step.path));
+        }
+        if program.is_continuous() && !self.scene().model.constraints().is_empty() {
+            return Some("a continuous diagram beside limits of joints".to_owned());
         }
         if !wiring.late.is_empty() {
             return Some("a diagram that measures accelerations or motor torques".to_owned());
@@ -238,9 +253,13 @@ impl Plan {
     /// Returns true for the value of a sensor that the state and the accelerations decide, with its noise.
     fn is_of_lanes(&self, probe: Probe) -> bool {
         let Probe::Sensor(value) = probe else { return false };
+        !matches!(self.sensor_of(value), None | Some(SensorKind::Contact { .. } | SensorKind::Proximity { .. }))
+    }
+
+    /// Kind of the sensor that a value belongs to, by its number among those of all sensors.
+    fn sensor_of(&self, value: usize) -> Option<SensorKind> {
         let sensors = self.loaded.scene.sensors.iter();
-        let mut of_values = sensors.flat_map(|sensor| sensor.kind.values().into_iter().map(|_| sensor.kind));
-        !matches!(of_values.nth(value), None | Some(SensorKind::Contact { .. } | SensorKind::Proximity { .. }))
+        sensors.flat_map(|sensor| sensor.kind.values().into_iter().map(|_| sensor.kind)).nth(value)
     }
 
     /// Values of sensors that the task or its diagram reads, by their numbers among those of all sensors.
@@ -255,7 +274,8 @@ impl Plan {
 
     /// Part of the scene that keeps compiled programs from advancing its worlds, in words; its diagram apart.
     pub(super) fn obstacle_to_programs(&self) -> Option<&str> {
-        self.common_obstacle().or_else(|| {
+        let switches = || obstacle_to_programs(&self.loaded.scene.model, self.method);
+        self.common_obstacle().or_else(switches).or_else(|| {
             let scene = &self.loaded.scene;
             if !scene.commands.iter().all(|s| matches!(s, Signal::Constant(_))) {
                 return Some("signals of the scene that change with time");

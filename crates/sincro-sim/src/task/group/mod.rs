@@ -110,6 +110,14 @@ impl Group {
         self.compiled.as_ref().is_some_and(CompiledWorlds::are_current)
     }
 
+    /// Number of base steps that worlds in lanes have made by themselves.
+    pub fn steps_alone(&mut self) -> u64 {
+        match &mut self.worlds {
+            Worlds::Lanes(bundle) => bundle.steps_alone(),
+            Worlds::Single(_) => 0,
+        }
+    }
+
     /// Coordinates of a world.
     pub fn coordinates(&mut self, plan: &Plan, k: usize) -> Vec<f64> {
         self.leave_rows(plan);

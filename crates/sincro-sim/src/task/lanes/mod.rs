@@ -50,7 +50,7 @@ impl LaneBundle {
 
     /// Begins an episode of a world, up to its first samples and the evaluation of its diagram: [`LaneBundle::start`].
     pub fn begin(&mut self, plan: &Plan, lane: usize, drawn: &Drawn) {
-        self.place(plan, lane, &drawn.state);
+        self.lanes(plan).start_lane(lane, &drawn.state);
         (self.ticks[lane], self.is_good[lane]) = (0, true);
         if let Some(sensors) = &mut self.sensors {
             sensors.begin(lane, drawn.noise_seed);
@@ -205,6 +205,11 @@ impl LaneBundle {
     /// Copies coordinates, velocities and rotor states of all worlds, row by row.
     pub fn copy_state(&mut self, plan: &Plan, rows: &mut [f64]) {
         self.lanes(plan).observe(false, StateRows { rows });
+    }
+
+    /// Number of base steps that the worlds have made by themselves.
+    pub fn steps_alone(&mut self) -> u64 {
+        self.lanes.as_mut().map_or(0, SteppedLanes::steps_alone)
     }
 
     /// Coordinates of one world.

@@ -1,0 +1,197 @@
+//! Limits of joints of worlds in lanes: a lane that is near none of its limits makes its step with the others, one that
+//! may reach a limit within the step makes it by itself.
+//!
+//! The rule is that of [`World`](crate::world::World): a limit which the step may reach at its start, or which it has
+//! passed at its end, takes part in it as a constraint. Any other step is that of a world without limits.
+
+use sincro_math::{Real, Task};
+
+use super::BatchWorld;
+use super::lane_worlds::LaneWorlds;
+use crate::integrate::Control;
+use crate::mechanism::constraints::ActivationRule;
+use crate::mechanism::foresight::passed;
+use crate::model::{Limit, Model};
+use crate::state::State;
+use crate::world::{MethodKind, Stop, World};
+
+/// Limits of joints of worlds in lanes, and the worlds that make their steps by themselves.
+#[derive(Clone, Debug)]
+pub(super) struct JointLimits<R> {
+    limits: Vec<Limit>,
+    /// World of each lane, with the warm start of its limits.
+    alone: Vec<World>,
+    /// Strongest gravity [m/s²].
+    gravity: R,
+    /// State at the start of the step.
+    start: [Vec<R>; 3],
+    /// 1 for each lane whose step is made alone.
+    is_alone: R,
+    /// Number of steps that each lane has made alone.
+    pub n_alone: Vec<u64>,
+    /// Reason for which the step of a lane could not be made.
+    pub stops: Vec<Option<Stop>>,
+}
+
+impl<R: Real> JointLimits<R> {
+    /// Limits of the joints of `models`, the last of which fills the remaining lanes; `None` if they have none.
+    pub fn new(models: &[&Model<f64>], dim: usize) -> Option<Self> {
+        let first = models[0];
+        let limits = first.constraints().limits.clone();
+        if R::IS_SCALAR || limits.is_empty() {
+            return None;
+        }
+        let of = |k: usize| models[k.min(models.len() - 1)];
+        // a step of its own length each time
+        let control = Control::new(1.0, 1.0);
+        let world = |k: usize| {
+            let (model, state) = (of(k).clone(), State::new(of(k)));
+            World::with_totals(model, state, MethodKind::SemiImplicitEuler, control, false)
+        };
+        let zeros = |n: usize| vec![R::zero(); n];
+        Some(Self {
+            limits,
+            alone: (0..R::LANES).map(world).collect(),
+            gravity: R::from_lanes(|k| of(k).strongest_gravity(&[])),
+            start: [zeros(dim), zeros(first.n_q()), zeros(first.n_drives())],
+            is_alone: R::zero(),
+            n_alone: vec![0; R::LANES],
+            stops: vec![None; R::LANES],
+        })
+    }
+
+    /// Begins a run of the worlds of a batch from the states that `of` gives for each lane.
+    pub fn load<'a>(&mut self, of: impl Fn(usize) -> &'a State<f64>) {
+        for (k, world) in self.alone.iter_mut().enumerate() {
+            world.state.clone_from(of(k));
+            (self.n_alone[k], self.stops[k]) = (0, None);
+        }
+    }
+
+    /// Warm start of the limits of lane `k`.
+    pub fn contacts(&self, k: usize) -> &Vec<f64> {
+        &self.alone[k].state.contacts
+    }
+
+    /// Notes in the worlds of a batch which of them cannot go on, and which steps were made alone.
+    pub fn note(&mut self, worlds: &mut [BatchWorld]) {
+        for (k, world) in worlds.iter_mut().enumerate().filter(|(_, world)| world.stop.is_none()) {
+            world.steps_alone += core::mem::take(&mut self.n_alone[k]);
+            world.stop = self.stops[k];
+            if world.stop.is_some() {
+                world.state.clone_from(&self.alone[k].state);
+            }
+        }
+    }
+}
+
+/// Looks for the lanes whose limits the step of length `h` may reach at its start, or has passed at its end.
+struct Look<'a, R> {
+    worlds: &'a LaneWorlds<R>,
+    limits: &'a mut JointLimits<R>,
+    h: f64,
+    is_end: bool,
+}
+
+impl<R: Real> Task for Look<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { worlds, limits, h, is_end } = self;
+        let (q, v) = (worlds.coordinates(), worlds.velocities());
+        let (zero, one) = (R::zero(), R::one());
+        let mut is_alone = if is_end { limits.is_alone } else { zero };
+        let passed = passed(h, limits.gravity);
+        for limit in &limits.limits {
+            let sign = R::splat(limit.sign);
+            let distance = sign * (q[limit.coordinate] - R::splat(limit.bound));
+            let rate = sign * v[limit.dof];
+            let takes_part = if is_end {
+                distance.if_less(passed, rate.if_less(zero, one, zero), zero)
+            } else {
+                ActivationRule::reach(h, rate, limits.gravity).if_less(distance, zero, one)
+            };
+            is_alone = is_alone.max(takes_part);
+        }
+        limits.is_alone = is_alone;
+    }
+}
+
+impl<R: Real> LaneWorlds<R> {
+    /// Makes one step of length `h` `[s]` from time `t` `[s]` in all lanes beside the limits of their joints, which
+    /// `step` makes as if there were none.
+    pub(super) fn step_beside_limits(&mut self, t: f64, h: f64, step: impl FnOnce(&mut Self)) {
+        let Some(mut limits) = self.limits.take() else { return };
+        R::run_hot(Look { worlds: self, limits: &mut limits, h, is_end: false });
+        let [y, base, drives] = &mut limits.start;
+        y.copy_from_slice(&self.y);
+        base.copy_from_slice(self.mechanism.base());
+        drives.copy_from_slice(&self.mechanism.drives);
+        if (0..R::LANES).any(|k| limits.is_alone.lane(k) < 0.5) {
+            step(self);
+            R::run_hot(Look { worlds: self, limits: &mut limits, h, is_end: true });
+        }
+        for k in 0..R::LANES {
+            if limits.stops[k].is_some() {
+                continue;
+            }
+            if limits.is_alone.lane(k) > 0.5 {
+                limits.n_alone[k] += 1;
+                self.step_alone(&mut limits, k, (t, h));
+            } else {
+                // none of its limits is loaded
+                limits.alone[k].state.contacts.clear();
+                limits.alone[k].state.contacts.push(0.0);
+            }
+        }
+        self.limits = Some(limits);
+    }
+
+    /// Makes the step of lane `k` from its start by itself.
+    fn step_alone(&mut self, limits: &mut JointLimits<R>, k: usize, (t, h): (f64, f64)) {
+        let layout = self.mechanism.layout();
+        let JointLimits { alone, start: [y, base, drives], stops, .. } = limits;
+        let world = &mut alone[k];
+        let copy = |to: &mut [f64], from: &[R]| to.iter_mut().zip(from).for_each(|(to, from)| *to = from.lane(k));
+        copy(&mut world.state.q, base);
+        copy(&mut world.state.v, &y[layout.velocities()]);
+        copy(&mut world.state.rotors, &y[layout.rotor_states()]);
+        copy(&mut world.state.drives, drives);
+        copy(&mut world.state.commands, &self.mechanism.commands);
+        stops[k] = world.advance(t, h).err().map(|(_, stop)| stop);
+        self.set_numbers(k, &alone[k].state);
+        if stops[k].is_some() {
+            // whoever looks sees that it cannot go on
+            let nan = R::from_lanes(|l| if l == k { f64::NAN } else { 0.0 });
+            self.y[layout.velocities()].iter_mut().for_each(|v| *v += nan);
+        }
+    }
+
+    /// Puts lane `k` into a state, at the start of a run or later; its commands stay.
+    pub(super) fn set_lane(&mut self, k: usize, state: &State<f64>, is_start: bool) {
+        self.set_numbers(k, state);
+        let Some(mut limits) = self.limits.take() else { return };
+        if k < R::LANES {
+            let world = &mut limits.alone[k];
+            limits.stops[k] = None;
+            world.state.clone_from(state);
+            if is_start {
+                world.initialize(0.0);
+                self.set_numbers(k, &world.state);
+            }
+        }
+        self.limits = Some(limits);
+    }
+
+    /// Sets coordinates, velocities, rotor states and modes of drives of lane `k`.
+    fn set_numbers(&mut self, k: usize, state: &State<f64>) {
+        let layout = self.mechanism.layout();
+        let with = |old: &mut R, new: f64| *old = R::from_lanes(|l| if l == k { new } else { old.lane(l) });
+        self.mechanism.base_mut().iter_mut().zip(&state.q).for_each(|(old, new)| with(old, *new));
+        self.mechanism.drives.iter_mut().zip(&state.drives).for_each(|(old, new)| with(old, *new));
+        self.y[layout.displacement()].iter_mut().for_each(|old| with(old, 0.0));
+        self.y[layout.velocities()].iter_mut().zip(&state.v).for_each(|(old, new)| with(old, *new));
+        self.y[layout.rotor_states()].iter_mut().zip(&state.rotors).for_each(|(old, new)| with(old, *new));
+    }
+}
