@@ -109,6 +109,10 @@ fn timed(kind: FigureKind, model: &str, threads: usize) -> Vec<Timed> {
                 });
                 figures.push(Timed { on_wall: true, ..several });
             }
+            if model == "panda" {
+                figures.push(Timed::new("batch with limits", &[], |_, _| subjects::limited_batch(true)));
+                figures.push(Timed::new("batch with limits, alone", &[], |_, _| subjects::limited_batch(false)));
+            }
             figures
         }
         _ => Vec::new(),

@@ -99,6 +99,14 @@ pub(super) fn robot(name: &'static str) -> Result<Robot, String> {
     Ok(Robot { name, scene })
 }
 
+/// The arm `panda` with velocity motors of limited torque, dry friction and limits in every joint.
+pub(super) fn limited_panda() -> Scene {
+    let limits = "friction = 0.3\nmotor = { mode = \"velocity\", max_torque = 40.0, command = 0.2 }\n\
+        limits = { lower = -2.2, upper = 2.2 }\n";
+    let text = text("panda").replace("torque = 0.1\n", limits);
+    scene::from_text(&text).expect("a scene that the program carries")
+}
+
 /// The folder with the peers' models: as given, else that of the checkout this program was built from.
 pub(super) fn folder(given: Option<&Path>) -> Result<PathBuf, String> {
     let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
@@ -128,5 +136,7 @@ mod tests {
     fn every_robot_compiles() {
         assert_eq!(robots(&[]).unwrap().len(), NAMES.len());
         assert!(robots(&["alexandra".into()]).is_err());
+        let limited = limited_panda().model;
+        assert_eq!((limited.constraints().limits.len(), limited.drives().len()), (14, 14));
     }
 }

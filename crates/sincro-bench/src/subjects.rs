@@ -7,7 +7,7 @@
 use std::hint::black_box;
 
 use sincro_dynamics::aba;
-use sincro_dynamics::batch::{BatchSettings, BatchWorld};
+use sincro_dynamics::batch::{self, BatchSettings, BatchWorld};
 use sincro_dynamics::constraint::SLOT_LEN;
 use sincro_dynamics::integrate::Control;
 use sincro_dynamics::model::Model;
@@ -21,6 +21,7 @@ use sincro_sim::rollout::{Compile, Rollout, StepsBy};
 use sincro_sim::run::choose_method;
 
 use super::clock::Subject;
+use super::models;
 
 /// The step of every figure `[s]`.
 pub(super) const STEP: f64 = 0.005;
@@ -301,6 +302,41 @@ pub(super) fn batch(scene: &Scene, threads: usize, compile: Compile) -> Subject 
         black_box(run(&mut rollout));
     };
     Subject::new(call).with_units(WORLDS as f64 * f64::from(STEPS_A_SECOND)).with_note(note)
+}
+
+/// A simulated second of many arms with limited motors, dry friction and limits of joints, each from a start of its
+/// own, per world and step: in lanes, or one by one.
+pub(super) fn limited_batch(in_lanes: bool) -> Subject {
+    let scene = models::limited_panda();
+    let settings =
+        BatchSettings { method: MethodKind::SemiImplicitEuler, h: STEP, n_steps: STEPS_A_SECOND, record_every: 0 };
+    let start = |k: usize| {
+        let mut state = scene.initial.clone();
+        // quasi-random starts and speeds
+        let share = |i: usize| (0.618_033_988_749_895 * (8 * k + i) as f64).fract() - 0.5;
+        state.q.iter_mut().enumerate().for_each(|(i, q)| *q += share(i));
+        state.v.iter_mut().enumerate().for_each(|(i, v)| *v = share(i + 3));
+        BatchWorld::new((*scene.model).clone(), state)
+    };
+    let worlds: Vec<BatchWorld> = (0..WORLDS).map(start).collect();
+    let advance = move |worlds: &mut [BatchWorld]| {
+        if in_lanes {
+            batch::advance(worlds, &settings).expect("the worlds are copies of one");
+        } else {
+            worlds.iter_mut().for_each(|world| batch::advance_alone(world, &settings));
+        }
+    };
+    let mut first = worlds.clone();
+    advance(&mut first);
+    let alone: u64 = first.iter().map(|world| world.steps_alone).sum();
+    let n_steps = WORLDS as f64 * f64::from(STEPS_A_SECOND);
+    let note = format!("{:.0} % of the steps alone", 100.0 * alone as f64 / n_steps);
+    let call = move || {
+        let mut worlds = worlds.clone();
+        advance(&mut worlds);
+        black_box(&worlds);
+    };
+    Subject::new(call).with_units(n_steps).with_note(note)
 }
 
 /// Bytes of one world: its state and working memory, the model left out, which worlds could share.

@@ -2,7 +2,8 @@
 //!
 //! Each lane does what [`World`](crate::world::World) does alone: it tries its modes over the whole step, and changes
 //! those that contradict their laws until none does. A try is made in all lanes at once; lanes whose modes are decided
-//! make the same step again, with the same bits.
+//! make the same step again, with the same bits. Most steps keep the modes of the last one: whether they do is seen in
+//! all lanes together, with a wider margin, and only where one may not the lanes are looked at one by one.
 
 use sincro_actuation::{Kink, Kinks, Pivoting};
 use sincro_math::Real;
@@ -15,6 +16,11 @@ use crate::mechanism::Mechanism;
 pub(super) struct StepModes<R> {
     /// True for each drive that has a limit and is not held by one that has none.
     is_limited: Vec<bool>,
+    /// Pairs of limited drives of one degree of freedom, each in both orders.
+    pairs: Vec<[usize; 2]>,
+    /// Torque of each limited drive when saturated in the present step, together with those of the same degree of
+    /// freedom and target.
+    limits: Vec<R>,
     lanes: Vec<Decision>,
     y: Vec<R>,
     base: Vec<R>,
@@ -37,24 +43,65 @@ impl<R: Real> StepModes<R> {
         if R::IS_SCALAR || !model.has_limited_drives() {
             return None;
         }
-        let is_limited =
+        let is_limited: Vec<bool> =
             drives.iter().map(|drive| model.drive_limit(drive).is_some() && !model.is_held(drive.dof)).collect();
+        let limited = || (0..drives.len()).filter(|i| is_limited[*i]);
+        let others = |i: usize| limited().filter(move |j| *j != i && drives[*j].dof == drives[i].dof);
+        let pairs = limited().flat_map(|i| others(i).map(move |j| [i, j])).collect();
         let decision = Decision { kinks: Kinks::new(drives.len()), pivoting: Pivoting::default(), left: 0 };
         let zeros = |n: usize| vec![R::zero(); n];
         let (lanes, base) = (vec![decision; R::LANES], zeros(model.n_q()));
-        Some(Self { is_limited, lanes, y: zeros(dim), base })
+        let limits = zeros(drives.len());
+        Some(Self { is_limited, pairs, limits, lanes, y: zeros(dim), base })
     }
 
-    /// Begins a step from the present state with the present modes.
+    /// Begins a step from the present state. Returns true if each lane can try its present modes: the drives of a
+    /// degree of freedom that have one target have one mode, and are not locked at different ones.
     #[inline(always)]
-    fn begin(&mut self, mechanism: &mut Mechanism<R>, y: &[R], target_velocities: &[R]) {
+    fn begin(&mut self, mechanism: &Mechanism<R>, y: &[R], target_velocities: &[R]) -> bool {
         self.y.copy_from_slice(y);
         self.base.copy_from_slice(mechanism.base());
-        let layout = mechanism.layout();
+        for (i, limit) in self.limits.iter_mut().enumerate() {
+            *limit = of_saturated(mechanism, y, i).unwrap_or(R::zero());
+        }
+        let (zero, one) = (R::zero(), R::one());
+        let mut differ = zero;
+        for &[i, j] in &self.pairs {
+            let [a, b] = [i, j].map(|k| target_velocities[k]);
+            let (first, second) = (mechanism.drives[i], mechanism.drives[j]);
+            let has_other_target = a.if_less(b, one, b.if_less(a, one, zero));
+            // modes are 0, 1 and −1
+            let are_locked = one - (first * first).max(second * second);
+            let has_other_mode = (first - second).abs();
+            differ = differ.max(has_other_target * are_locked).max((one - has_other_target) * has_other_mode);
+            let own = of_saturated(mechanism, y, j).unwrap_or(zero);
+            self.limits[i] += (one - has_other_target) * own;
+        }
+        (0..R::LANES).all(|k| differ.lane(k) == 0.0)
+    }
+
+    /// Returns true if the modes of no lane can contradict their laws in the step last tried.
+    #[inline(always)]
+    fn stand(&self, mechanism: &Mechanism<R>, y: &[R], target_velocities: &[R]) -> bool {
+        let (zero, half, layout) = (R::zero(), R::splat(0.5), mechanism.layout());
+        let mut worst = zero;
+        for i in (0..self.limits.len()).filter(|i| self.is_limited[*i]) {
+            let dof = mechanism.model.params.drives[i].dof;
+            let overload = mechanism.scratch.reaction[dof].abs() - self.limits[i];
+            let passage = (y[layout.velocity(dof)] - target_velocities[i]) * mechanism.drives[i];
+            worst = worst.max(mechanism.drives[i].abs().if_less(half, overload, passage));
+        }
+        (0..R::LANES).all(|k| worst.lane(k) <= 0.0)
+    }
+
+    /// Collects the limited drives of all lanes, with their present modes, at the start of the step.
+    #[inline(always)]
+    fn collect(&mut self, mechanism: &mut Mechanism<R>, target_velocities: &[R]) {
+        let (y, layout) = (&self.y, mechanism.layout());
         self.lanes.iter_mut().for_each(|lane| lane.kinks.list.clear());
         for (i, is_limited) in self.is_limited.iter().enumerate() {
-            let drive = mechanism.model.params.drives[i];
-            let limit = match mechanism.model.saturated_torque(&drive, y[layout.velocity(drive.dof)], R::zero()) {
+            let dof = mechanism.model.params.drives[i].dof;
+            let limit = match of_saturated(mechanism, y, i) {
                 Some(limit) if *is_limited => limit,
                 _ => {
                     self.lanes.iter_mut().for_each(|lane| lane.kinks.release(i));
@@ -63,9 +110,8 @@ impl<R: Real> StepModes<R> {
             };
             for (k, Decision { kinks, .. }) in self.lanes.iter_mut().enumerate() {
                 let (target, saturation) = (target_velocities[i].lane(k), mechanism.drives[i].lane(k));
-                let known = kinks.list.iter().position(|kink| kink.dof == drive.dof && kink.target == target);
-                let new = Kink { target, saturation, ..Kink::locked(drive.dof) };
-                kinks.add(i, known, new, (limit.lane(k), 0.0));
+                let known = kinks.list.iter().position(|kink| kink.dof == dof && kink.target == target);
+                kinks.add(i, known, Kink { target, saturation, ..Kink::locked(dof) }, (limit.lane(k), 0.0));
             }
         }
         for (k, lane) in self.lanes.iter_mut().enumerate() {
@@ -110,16 +156,33 @@ impl<R: Real> StepModes<R> {
     }
 }
 
+/// Torque of drive `i` when it is saturated at the velocities of the state `y`; none without a limit.
+#[inline(always)]
+fn of_saturated<R: Real>(mechanism: &Mechanism<R>, y: &[R], i: usize) -> Option<R> {
+    let drive = mechanism.model.params.drives[i];
+    mechanism.model.saturated_torque(&drive, y[mechanism.layout().velocity(drive.dof)], R::zero())
+}
+
 impl<R: Real> LaneWorlds<R> {
     /// Makes a step of length `h` `[s]`, which `step` tries from the present state, in the modes in which the laws of
     /// the limited drives hold over it. The target velocities are known.
     #[inline(always)]
     pub(super) fn step_in_modes(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
         let Some(mut modes) = self.modes.take() else { return };
-        modes.begin(&mut self.mechanism, &self.y, &self.target_velocities);
+        let mut are_collected = !modes.begin(&self.mechanism, &self.y, &self.target_velocities);
+        if are_collected {
+            modes.collect(&mut self.mechanism, &self.target_velocities);
+        }
         loop {
             self.prescribe(&modes.y, h);
             step(self);
+            if !are_collected {
+                if modes.stand(&self.mechanism, &self.y, &self.target_velocities) {
+                    break;
+                }
+                modes.collect(&mut self.mechanism, &self.target_velocities);
+                are_collected = true;
+            }
             if modes.decide(&mut self.mechanism, &self.y) {
                 break;
             }
