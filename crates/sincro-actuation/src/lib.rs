@@ -4,6 +4,7 @@
 //! | element | force or torque | potential energy | dissipated power |
 //! |---|---|---|---|
 //! | [`force_law`] | preload − k x − c ẋ + N(x, ẋ) | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
+//! | [`motor`] | by mode | | −τ q̇ |
 //! | [`winding`] | N k_t i | ½ L i² | R i² |
 //! | [`activation`] | none: what acts in the place of a command | | |
 //! | [`velocity_band`] | none: where the velocity of a drive counts as its target | | |
@@ -17,6 +18,7 @@ pub mod bushing;
 pub mod elastic_gear;
 pub mod force_law;
 pub mod kink;
+pub mod motor;
 pub mod spring_damper;
 pub mod velocity_band;
 pub mod winding;
@@ -26,6 +28,7 @@ pub use bushing::Bushing;
 pub use elastic_gear::ElasticGear;
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
 pub use kink::{Kink, Kinks, Pivoting};
+pub use motor::{Motor, MotorMode};
 pub use spring_damper::SpringDamper;
 pub use velocity_band::VelocityBand;
 pub use winding::Winding;

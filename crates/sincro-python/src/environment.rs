@@ -173,7 +173,7 @@ impl Worlds {
         self.worlds(py, |worlds| worlds.plan().lanes_refused().map(ToOwned::to_owned))
     }
 
-    /// Base steps that worlds in lanes have made by themselves, because a limit of a joint took part in them.
+    /// Base steps that worlds in lanes have made by themselves, because a limit of a joint or a contact might act.
     #[getter]
     fn steps_alone(&self, py: Python<'_>) -> PyResult<u64> {
         self.worlds(py, TaskWorlds::steps_alone)

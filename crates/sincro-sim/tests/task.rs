@@ -669,27 +669,38 @@ gain = -5.0
 "#;
 
 /// The cart with these limits: of the motor at the hinge `[N·m]`, or none that acts, and ranges of the joints.
-fn switching_scene(text: &str, has_ranges: bool) -> String {
+/// With `has_post` the pole can touch a post.
+fn switching_scene(text: &str, has_ranges: bool, has_post: bool) -> String {
     let range = |range: &str| if has_ranges { format!("limits = {range}\n") } else { String::new() };
     let rail = "kind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\nmotor = { mode = \"torque\" }";
     let driven = "kind = \"prismatic\"\naxis = [1.0, 0.0, 0.0]\nmotor = { mode = \"velocity\", max_torque = 6.0 }\nfriction = 0.4\n";
     let hinge = "parent = \"/rail/cart\"\nmotor = { mode = \"torque\" }";
     assert!(text.contains(rail) && text.contains(hinge));
     let text = text.replace(rail, &(driven.to_owned() + &range("{ lower = -0.1, upper = 0.12, restitution = 0.3 }")));
-    text.replace(
-        hinge,
-        &format!(
-            "{hinge}\nfriction = {{ sliding = 0.02, static = 0.03, stribeck_velocity = 0.1 }}\n{}",
-            range("{ lower = -0.4, upper = 0.4 }")
-        ),
-    )
+    let friction = "friction = { sliding = 0.02, static = 0.03, stribeck_velocity = 0.1 }";
+    let text = text.replace(hinge, &format!("{hinge}\n{friction}\n{}", range("{ lower = -0.4, upper = 0.4 }")));
+    if !has_post {
+        return text;
+    }
+    let pole = "parent = \"/rail/cart/hinge\"\nmass";
+    assert!(text.contains(pole));
+    text.replace(pole, "parent = \"/rail/cart/hinge\"\ncontact = { friction = 0.3 }\nmass") + POST
 }
+
+/// A post beside the pole.
+const POST: &str = r#"
+[[body]]
+name = "post"
+position = [0.35, 0.0, 0.8]
+shape = [ { sphere = { radius = 0.1 } } ]
+contact = { friction = 0.3, restitution = 0.4 }
+"#;
 
 #[test]
 fn worlds_with_limits_and_friction_run_in_lanes_as_one_by_one() {
     let n = 64 + 3;
-    for (name, has_ranges) in [("limited", false), ("ranges", true)] {
-        let scene = |text: String| switching_scene(&text, has_ranges);
+    for (name, has_ranges, has_post) in [("limited", false, false), ("ranges", true, false), ("post", false, true)] {
+        let scene = |text: String| switching_scene(&text, has_ranges, has_post);
         let task = SWITCHING_TASK.replace("step = 0.01", "step = 0.01\ndiagram = \"control.toml\"");
         let lanes = OwnTask::with_scene(name, &task, SWITCHING_DIAGRAM, scene);
         let alone = OwnTask::with_scene(&format!("{name}-alone"), &(task + ONE_BY_ONE), SWITCHING_DIAGRAM, scene);
@@ -704,7 +715,8 @@ fn worlds_with_limits_and_friction_run_in_lanes_as_one_by_one() {
                 let found = episodes(&mut worlds, autoreset, 60);
                 if sincro_math::lanes::width() > 1 {
                     assert_eq!(worlds.plan().lanes_refused(), None, "{name}");
-                    assert_eq!(worlds.steps_alone() > 1000, has_ranges, "{}", worlds.steps_alone());
+                    let is_constrained = has_ranges || has_post;
+                    assert_eq!(worlds.steps_alone() > 1000, is_constrained, "{}", worlds.steps_alone());
                 }
                 for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
                     let differs = found.iter().zip(expected).position(|(a, b)| a != b);

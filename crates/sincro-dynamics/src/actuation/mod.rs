@@ -13,24 +13,22 @@
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
 //! | [`bushing`] | a force and torque between two frames | ½ Σ kᵢ xᵢ² | Σ cᵢ ẋᵢ² |
 //!
-//! [`force_law`], [`winding`], [`activation`], [`elastic_gear`], [`spring_damper`] and [`bushing`] are those of the
-//! crate `sincro-actuation`. Uniform gravity enters the recursions as an acceleration of the base ([`crate::energy`]
-//! has its potential energy), one that depends on the position as forces on bodies ([`gravity_field`]); elements in the
-//! air are in [`crate::aero`].
+//! [`motor`], [`force_law`], [`winding`], [`activation`], [`elastic_gear`], [`spring_damper`] and [`bushing`] are those
+//! of the crate `sincro-actuation`. Uniform gravity enters the recursions as an acceleration of the base
+//! ([`crate::energy`] has its potential energy), one that depends on the position as forces on bodies
+//! ([`gravity_field`]); elements in the air are in [`crate::aero`].
 
 pub mod applied;
 pub(crate) mod damper;
 pub mod drive;
 pub(crate) mod friction;
 pub mod gravity_field;
-pub mod motor;
 pub mod spring;
 
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use drive::{Drive, DriveKind};
 pub use gravity_field::GravityField;
-pub use motor::{Motor, MotorMode};
 pub use sincro_actuation::{
-    Activation, ActivationDynamics, Bushing, ElasticGear, ForceLaw, ForceTable, NonlinearLaw, SpringDamper, Winding,
-    activation, bushing, elastic_gear, force_law, spring_damper, winding,
+    Activation, ActivationDynamics, Bushing, ElasticGear, ForceLaw, ForceTable, Motor, MotorMode, NonlinearLaw,
+    SpringDamper, Winding, activation, bushing, elastic_gear, force_law, motor, spring_damper, winding,
 };

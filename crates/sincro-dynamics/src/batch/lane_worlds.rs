@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use sincro_math::{Real, Task};
 
-use super::joint_limits::JointLimits;
+use super::constraints::LaneConstraints;
 use super::step_modes::StepModes;
 use super::{BatchSettings, BatchWorld, CompiledStep};
 use crate::coupled::{Coupled, CoupledSystem, StateView};
@@ -54,8 +54,8 @@ pub struct LaneWorlds<R> {
     pub(super) target_velocities: Vec<R>,
     /// Decision of the modes of limited drives; none if there are none.
     pub(super) modes: Option<Box<StepModes<R>>>,
-    /// Limits of joints; none if there are none.
-    pub(super) limits: Option<Box<JointLimits<R>>>,
+    /// Limits of joints and contacts; none if there are none.
+    pub(super) constraints: Option<Box<LaneConstraints<R>>>,
     method: FixedMethod<R>,
     compiled: Option<Arc<dyn CompiledStep>>,
     /// State and commands as the compiled step has them.
@@ -217,7 +217,7 @@ impl<R: Real> LaneWorlds<R> {
             negated_jacobian_diagonal: zeros(n_states),
             target_velocities: zeros(mechanism.drives.len()),
             modes: StepModes::new(&mechanism, dim).map(Box::new),
-            limits: JointLimits::new(models, dim).map(Box::new),
+            constraints: LaneConstraints::new(models, dim).map(Box::new),
             reach_target_velocities,
             mechanism,
             method,
@@ -336,8 +336,8 @@ impl<R: Real> LaneWorlds<R> {
         self.mechanism.commands.copy_from_slice(&commands);
         let drives = gather(self.mechanism.drives.len(), &|s| &s.drives);
         self.mechanism.drives.copy_from_slice(&drives);
-        if let Some(limits) = &mut self.limits {
-            limits.load(|k| of(k));
+        if let Some(constraints) = &mut self.constraints {
+            constraints.load(|k| of(k));
         }
     }
 
@@ -362,8 +362,8 @@ impl<R: Real> LaneWorlds<R> {
             for (mode, lanes) in world.state.drives.iter_mut().zip(&self.mechanism.drives) {
                 *mode = lanes.lane(k);
             }
-            if let Some(limits) = &self.limits {
-                world.state.contacts.clone_from(limits.contacts(k));
+            if let Some(constraints) = &self.constraints {
+                world.state.contacts.clone_from(constraints.contacts(k));
             }
         }
     }
@@ -378,8 +378,8 @@ impl<R: Real> LaneWorlds<R> {
             self.command(worlds, k as usize);
             let t = (first + u64::from(k)) as f64 * settings.h;
             self.step(t, settings.h);
-            if let Some(limits) = &mut self.limits {
-                limits.note(worlds);
+            if let Some(constraints) = &mut self.constraints {
+                constraints.note(worlds);
             }
             self.note_stops(worlds, t);
             self.record(worlds, settings.record_every > 0 && (k + 1) % settings.record_every == 0);
@@ -398,8 +398,8 @@ impl<R: Real> LaneWorlds<R> {
         if R::IS_SCALAR {
             return;
         }
-        if self.limits.is_some() {
-            self.step_beside_limits(t, h, |worlds| R::run_hot(Step { worlds, t, h }));
+        if self.constraints.is_some() {
+            self.step_beside_constraints(t, h, |worlds| R::run_hot(Step { worlds, t, h }));
         } else if !self.compiled_step() {
             R::run_hot(Step { worlds: self, t, h });
         }
@@ -411,9 +411,10 @@ impl<R: Real> LaneWorlds<R> {
     ///
     /// # Panics
     ///
-    /// If the system has another number of states than the worlds were made for, or if joints have limits.
+    /// If the system has another number of states than the worlds were made for, or if they have limits of joints or
+    /// contacts.
     pub fn step_with(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<R>) {
-        assert!(self.limits.is_none(), "a coupled system acts on lanes all together");
+        assert!(self.constraints.is_none(), "a coupled system acts on lanes all together");
         if !R::IS_SCALAR {
             R::run_hot(StepWith { worlds: self, system, t, h });
         }

@@ -7,8 +7,9 @@
 //!
 //! Steps are fixed: semi-implicit Euler, RK4 or implicit. No threads here; `sincro-sim` deals bundles to threads.
 
-mod joint_limits;
+mod constraints;
 mod lane_worlds;
+mod near_pairs;
 mod step_modes;
 mod stepped;
 
@@ -26,6 +27,7 @@ use crate::signal::Signal;
 use crate::state::State;
 use crate::world::{MethodKind, Stop, World};
 pub use lane_worlds::LaneWorlds;
+use near_pairs::MAX_PAIRS;
 pub use stepped::{CoupledLanes, LaneObserver, LaneSystem, SteppedLanes};
 
 /// World of a batch: model, state, commands, and what a run of [`advance`] leaves in it.
@@ -44,7 +46,7 @@ pub struct BatchWorld {
     /// at the start, then one every `record_every` steps. A run appends to it.
     pub record: Vec<f64>,
     /// Number of steps that it made by itself, not in the lanes: all if lanes do not advance it, else those in which a
-    /// limit of a joint took part. Runs add to it.
+    /// limit of a joint or a contact took part, or might have. Runs add to it.
     pub steps_alone: u64,
 }
 
@@ -156,11 +158,14 @@ fn has_limits_of(model: &Model<f64>, other: &Model<f64>) -> bool {
 #[must_use]
 pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'static str> {
     let constraints = model.constraints();
-    if !(constraints.loop_joints.is_empty() && constraints.gears.is_empty() && constraints.pairs.is_empty()) {
-        return Some("contacts, loop joints or gears");
+    if !(constraints.loop_joints.is_empty() && constraints.gears.is_empty()) {
+        return Some("loop joints or gears");
+    }
+    if constraints.pairs.len() > MAX_PAIRS {
+        return Some("more than 256 pairs of surfaces that can touch");
     }
     if method != MethodKind::SemiImplicitEuler && !constraints.is_empty() {
-        return Some("limits of joints, with another method than semi-implicit Euler");
+        return Some("limits of joints or contacts, with another method than semi-implicit Euler");
     }
     if method != MethodKind::SemiImplicitEuler && model.has_limited_drives() {
         return Some("a drive with a limit or friction, with another method than semi-implicit Euler");

@@ -118,16 +118,11 @@ impl SteppedLanes {
     /// Sets the state of lane `lane`, 0 to the number of lanes − 1 (others: no effect): coordinates (n_q), velocities
     /// (n_v), rotor states and modes of drives of `state`, in SI units. Commands and the rest of it are ignored.
     pub fn set_lane(&mut self, lane: usize, state: &State<f64>) {
-        dispatch_lanes(SetLane { lanes: self, lane, state, is_start: false });
+        dispatch_lanes(SetLane { lanes: self, lane, state });
     }
 
-    /// As [`SteppedLanes::set_lane`], at the start of a run: limits of joints act that the state has reached, as in
-    /// [`World::initialize`](crate::world::World::initialize).
-    pub fn start_lane(&mut self, lane: usize, state: &State<f64>) {
-        dispatch_lanes(SetLane { lanes: self, lane, state, is_start: true });
-    }
-
-    /// Number of steps that worlds have made by themselves, because a limit of a joint took part in them.
+    /// Number of steps that worlds have made by themselves, because a limit of a joint or a contact took part in
+    /// them, or might have.
     pub fn steps_alone(&mut self) -> u64 {
         dispatch_lanes(StepsAlone { lanes: self })
     }
@@ -213,7 +208,6 @@ struct SetLane<'a> {
     lanes: &'a mut SteppedLanes,
     lane: usize,
     state: &'a State<f64>,
-    is_start: bool,
 }
 
 impl LaneVisitor for SetLane<'_> {
@@ -221,8 +215,8 @@ impl LaneVisitor for SetLane<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) {
-        let Self { lanes, lane, state, is_start } = self;
-        lanes.worlds::<R>().set_lane(lane, state, is_start);
+        let Self { lanes, lane, state } = self;
+        lanes.worlds::<R>().set_lane(lane, state);
     }
 }
 
@@ -235,7 +229,7 @@ impl LaneVisitor for StepsAlone<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) -> u64 {
-        self.lanes.worlds::<R>().limits.as_ref().map_or(0, |limits| limits.n_alone.iter().sum())
+        self.lanes.worlds::<R>().constraints.as_ref().map_or(0, |constraints| constraints.n_alone.iter().sum())
     }
 }
 

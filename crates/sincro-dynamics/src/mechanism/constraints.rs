@@ -105,10 +105,20 @@ impl ActivationRule {
         R::splat(CLOSED_DISTANCE) + R::splat(2.0 * h) * (-rate).max(R::zero()) + R::splat(4.0 * h * h) * gravity
     }
 
+    /// Margin within which candidates of a step of length `h` `[s]` are looked for: a distance `[m]`, and a time `[s]`
+    /// over which velocities add to it.
+    #[inline(always)]
+    pub(crate) fn margin_of_step<R: Real>(h: f64, gravity: R) -> [R; 2] {
+        [R::splat(1e-3) + R::splat(4.0 * h * h) * gravity, R::splat(4.0 * h)]
+    }
+
     /// Margin within which candidates are looked for.
     pub(super) fn margin(self, gravity: f64) -> Margin {
         match self {
-            Self::Within(h) => Margin { base: 1e-3 + 4.0 * h * h * gravity, time: 4.0 * h },
+            Self::Within(h) => {
+                let [base, time] = Self::margin_of_step(h, gravity);
+                Margin { base, time }
+            }
             _ => Margin::of(1e-6),
         }
     }

@@ -199,7 +199,7 @@ class SceneVectorEnv(VectorEnv):
 
     @property
     def steps_alone(self) -> int:
-        """Base steps that worlds in lanes have made by themselves, because a limit of a joint took part in them."""
+        """Base steps that worlds in lanes have made by themselves, because a limit of a joint or a contact might act."""
         return self._worlds.steps_alone
 
     @property

@@ -1,7 +1,7 @@
 //! Tasks of scenes: many worlds at once for reinforcement learning, each with its own random starts.
 //!
 //! [`TaskWorlds`] steps all worlds by one action each and gives observations, rewards and the ends of episodes. Worlds
-//! that lanes can advance together do so (fixed steps; no contacts and scripts), with a diagram and the noise of
+//! that lanes can advance together do so (fixed steps; no loop joints and scripts), with a diagram and the noise of
 //! sensors for each; the others are lock-steps of their own; threads share them out.
 //! Nothing that a world gives depends on its neighbours: the same seed gives the same episodes on any number of worlds,
 //! lanes and threads.
@@ -193,8 +193,8 @@ impl TaskWorlds {
         &self.plan
     }
 
-    /// Returns the number of base steps that worlds in lanes have made by themselves, because a limit of a joint took
-    /// part in them.
+    /// Returns the number of base steps that worlds in lanes have made by themselves, because a limit of a joint or a
+    /// contact took part in them, or might have.
     pub fn steps_alone(&mut self) -> u64 {
         self.groups.iter_mut().map(Group::steps_alone).sum()
     }

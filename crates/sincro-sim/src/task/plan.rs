@@ -15,7 +15,7 @@ use sincro_math::random::splitmix64;
 
 use super::compiled::CompiledTask;
 use crate::load::Loaded;
-use crate::run::method_for;
+use crate::run::{LockStep, method_for};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
 use sincro_scene::diagram::{ControlDiagram, is_known_at_ticks_only};
 use sincro_scene::experiment::task::{Distribution, Target, Task, command_index};
@@ -99,6 +99,8 @@ pub struct Plan {
     pub(super) of_formulas: Vec<(usize, Formula)>,
     /// Commands that signals of the scene give which change with time, and which the task leaves to them.
     pub(super) varying_commands: Vec<usize>,
+    /// State at which a run begins: limits and contacts that the initial one has reached have acted.
+    pub start: State<f64>,
     starts: Vec<(usize, StartAt)>,
     /// Reason why the recursions cannot advance the worlds in lanes.
     recursions_refused: Option<String>,
@@ -158,6 +160,7 @@ impl Plan {
             of_actions: task.actions.iter().map(|a| a.command.as_ref().and_then(|c| command(&c.value))).collect(),
             of_formulas: task.commands.iter().filter_map(|(c, f)| Some((command(&c.value)?, of(f)))).collect(),
             varying_commands: Vec::new(),
+            start: loaded.scene.initial.clone(),
             starts: starts.collect(),
             recursions_refused: None,
             compiled: None,
@@ -168,6 +171,9 @@ impl Plan {
         let left = |command: &usize| !plan.own_commands().any(|own| own == *command);
         plan.varying_commands = (0..plan.n_commands()).filter(is_varying).filter(left).collect();
         plan.recursions_refused = plan.obstacle_to_recursions();
+        if plan.recursions_refused.is_none() && !loaded.scene.model.constraints().is_empty() {
+            plan.start = LockStep::new(loaded, plan.method, false).state().clone();
+        }
         let middle = plan.drawn(0, 0);
         if !middle.overrides.is_empty() {
             loaded.with_overrides_without_variants(&middle.overrides)?;
@@ -193,7 +199,7 @@ impl Plan {
         };
         let model = &self.scene().model;
         let switches = model.has_limited_drives() || !model.constraints().is_empty();
-        let words = "a sensor of accelerations, which limits of joints, limited drives and friction change";
+        let words = "a sensor of accelerations, which contacts, limits of joints, limited drives and friction change";
         (switches && reads_accelerations()).then(|| words.to_owned())
     }
 
@@ -205,7 +211,7 @@ impl Plan {
             return Some(format!("block `{}` of the diagram, which has events between ticks", step.path));
         }
         if program.is_continuous() && !self.scene().model.constraints().is_empty() {
-            return Some("a continuous diagram beside limits of joints".to_owned());
+            return Some("a continuous diagram beside limits of joints or contacts".to_owned());
         }
         if !wiring.late.is_empty() {
             return Some("a diagram that measures accelerations or motor torques".to_owned());
@@ -327,6 +333,16 @@ impl Plan {
     /// Commands that the task sets, itself or by formulas.
     pub(super) fn own_commands(&self) -> impl Iterator<Item = usize> {
         self.of_actions.iter().flatten().copied().chain(self.of_formulas.iter().map(|(command, _)| *command))
+    }
+
+    /// State at which an episode begins: `start`, but for what was drawn.
+    pub(super) fn with_drawn(&self, start: &State<f64>, drawn: &State<f64>) -> State<f64> {
+        let (mut state, nominal) = (start.clone(), &self.loaded.scene.initial);
+        let of_drawn = drawn.q.iter().zip(&nominal.q).chain(drawn.v.iter().zip(&nominal.v));
+        for (now, (drawn, nominal)) in state.q.iter_mut().chain(&mut state.v).zip(of_drawn) {
+            *now = if drawn == nominal { *now } else { *drawn };
+        }
+        state
     }
 
     /// Returns the scene of all worlds, as its files describe it before random numbers are drawn.

@@ -66,15 +66,8 @@ impl SingleWorld {
         let loaded = varied.as_ref().unwrap_or(&plan.loaded);
         let mut lockstep = LockStep::new(loaded, plan.method, false);
         lockstep.attach(Box::new(Commanded(vec![None; loaded.scene.commands.len()])));
-        let mut state = lockstep.state().clone();
-        let nominal = &plan.loaded.scene.initial;
-        // only what was drawn differs: a scene with other numbers may have another start of its own
-        for (now, (drawn, nominal)) in state.q.iter_mut().zip(drawn.state.q.iter().zip(&nominal.q)) {
-            *now = if drawn == nominal { *now } else { *drawn };
-        }
-        for (now, (drawn, nominal)) in state.v.iter_mut().zip(drawn.state.v.iter().zip(&nominal.v)) {
-            *now = if drawn == nominal { *now } else { *drawn };
-        }
+        // a scene with other numbers may have another start of its own
+        let state = plan.with_drawn(lockstep.state(), &drawn.state);
         lockstep.set_state(state, &[]);
         lockstep.reseed_sensors(drawn.noise_seed);
         self.is_good = lockstep.start().is_ok();

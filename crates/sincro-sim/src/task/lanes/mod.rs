@@ -50,7 +50,7 @@ impl LaneBundle {
 
     /// Begins an episode of a world, up to its first samples and the evaluation of its diagram: [`LaneBundle::start`].
     pub fn begin(&mut self, plan: &Plan, lane: usize, drawn: &Drawn) {
-        self.lanes(plan).start_lane(lane, &drawn.state);
+        self.place(plan, lane, &plan.with_drawn(&plan.start, &drawn.state));
         (self.ticks[lane], self.is_good[lane]) = (0, true);
         if let Some(sensors) = &mut self.sensors {
             sensors.begin(lane, drawn.noise_seed);

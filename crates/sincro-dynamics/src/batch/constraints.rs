@@ -1,13 +1,15 @@
-//! Limits of joints of worlds in lanes: a lane that is near none of its limits makes its step with the others, one that
-//! may reach a limit within the step makes it by itself.
+//! Limits of joints and contacts of worlds in lanes: a lane in which none can take part in a step makes it with the
+//! others, one in which a limit may be reached or surfaces may touch makes it by itself.
 //!
-//! The rule is that of [`World`](crate::world::World): a limit which the step may reach at its start, or which it has
-//! passed at its end, takes part in it as a constraint. Any other step is that of a world without limits.
+//! The rule is that of [`World`](crate::world::World): a limit or contact which the step may reach at its start, or
+//! which it has passed at its end, takes part in it as a constraint. Any other step is that of a world without
+//! constraints.
 
 use sincro_math::{Real, Task};
 
 use super::BatchWorld;
 use super::lane_worlds::LaneWorlds;
+use super::near_pairs::NearPairs;
 use crate::integrate::Control;
 use crate::mechanism::constraints::ActivationRule;
 use crate::mechanism::foresight::passed;
@@ -15,11 +17,12 @@ use crate::model::{Limit, Model};
 use crate::state::State;
 use crate::world::{MethodKind, Stop, World};
 
-/// Limits of joints of worlds in lanes, and the worlds that make their steps by themselves.
+/// Limits of joints and contacts of worlds in lanes, and the worlds that make their steps by themselves.
 #[derive(Clone, Debug)]
-pub(super) struct JointLimits<R> {
+pub(super) struct LaneConstraints<R> {
     limits: Vec<Limit>,
-    /// World of each lane, with the warm start of its limits.
+    pairs: Option<NearPairs<R>>,
+    /// World of each lane, with the warm start of its constraints.
     alone: Vec<World>,
     /// Strongest gravity [m/s²].
     gravity: R,
@@ -33,12 +36,12 @@ pub(super) struct JointLimits<R> {
     pub stops: Vec<Option<Stop>>,
 }
 
-impl<R: Real> JointLimits<R> {
-    /// Limits of the joints of `models`, the last of which fills the remaining lanes; `None` if they have none.
+impl<R: Real> LaneConstraints<R> {
+    /// Constraints of `models`, the last of which fills the remaining lanes; `None` if they have none.
     pub fn new(models: &[&Model<f64>], dim: usize) -> Option<Self> {
         let first = models[0];
-        let limits = first.constraints().limits.clone();
-        if R::IS_SCALAR || limits.is_empty() {
+        let set = first.constraints();
+        if R::IS_SCALAR || set.is_empty() {
             return None;
         }
         let of = |k: usize| models[k.min(models.len() - 1)];
@@ -50,7 +53,8 @@ impl<R: Real> JointLimits<R> {
         };
         let zeros = |n: usize| vec![R::zero(); n];
         Some(Self {
-            limits,
+            limits: set.limits.clone(),
+            pairs: NearPairs::new(set, first.n_v()),
             alone: (0..R::LANES).map(world).collect(),
             gravity: R::from_lanes(|k| of(k).strongest_gravity(&[])),
             start: [zeros(dim), zeros(first.n_q()), zeros(first.n_drives())],
@@ -68,7 +72,7 @@ impl<R: Real> JointLimits<R> {
         }
     }
 
-    /// Warm start of the limits of lane `k`.
+    /// Warm start of the constraints of lane `k`.
     pub fn contacts(&self, k: usize) -> &Vec<f64> {
         &self.alone[k].state.contacts
     }
@@ -85,10 +89,11 @@ impl<R: Real> JointLimits<R> {
     }
 }
 
-/// Looks for the lanes whose limits the step of length `h` may reach at its start, or has passed at its end.
+/// Looks for the lanes whose limits and contacts the step of length `h` may reach at its start, or may have passed at
+/// its end.
 struct Look<'a, R> {
-    worlds: &'a LaneWorlds<R>,
-    limits: &'a mut JointLimits<R>,
+    worlds: &'a mut LaneWorlds<R>,
+    constraints: &'a mut LaneConstraints<R>,
     h: f64,
     is_end: bool,
 }
@@ -98,60 +103,68 @@ impl<R: Real> Task for Look<'_, R> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { worlds, limits, h, is_end } = self;
+        let Self { worlds, constraints, h, is_end } = self;
+        let gravity = constraints.gravity;
         let (q, v) = (worlds.coordinates(), worlds.velocities());
         let (zero, one) = (R::zero(), R::one());
-        let mut is_alone = if is_end { limits.is_alone } else { zero };
-        let passed = passed(h, limits.gravity);
-        for limit in &limits.limits {
+        let mut is_alone = if is_end { constraints.is_alone } else { zero };
+        let passed = passed(h, gravity);
+        for limit in &constraints.limits {
             let sign = R::splat(limit.sign);
             let distance = sign * (q[limit.coordinate] - R::splat(limit.bound));
             let rate = sign * v[limit.dof];
             let takes_part = if is_end {
                 distance.if_less(passed, rate.if_less(zero, one, zero), zero)
             } else {
-                ActivationRule::reach(h, rate, limits.gravity).if_less(distance, zero, one)
+                ActivationRule::reach(h, rate, gravity).if_less(distance, zero, one)
             };
             is_alone = is_alone.max(takes_part);
         }
-        limits.is_alone = is_alone;
+        if let Some(pairs) = &mut constraints.pairs {
+            // the velocities at the end, in the positions at the start
+            let [_, base, _] = &constraints.start;
+            let velocities = worlds.mechanism.layout().velocities();
+            let LaneWorlds { mechanism, y, .. } = worlds;
+            is_alone = is_alone.max(pairs.find(mechanism, (base, &y[velocities]), (h, gravity), is_end));
+        }
+        constraints.is_alone = is_alone;
     }
 }
 
 impl<R: Real> LaneWorlds<R> {
-    /// Makes one step of length `h` `[s]` from time `t` `[s]` in all lanes beside the limits of their joints, which
-    /// `step` makes as if there were none.
-    pub(super) fn step_beside_limits(&mut self, t: f64, h: f64, step: impl FnOnce(&mut Self)) {
-        let Some(mut limits) = self.limits.take() else { return };
-        R::run_hot(Look { worlds: self, limits: &mut limits, h, is_end: false });
-        let [y, base, drives] = &mut limits.start;
+    /// Makes one step of length `h` `[s]` from time `t` `[s]` in all lanes beside their constraints; `step` makes it
+    /// as if there were none.
+    pub(super) fn step_beside_constraints(&mut self, t: f64, h: f64, step: impl FnOnce(&mut Self)) {
+        let Some(mut constraints) = self.constraints.take() else { return };
+        let [y, base, drives] = &mut constraints.start;
         y.copy_from_slice(&self.y);
         base.copy_from_slice(self.mechanism.base());
         drives.copy_from_slice(&self.mechanism.drives);
-        if (0..R::LANES).any(|k| limits.is_alone.lane(k) < 0.5) {
+        R::run_hot(Look { worlds: self, constraints: &mut constraints, h, is_end: false });
+        if (0..R::LANES).any(|k| constraints.is_alone.lane(k) < 0.5) {
             step(self);
-            R::run_hot(Look { worlds: self, limits: &mut limits, h, is_end: true });
+            R::run_hot(Look { worlds: self, constraints: &mut constraints, h, is_end: true });
         }
         for k in 0..R::LANES {
-            if limits.stops[k].is_some() {
+            if constraints.stops[k].is_some() {
                 continue;
             }
-            if limits.is_alone.lane(k) > 0.5 {
-                limits.n_alone[k] += 1;
-                self.step_alone(&mut limits, k, (t, h));
+            if constraints.is_alone.lane(k) > 0.5 {
+                constraints.n_alone[k] += 1;
+                self.step_alone(&mut constraints, k, (t, h));
             } else {
-                // none of its limits is loaded
-                limits.alone[k].state.contacts.clear();
-                limits.alone[k].state.contacts.push(0.0);
+                // no constraint is loaded
+                constraints.alone[k].state.contacts.clear();
+                constraints.alone[k].state.contacts.push(0.0);
             }
         }
-        self.limits = Some(limits);
+        self.constraints = Some(constraints);
     }
 
     /// Makes the step of lane `k` from its start by itself.
-    fn step_alone(&mut self, limits: &mut JointLimits<R>, k: usize, (t, h): (f64, f64)) {
+    fn step_alone(&mut self, constraints: &mut LaneConstraints<R>, k: usize, (t, h): (f64, f64)) {
         let layout = self.mechanism.layout();
-        let JointLimits { alone, start: [y, base, drives], stops, .. } = limits;
+        let LaneConstraints { alone, start: [y, base, drives], stops, .. } = constraints;
         let world = &mut alone[k];
         let copy = |to: &mut [f64], from: &[R]| to.iter_mut().zip(from).for_each(|(to, from)| *to = from.lane(k));
         copy(&mut world.state.q, base);
@@ -168,20 +181,13 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    /// Puts lane `k` into a state, at the start of a run or later; its commands stay.
-    pub(super) fn set_lane(&mut self, k: usize, state: &State<f64>, is_start: bool) {
+    /// Puts lane `k` into a state; its commands stay.
+    pub(super) fn set_lane(&mut self, k: usize, state: &State<f64>) {
         self.set_numbers(k, state);
-        let Some(mut limits) = self.limits.take() else { return };
-        if k < R::LANES {
-            let world = &mut limits.alone[k];
-            limits.stops[k] = None;
-            world.state.clone_from(state);
-            if is_start {
-                world.initialize(0.0);
-                self.set_numbers(k, &world.state);
-            }
+        if let (Some(constraints), true) = (&mut self.constraints, k < R::LANES) {
+            constraints.stops[k] = None;
+            constraints.alone[k].state.clone_from(state);
         }
-        self.limits = Some(limits);
     }
 
     /// Sets coordinates, velocities, rotor states and modes of drives of lane `k`.

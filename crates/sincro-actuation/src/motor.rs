@@ -7,16 +7,16 @@
 //! | `Velocity` | whatever holds the commanded velocity exactly, limited |
 //! | `Position` | as `Velocity`, towards the commanded position: velocity kp·(command − q), limited |
 //! | `Spring` | stiffness·(command − q) − damping·q̇, limited |
-//! | `Voltage` | that of a direct-current motor's winding, see [`crate::actuation::winding`] |
+//! | `Voltage` | that of a direct-current motor's winding, see [`winding`](crate::winding) |
 //!
-//! `Velocity` and `Position` are constraints, not stiff gains: see [`crate::actuation::drive`].
+//! `Velocity` and `Position` are constraints, not stiff gains: drives, see [`kink`](crate::kink).
 
 use sincro_math::Real;
 
 /// Control mode of a [`Motor`]: the meaning and unit of its command.
 ///
 /// ```
-/// use sincro_dynamics::prelude::*;
+/// use sincro_actuation::{Motor, MotorMode};
 ///
 /// // an ideal servo: it holds the commanded velocity exactly, whatever the load
 /// let motor = Motor::new(MotorMode::Velocity);
@@ -39,28 +39,18 @@ pub enum MotorMode {
     Position,
     /// The command is the rest position `[rad]` or `[m]` of a spring and damper.
     Spring,
-    /// The command is the voltage `[V]` across the motor's [`Winding`](super::Winding); without one no torque.
+    /// The command is the voltage `[V]` across the motor's [`Winding`](crate::Winding); without one no torque.
     Voltage,
 }
 
 /// Motor on one degree of freedom, with its mode, limits and gains; attached to a joint by `JointSpec::motor`.
 ///
 /// ```
-/// use sincro_dynamics::prelude::*;
+/// use sincro_actuation::{Motor, MotorMode};
 ///
-/// let mut builder = ModelBuilder::new([0.0; 3]);
-/// let mut shaft = JointSpec::new(JointKind::Revolute { axis: [0.0, 0.0, 1.0] });
-/// shaft.motor = vec![Motor { max_torque: 2.0, ..Motor::new(MotorMode::Torque) }];
-/// let shaft = builder.joint("shaft", NodeId::WORLD, Pose::identity(), shaft);
-/// let mass = MassProperties { mass: 1.0, center_of_mass: [0.0; 3], inertia: [0.4, 0.0, 0.0, 0.4, 0.0, 0.5] };
-/// builder.body("rotor", shaft, Pose::identity(), BodySpec { mass });
-/// let (model, _warnings) = builder.build()?;
-/// let (shaft, motor) = (model.names().joint_id("shaft").unwrap(), model.names().motor_id("shaft").unwrap());
-/// let mut world = World::builder(model).step_size(0.5).build()?;
-/// world.set_command(motor, 10.0); // [N·m], limited to 2
-/// world.step()?;
-/// assert!((world.velocities(shaft)[0] - 2.0 / 0.5 * 0.5).abs() < 1e-12); // ω = τ t/I
-/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// let motor = Motor { max_torque: 2.0, ..Motor::new(MotorMode::Torque) };
+/// let explicit = (0.0, 0.0);
+/// assert_eq!(motor.torque(0.3, 1.0, 10.0, explicit).0, 2.0); // [N·m], of 10 wanted
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor<R> {
@@ -103,7 +93,7 @@ impl Motor<f64> {
 }
 
 impl<R: Real> Motor<R> {
-    /// Returns true if the motor is a velocity constraint (a [`Drive`](super::Drive)): in velocity and position mode.
+    /// Returns true if the motor is a velocity constraint (a drive): in velocity and position mode.
     #[must_use]
     pub fn is_drive(&self) -> bool {
         matches!(self.mode, MotorMode::Velocity | MotorMode::Position)
@@ -122,7 +112,7 @@ impl<R: Real> Motor<R> {
     /// Torque in modes that are not constraints, and the implicit diagonal, for a step that takes dampers implicitly
     /// over `steps.0` and springs over `steps.1` (0: explicit).
     #[inline(always)]
-    pub(crate) fn torque(&self, q: R, v: R, command: R, steps: (R, R)) -> (R, R) {
+    pub fn torque(&self, q: R, v: R, command: R, steps: (R, R)) -> (R, R) {
         match self.mode {
             MotorMode::Torque => (command.clamp_abs(self.max_torque), R::zero()),
             MotorMode::Spring => {
