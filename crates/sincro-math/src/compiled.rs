@@ -28,7 +28,7 @@ impl CompiledEvaluation {
         Self { function, inputs: vec![0.0; n_inputs], outputs: vec![0.0; n_outputs], n_evaluations: 0 }
     }
 
-    /// Evaluates the function of a state, in two parts, and of what acts on it, which are its inputs in this order.
+    /// Evaluates the function of a state, in several parts, and of what acts on it, which are its inputs in this order.
     /// Returns `None` where it does not have the bits of its algorithm: programs leave out x + 0, which is exact but
     /// for a state of −0.
     ///
@@ -36,13 +36,15 @@ impl CompiledEvaluation {
     ///
     /// If there are more numbers than the function has inputs.
     #[inline]
-    pub fn evaluate<R: Real>(&mut self, state: [&[R]; 2], action: &[R]) -> Option<&[f64]> {
-        let [first, second] = state;
-        let (of_first, rest) = self.inputs.split_at_mut(first.len());
-        let (of_second, of_action) = rest.split_at_mut(second.len());
-        // not one after the other, and both: the comparisons are made in lanes
-        let has_negative_zero = copy(first, of_first) | copy(second, of_second);
-        copy(action, of_action);
+    pub fn evaluate<R: Real, const N: usize>(&mut self, state: [&[R]; N], action: &[R]) -> Option<&[f64]> {
+        let (mut has_negative_zero, mut rest) = (false, &mut self.inputs[..]);
+        for part in state {
+            let (of_part, after) = rest.split_at_mut(part.len());
+            // not one after the other, and all: the comparisons are made in lanes
+            has_negative_zero |= copy(part, of_part);
+            rest = after;
+        }
+        copy(action, rest);
         if has_negative_zero || !self.function.evaluate(&self.inputs, &mut self.outputs) {
             return None;
         }

@@ -80,7 +80,7 @@ pub struct Mechanism<R> {
     /// Velocities over a linearly implicit step: at its end, then their mean.
     step_velocity: Vec<R>,
     /// Zeros: velocities and torques of impulses.
-    zeros: Vec<R>,
+    pub(crate) zeros: Vec<R>,
     pub(crate) diagonal: Vec<R>,
     pub(crate) locked_mask: Vec<R>,
     pub(crate) prescribed_acceleration: Vec<R>,

@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use sincro_math::compiled::{CompiledEvaluation, CompiledFunction};
 
-use super::World;
+use super::{Method, World};
+use crate::coupled::CoupledSystem;
+use crate::mechanism::copy_any;
 
 /// Equations of a world that are compiled; inputs: coordinates of the chart's origin (n_q), y
 /// ([`Layout::dim`](crate::mechanism::layout::Layout::dim) numbers) and commands (n_commands).
@@ -57,6 +59,37 @@ impl World {
         let (base, y) = made.split_at(base.len());
         mechanism.set_base(base);
         self.y.copy_from_slice(y);
+        true
+    }
+
+    /// Makes a tick of length `h` `[s]` by compiled code, from state to state, if it is one step of semi-implicit Euler
+    /// in which nothing switches and nothing else acts; false, with nothing done, if it is not, or if there is no code
+    /// for it.
+    #[inline]
+    pub(super) fn compiled_tick<A: CoupledSystem<f64>>(&mut self, h: f64, system: &A) -> bool {
+        let is_one_step = matches!(self.method, Method::SemiImplicitEuler) && self.substeps == 1;
+        let is_alone =
+            !system.acts() && system.zero_crossing_count().is_none() && !self.mechanism.has_external_forces();
+        if !(is_one_step && is_alone && self.target_velocities.is_empty() && !self.is_constrained()) {
+            return false;
+        }
+        let (layout, zeros, state) = (self.layout(), &self.mechanism.zeros, &mut self.state);
+        let Some(compiled) = self.compiled.as_deref_mut().filter(|_| self.compiled_kind == (CompiledKind::Step { h }))
+        else {
+            return false;
+        };
+        let totals: &[f64] = if layout.tracks_totals() { &state.totals } else { &[] };
+        let parts = [&state.q, zeros, &state.v, totals, &state.rotors];
+        let Some(made) = compiled.evaluate(parts, &state.commands) else { return false };
+        let (q, y) = made.split_at(state.q.len());
+        state.q.copy_from_slice(q);
+        state.v.copy_from_slice(&y[layout.velocities()]);
+        if layout.tracks_totals() {
+            state.totals.copy_from_slice(&y[layout.totals()]);
+        }
+        copy_any(&mut state.rotors, &y[layout.rotor_states()]);
+        state.tick += 1;
+        (self.settled_at, self.statistics.steps) = (Some(state.tick), self.statistics.steps + 1);
         true
     }
 

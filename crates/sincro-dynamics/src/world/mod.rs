@@ -543,6 +543,9 @@ impl World {
         self.next_step = h / f64::from(self.substeps);
         // the time event at the end of the last tick has passed
         system.set_time_event(f64::INFINITY);
+        if self.compiled.is_some() && self.compiled_tick(h, system) {
+            return Ok(());
+        }
         self.count_particles(h);
         self.load(system);
         self.coupled_crossings.resize(system.zero_crossing_count().unwrap_or(0), f64::NAN);
