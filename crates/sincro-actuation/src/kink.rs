@@ -63,7 +63,7 @@ impl Kink {
 /// kinks.add(1, Some(0), Kink::locked(0), (3.0, 0.0));
 /// kinks.add(2, None, Kink::locked(1), (1.0, 0.0));
 /// assert_eq!((shaft, kinks.list.len(), kinks.list[0].limit), (0.0, 2, 6.0));
-/// let needed = [5.0, -4.0];
+/// let needed = [5.0_f64, -4.0];
 /// kinks.list.iter_mut().for_each(|kink| kink.infeasible = needed[kink.dof].abs() > kink.limit);
 /// kinks.pivot(1, &mut Pivoting::default(), |dof| needed[dof]);
 /// assert_eq!([0, 1, 2].map(|drive| kinks.saturation_of(drive)), [Some(0.0), Some(0.0), Some(-1.0)]);
