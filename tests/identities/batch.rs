@@ -165,7 +165,7 @@ fn advance_and_compare(together: &mut [BatchWorld]) {
         assert_eq!(bits(&a.record), bits(&b.record));
         assert_eq!(a.state.drives, b.state.drives);
         assert_eq!(bits(&a.state.contacts), bits(&b.state.contacts));
-        assert_eq!(a.stop, b.stop);
+        assert_eq!((a.stop, a.state.tick), (b.stop, b.state.tick));
     }
 }
 
@@ -249,6 +249,28 @@ fn a_lane_that_may_touch_something_makes_its_step_alone() {
     }
     let share = n_alone as f64 / n_steps as f64;
     assert!((0.05..0.8).contains(&share) || sincro_math::lanes::width() == 1, "{share}");
+}
+
+#[test]
+fn a_world_that_stops_in_a_step_alone_keeps_its_last_state() {
+    let mut r = Random::new(15);
+    let shapes = [Shape::Sphere { radius: 0.08 }, Shape::Capsule { radius: 0.05, length: 0.1 }];
+    let stiff = Material { friction: 0.5, stiffness: 1e5, ..Material::default() };
+    let mut worlds: Vec<_> = (0..19).map(|_| flying_arm(&mut r, &shapes, stiff)).collect();
+    for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| k % 3 == 0) {
+        // the arm in the middle of the table
+        world.state.q[..3].copy_from_slice(&[0.93, 0.01 * k as f64, 0.56]);
+    }
+    let mut alone = worlds.clone();
+    advance_and_compare(&mut worlds);
+    let settings =
+        BatchSettings { method: MethodKind::SemiImplicitEuler, h: 0.004, n_steps: SWITCHING_STEPS, record_every: 0 };
+    alone.iter_mut().for_each(|w| advance_alone(w, &settings));
+    let stopped = || worlds.iter().zip(&alone).filter(|(world, _)| world.stop.is_some());
+    assert!(stopped().count() > 0);
+    for (a, b) in stopped() {
+        assert_eq!((bits(&a.state.q), bits(&a.state.v)), (bits(&b.state.q), bits(&b.state.v)));
+    }
 }
 
 #[test]

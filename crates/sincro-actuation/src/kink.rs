@@ -100,7 +100,7 @@ impl Kinks {
         self.of_drives.resize(n_drives, NO_KINK);
     }
 
-    /// Takes a drive from its kink.
+    /// Notes that a drive is at no kink, before kinks are collected anew.
     pub fn release(&mut self, drive: usize) {
         self.of_drives[drive] = NO_KINK;
     }

@@ -24,6 +24,8 @@ pub(super) struct LaneConstraints<R> {
     pairs: Option<NearPairs<R>>,
     /// World of each lane, with the warm start of its constraints.
     alone: Vec<World>,
+    /// False for lanes that no world has been put into: they make no steps alone.
+    is_used: Vec<bool>,
     /// Strongest gravity [m/s²].
     gravity: R,
     /// State at the start of the step.
@@ -56,6 +58,7 @@ impl<R: Real> LaneConstraints<R> {
             limits: set.limits.clone(),
             pairs: NearPairs::new(set, first.n_v()),
             alone: (0..R::LANES).map(world).collect(),
+            is_used: vec![false; R::LANES],
             gravity: R::from_lanes(|k| of(k).strongest_gravity(&[])),
             start: [zeros(dim), zeros(first.n_q()), zeros(first.n_drives())],
             is_alone: R::zero(),
@@ -64,12 +67,19 @@ impl<R: Real> LaneConstraints<R> {
         })
     }
 
-    /// Begins a run of the worlds of a batch from the states that `of` gives for each lane.
-    pub fn load<'a>(&mut self, of: impl Fn(usize) -> &'a State<f64>) {
-        for (k, world) in self.alone.iter_mut().enumerate() {
-            world.state.clone_from(of(k));
-            (self.n_alone[k], self.stops[k]) = (0, None);
+    /// Begins a run of the worlds of a batch.
+    pub fn load(&mut self, worlds: &[BatchWorld]) {
+        self.is_used.fill(false);
+        for (k, world) in worlds.iter().enumerate() {
+            self.put(k, &world.state);
+            self.n_alone[k] = 0;
         }
+    }
+
+    /// Puts a world into lane `k`.
+    fn put(&mut self, k: usize, state: &State<f64>) {
+        self.alone[k].state.clone_from(state);
+        (self.is_used[k], self.stops[k]) = (true, None);
     }
 
     /// Warm start of the constraints of lane `k`.
@@ -83,7 +93,9 @@ impl<R: Real> LaneConstraints<R> {
             world.steps_alone += core::mem::take(&mut self.n_alone[k]);
             world.stop = self.stops[k];
             if world.stop.is_some() {
+                let tick = world.state.tick;
                 world.state.clone_from(&self.alone[k].state);
+                world.state.tick = tick;
             }
         }
     }
@@ -146,11 +158,10 @@ impl<R: Real> LaneWorlds<R> {
             R::run_hot(Look { worlds: self, constraints: &mut constraints, h, is_end: true });
         }
         for k in 0..R::LANES {
-            if constraints.stops[k].is_some() {
+            if !constraints.is_used[k] || constraints.stops[k].is_some() {
                 continue;
             }
             if constraints.is_alone.lane(k) > 0.5 {
-                constraints.n_alone[k] += 1;
                 self.step_alone(&mut constraints, k, (t, h));
             } else {
                 // no constraint is loaded
@@ -164,7 +175,7 @@ impl<R: Real> LaneWorlds<R> {
     /// Makes the step of lane `k` from its start by itself.
     fn step_alone(&mut self, constraints: &mut LaneConstraints<R>, k: usize, (t, h): (f64, f64)) {
         let layout = self.mechanism.layout();
-        let LaneConstraints { alone, start: [y, base, drives], stops, .. } = constraints;
+        let LaneConstraints { alone, start: [y, base, drives], stops, n_alone, .. } = constraints;
         let world = &mut alone[k];
         let copy = |to: &mut [f64], from: &[R]| to.iter_mut().zip(from).for_each(|(to, from)| *to = from.lane(k));
         copy(&mut world.state.q, base);
@@ -173,11 +184,14 @@ impl<R: Real> LaneWorlds<R> {
         copy(&mut world.state.drives, drives);
         copy(&mut world.state.commands, &self.mechanism.commands);
         stops[k] = world.advance(t, h).err().map(|(_, stop)| stop);
-        self.set_numbers(k, &alone[k].state);
-        if stops[k].is_some() {
-            // whoever looks sees that it cannot go on
-            let nan = R::from_lanes(|l| if l == k { f64::NAN } else { 0.0 });
-            self.y[layout.velocities()].iter_mut().for_each(|v| *v += nan);
+        self.set_numbers(k, &world.state);
+        if stops[k].is_none() {
+            n_alone[k] += 1;
+            return;
+        }
+        // whoever looks sees that it cannot go on
+        for v in &mut self.y[layout.velocities()] {
+            *v = R::from_lanes(|l| if l == k { f64::NAN } else { v.lane(l) });
         }
     }
 
@@ -185,8 +199,7 @@ impl<R: Real> LaneWorlds<R> {
     pub(super) fn set_lane(&mut self, k: usize, state: &State<f64>) {
         self.set_numbers(k, state);
         if let (Some(constraints), true) = (&mut self.constraints, k < R::LANES) {
-            constraints.stops[k] = None;
-            constraints.alone[k].state.clone_from(state);
+            constraints.put(k, state);
         }
     }
 

@@ -94,25 +94,10 @@ impl<R: Real> Task for Step<'_, R> {
     #[inline(always)]
     fn run(self) {
         let Self { worlds, t, h } = self;
-        let is_driven = !worlds.mechanism.drives.is_empty();
-        if is_driven {
-            worlds.latch_target_velocities();
-        }
-        let step = |worlds: &mut LaneWorlds<R>| {
+        worlds.step_driven(h, |worlds| {
             let LaneWorlds { mechanism, y, method, .. } = worlds;
             method.step(mechanism, t, h, y);
-        };
-        if worlds.modes.is_some() {
-            worlds.step_in_modes(h, step);
-        } else {
-            if is_driven {
-                worlds.drive(h);
-            }
-            step(worlds);
-        }
-        if is_driven && worlds.is_euler() {
-            worlds.set_driven_velocities();
-        }
+        });
     }
 }
 
@@ -132,25 +117,10 @@ impl<R: Real> Task for StepWith<'_, R> {
         let Self { worlds, system, t, h } = self;
         let own = worlds.mechanism.dim();
         worlds.y[own..].copy_from_slice(system.states());
-        let is_driven = !worlds.mechanism.drives.is_empty();
-        if is_driven {
-            worlds.latch_target_velocities();
-        }
-        let mut step = |worlds: &mut LaneWorlds<R>| {
+        worlds.step_driven(h, |worlds| {
             let LaneWorlds { mechanism, y, method, negated_jacobian_diagonal, .. } = worlds;
             method.step(&mut Coupled { mechanism, system: &mut *system, negated_jacobian_diagonal }, t, h, y);
-        };
-        if worlds.modes.is_some() {
-            worlds.step_in_modes(h, step);
-        } else {
-            if is_driven {
-                worlds.drive(h);
-            }
-            step(worlds);
-        }
-        if worlds.is_euler() {
-            worlds.set_driven_velocities();
-        }
+        });
         system.states().copy_from_slice(&worlds.y[own..]);
     }
 }
@@ -337,7 +307,7 @@ impl<R: Real> LaneWorlds<R> {
         let drives = gather(self.mechanism.drives.len(), &|s| &s.drives);
         self.mechanism.drives.copy_from_slice(&drives);
         if let Some(constraints) = &mut self.constraints {
-            constraints.load(|k| of(k));
+            constraints.load(worlds);
         }
     }
 
@@ -479,6 +449,24 @@ impl<R: Real> LaneWorlds<R> {
         }
         self.set_driven_velocities();
         self.mechanism.mark_locked();
+    }
+
+    /// Makes a step of length `h` `[s]` of the method, `step`, in which the drives keep their laws.
+    #[inline(always)]
+    fn step_driven(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
+        if self.mechanism.drives.is_empty() {
+            return step(self);
+        }
+        self.latch_target_velocities();
+        if self.modes.is_some() {
+            self.step_in_modes(h, step);
+        } else {
+            self.drive(h);
+            step(self);
+        }
+        if self.is_euler() {
+            self.set_driven_velocities();
+        }
     }
 
     /// Latches the target velocities of the drives for a step.

@@ -14,7 +14,7 @@ use crate::mechanism::constraints::ActivationRule;
 use crate::model::{Attached, ConstraintSet};
 use crate::spatial::{Mat3, Pose, Vec3};
 
-/// Relative width of rounding of a margin, with which lanes look at a step that a world alone may not.
+/// Width of rounding of a margin, relative and in `[m]`: lanes make a step alone where a world may find nothing.
 const ROUNDING: f64 = 1e-9;
 
 /// Number of pairs of surfaces up to which lanes look at them.

@@ -3,7 +3,7 @@
 //! Each lane does what [`World`](crate::world::World) does alone: it tries its modes over the whole step, and changes
 //! those that contradict their laws until none does. A try is made in all lanes at once; lanes whose modes are decided
 //! make the same step again, with the same bits. Most steps keep the modes of the last one: whether they do is seen in
-//! all lanes together, with a wider margin, and only where one may not the lanes are looked at one by one.
+//! all lanes together, by a test without room for rounding; only where one fails the lanes are looked at one by one.
 
 use sincro_actuation::{Kink, Kinks, Pivoting};
 use sincro_math::Real;

@@ -116,7 +116,7 @@ impl SteppedLanes {
     }
 
     /// Sets the state of lane `lane`, 0 to the number of lanes − 1 (others: no effect): coordinates (n_q), velocities
-    /// (n_v), rotor states and modes of drives of `state`, in SI units. Commands and the rest of it are ignored.
+    /// (n_v), rotor states, modes of drives and warm start of `state`, in SI units. Its commands are ignored.
     pub fn set_lane(&mut self, lane: usize, state: &State<f64>) {
         dispatch_lanes(SetLane { lanes: self, lane, state });
     }
@@ -148,7 +148,8 @@ impl SteppedLanes {
     ///
     /// # Panics
     ///
-    /// If the system has another number of states than the worlds were made for.
+    /// If the system has another number of states than the worlds were made for, or if they have limits of joints or
+    /// contacts.
     pub fn advance_with(&mut self, h: f64, system: &mut LaneSystem) {
         dispatch_lanes(AdvanceWith { lanes: self, h, system });
     }

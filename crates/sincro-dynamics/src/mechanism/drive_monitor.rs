@@ -132,16 +132,10 @@ impl<R: Real> Mechanism<R> {
         self.overload_in(0, dof, limit)
     }
 
-    /// As [`Mechanism::overload`], in lane `lane`; anything not above zero where it is none.
-    #[inline(always)]
+    /// As [`Mechanism::overload`], in lane `lane`.
     fn overload_in(&self, lane: usize, dof: usize, limit: f64) -> f64 {
         let reaction = self.scratch.reaction[dof].lane(lane).abs();
-        let beyond = reaction - limit * (1.0 + SAME_FORCE);
-        if beyond > 0.0 {
-            beyond.min(reaction - (limit + self.rounding() * self.reaction_scale_in(lane, dof)))
-        } else {
-            beyond
-        }
+        reaction - (limit * (1.0 + SAME_FORCE)).max(limit + self.rounding() * self.reaction_scale_in(lane, dof))
     }
 
     /// Torque limit of a drive under the loads of the last evaluation [N·m] or `[N]`; none without a limit.

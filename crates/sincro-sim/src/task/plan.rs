@@ -171,7 +171,9 @@ impl Plan {
         let left = |command: &usize| !plan.own_commands().any(|own| own == *command);
         plan.varying_commands = (0..plan.n_commands()).filter(is_varying).filter(left).collect();
         plan.recursions_refused = plan.obstacle_to_recursions();
-        if plan.recursions_refused.is_none() && !loaded.scene.model.constraints().is_empty() {
+        let model = &loaded.scene.model;
+        let switches = model.has_limited_drives() || !model.constraints().is_empty();
+        if plan.recursions_refused.is_none() && switches {
             plan.start = LockStep::new(loaded, plan.method, false).state().clone();
         }
         let middle = plan.drawn(0, 0);
