@@ -157,15 +157,20 @@ fn bits(x: &[f64]) -> Vec<u64> {
 fn advance_and_compare(together: &mut [BatchWorld]) {
     let settings =
         BatchSettings { method: MethodKind::SemiImplicitEuler, h: 0.004, n_steps: SWITCHING_STEPS, record_every: 1 };
+    advance_and_compare_by(together, &settings);
+}
+
+fn advance_and_compare_by(together: &mut [BatchWorld], settings: &BatchSettings) {
     assert_eq!(obstacle_to_lanes(&together[0].model, settings.method), None);
     let mut alone = together.to_vec();
-    advance(together, &settings).unwrap();
-    alone.iter_mut().for_each(|w| advance_alone(w, &settings));
+    advance(together, settings).unwrap();
+    alone.iter_mut().for_each(|w| advance_alone(w, settings));
     for (a, b) in together.iter().zip(&alone) {
         assert_eq!(bits(&a.record), bits(&b.record));
-        assert_eq!(a.state.drives, b.state.drives);
-        assert_eq!(bits(&a.state.contacts), bits(&b.state.contacts));
         assert_eq!((a.stop, a.state.tick), (b.stop, b.state.tick));
+        assert_eq!((bits(&a.state.q), bits(&a.state.v)), (bits(&b.state.q), bits(&b.state.v)));
+        assert_eq!((bits(&a.state.rotors), bits(&a.state.commands)), (bits(&b.state.rotors), bits(&b.state.commands)));
+        assert_eq!((&a.state.drives, bits(&a.state.contacts)), (&b.state.drives, bits(&b.state.contacts)));
     }
 }
 
@@ -261,15 +266,84 @@ fn a_world_that_stops_in_a_step_alone_keeps_its_last_state() {
         // the arm in the middle of the table
         world.state.q[..3].copy_from_slice(&[0.93, 0.01 * k as f64, 0.56]);
     }
-    let mut alone = worlds.clone();
     advance_and_compare(&mut worlds);
-    let settings =
-        BatchSettings { method: MethodKind::SemiImplicitEuler, h: 0.004, n_steps: SWITCHING_STEPS, record_every: 0 };
-    alone.iter_mut().for_each(|w| advance_alone(w, &settings));
-    let stopped = || worlds.iter().zip(&alone).filter(|(world, _)| world.stop.is_some());
-    assert!(stopped().count() > 0);
-    for (a, b) in stopped() {
-        assert_eq!((bits(&a.state.q), bits(&a.state.v)), (bits(&b.state.q), bits(&b.state.v)));
+    assert!(worlds.iter().any(|world| world.stop.is_some()));
+}
+
+#[test]
+fn a_world_that_stops_in_the_lanes_keeps_its_last_state() {
+    for method in METHODS {
+        let mut worlds = worlds(0.0);
+        for (k, world) in worlds.iter_mut().enumerate().filter(|(k, _)| k % 3 == 0) {
+            // more than a double holds after a few steps, one for each doubling of the exponent
+            world.state.v[1] = 10.0_f64.powi(5 << (k / 3));
+        }
+        let settings = BatchSettings { method, h: 0.004, n_steps: 10, record_every: 1 };
+        advance_and_compare_by(&mut worlds, &settings);
+        let ticks: Vec<_> = worlds.iter().filter(|w| w.stop.is_some()).map(|w| w.state.tick).collect();
+        assert!(ticks.len() > 2 && ticks.iter().any(|tick| *tick > 0), "{ticks:?}");
+        // they stay where they are; the others go on
+        let stopped = worlds.clone();
+        advance_and_compare_by(&mut worlds, &settings);
+        for (now, then) in worlds.iter().zip(&stopped) {
+            let of = |w: &BatchWorld| (w.stop, w.state.tick, bits(&w.state.q), bits(&w.state.v), w.record.len());
+            assert_eq!(then.stop.is_some(), of(now) == of(then));
+        }
+    }
+}
+
+/// Worlds of an arm whose first joint feels the torques of a signal, at the ticks given.
+fn worlds_with_a_signal(signal: &Signal, ticks: impl Fn(u64) -> u64) -> Vec<BatchWorld> {
+    let mut r = Random::new(16);
+    (0..19)
+        .map(|k| {
+            let mut b = ModelBuilder::new([0.0, 0.0, -9.81]);
+            let mut spec = JointSpec::new(JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+            spec.torque = vec![signal.clone()];
+            let joint = b.joint("j", NodeId::WORLD, Pose::identity(), spec);
+            let mass = Shape::Cuboid { size: [0.1, 0.2, 0.3] }.mass_properties(100.0 + 10.0 * r.unit());
+            b.body("b", joint, Pose::translation(Vec3([0.1, 0.0, 0.0])), BodySpec { mass });
+            let model = b.build().unwrap().0;
+            let state = State { q: vec![r.unit()], v: vec![r.unit()], tick: ticks(k), ..State::new(&model) };
+            BatchWorld::new(model, state)
+        })
+        .collect()
+}
+
+#[test]
+fn worlds_with_other_clocks_feel_their_own_forces() {
+    let sine = Signal::Sine { amplitude: 3.0, angular_frequency: 7.0, phase: 0.2, offset: 0.0 };
+    for method in METHODS {
+        let settings = BatchSettings { method, h: 0.004, n_steps: 30, record_every: 1 };
+        let width = sincro_math::lanes::width() as u64;
+        let signals = [&sine, &Signal::Constant(0.7)];
+        for (signal, in_lanes) in [(signals[0], false), (signals[1], true)] {
+            let mut worlds = worlds_with_a_signal(signal, |k| 11 * k);
+            advance_and_compare_by(&mut worlds, &settings);
+            let n_alone = worlds.iter().filter(|w| w.steps_alone > 0).count() as u64;
+            assert_eq!(n_alone == 0, in_lanes && width > 1, "{method:?}");
+        }
+        let mut worlds = worlds_with_a_signal(&sine, |_| 130);
+        advance_and_compare_by(&mut worlds, &settings);
+        assert!(worlds.iter().all(|w| w.steps_alone == 0) || width == 1);
+    }
+}
+
+#[test]
+fn corners_of_inputs_keep_worlds_from_lanes_where_they_end_steps() {
+    // from 0.5 s on, tick 125 of 4 ms; the last one between two ticks
+    for start in [0.5, 0.5015] {
+        let step = Signal::Step { time: start, from: 1.0, to: -2.0 };
+        for method in METHODS {
+            let settings = BatchSettings { method, h: 0.004, n_steps: 30, record_every: 1 };
+            for (tick, is_outside) in [(80, true), (110, false), (126, true)] {
+                let mut worlds = worlds_with_a_signal(&step, |_| tick);
+                advance_and_compare_by(&mut worlds, &settings);
+                let in_lanes = is_outside || method == MethodKind::SemiImplicitEuler;
+                let n_alone = worlds.iter().filter(|w| w.steps_alone > 0).count();
+                assert!(sincro_math::lanes::width() == 1 || (n_alone == 0) == in_lanes, "{method:?}, tick {tick}");
+            }
+        }
     }
 }
 

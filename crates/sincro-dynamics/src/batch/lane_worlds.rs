@@ -6,7 +6,7 @@ use sincro_math::{Real, Task};
 
 use super::constraints::LaneConstraints;
 use super::step_modes::StepModes;
-use super::{BatchSettings, BatchWorld, CompiledStep};
+use super::{BatchSettings, BatchWorld, CompiledStep, has_limits_of};
 use crate::coupled::{Coupled, CoupledSystem, StateView};
 use crate::integrate::{Control, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::kinematics;
@@ -78,6 +78,29 @@ impl<R: Real> FixedMethod<R> {
             Self::Rk4(method) => method.step(system, t, h, y),
             Self::Implicit(method) => method.step(system, t, h, y),
         }
+    }
+}
+
+/// State of all lanes at the start of a step, to which those go back that cannot make it.
+#[derive(Clone, Debug)]
+pub(super) struct StepStart<R> {
+    pub y: Vec<R>,
+    pub base: Vec<R>,
+    pub drives: Vec<R>,
+}
+
+impl<R: Real> StepStart<R> {
+    /// Room for the state of a mechanism, and of what is integrated with it: `dim` numbers.
+    pub fn new(mechanism: &Mechanism<R>, dim: usize) -> Self {
+        let zeros = |n: usize| vec![R::zero(); n];
+        Self { y: zeros(dim), base: zeros(mechanism.base().len()), drives: zeros(mechanism.drives.len()) }
+    }
+
+    #[inline(always)]
+    pub fn copy_from(&mut self, worlds: &LaneWorlds<R>) {
+        self.y.copy_from_slice(&worlds.y);
+        self.base.copy_from_slice(worlds.mechanism.base());
+        self.drives.copy_from_slice(&worlds.mechanism.drives);
     }
 }
 
@@ -168,6 +191,9 @@ impl<R: Real> LaneWorlds<R> {
     /// As [`LaneWorlds::new`].
     pub fn with_coupled_states(models: &[&Model<f64>], method: MethodKind, n_states: usize) -> Result<Self, PackError> {
         let mechanism = Mechanism::new(Model::<R>::pack(models)?, false);
+        if !models.iter().all(|model| has_limits_of(model, models[0])) {
+            return Err(PackError("set of motors with a limit"));
+        }
         let own = mechanism.dim();
         let dim = own + n_states;
         let method = match method {
@@ -187,7 +213,7 @@ impl<R: Real> LaneWorlds<R> {
             negated_jacobian_diagonal: zeros(n_states),
             target_velocities: zeros(mechanism.drives.len()),
             modes: StepModes::new(&mechanism, dim).map(Box::new),
-            constraints: LaneConstraints::new(models, dim).map(Box::new),
+            constraints: LaneConstraints::new(models, &mechanism, dim).map(Box::new),
             reach_target_velocities,
             mechanism,
             method,
@@ -311,30 +337,17 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    fn store(&self, worlds: &mut [BatchWorld]) {
+    /// Writes lane `k` of a state of the mechanism to that of a world, with the present commands.
+    pub(super) fn store_lane(&self, k: usize, at: &StepStart<R>, state: &mut State<f64>) {
         let layout = self.mechanism.layout();
-        for (k, world) in worlds.iter_mut().enumerate() {
-            if world.stop.is_some() {
-                continue;
-            }
-            for (q, lanes) in world.state.q.iter_mut().zip(self.mechanism.base()) {
-                *q = lanes.lane(k);
-            }
-            for (v, lanes) in world.state.v.iter_mut().zip(&self.y[layout.velocities()]) {
-                *v = lanes.lane(k);
-            }
-            for (x, lanes) in world.state.rotors.iter_mut().zip(&self.y[layout.rotor_states()]) {
-                *x = lanes.lane(k);
-            }
-            for (c, lanes) in world.state.commands.iter_mut().zip(&self.mechanism.commands) {
-                *c = lanes.lane(k);
-            }
-            for (mode, lanes) in world.state.drives.iter_mut().zip(&self.mechanism.drives) {
-                *mode = lanes.lane(k);
-            }
-            if let Some(constraints) = &self.constraints {
-                world.state.contacts.clone_from(constraints.contacts(k));
-            }
+        let copy = |to: &mut [f64], from: &[R]| to.iter_mut().zip(from).for_each(|(to, from)| *to = from.lane(k));
+        copy(&mut state.q, &at.base);
+        copy(&mut state.v, &at.y[layout.velocities()]);
+        copy(&mut state.rotors, &at.y[layout.rotor_states()]);
+        copy(&mut state.commands, &self.mechanism.commands);
+        copy(&mut state.drives, &at.drives);
+        if let Some(constraints) = &self.constraints {
+            state.contacts.clone_from(constraints.contacts(k));
         }
     }
 
@@ -342,22 +355,27 @@ impl<R: Real> LaneWorlds<R> {
     #[inline(always)]
     pub(super) fn run(&mut self, worlds: &mut [BatchWorld], settings: &BatchSettings) {
         self.load(worlds);
+        // forces that depend on time are those of worlds with one clock
         let first = worlds[0].state.tick;
+        let mut start = StepStart::new(&self.mechanism, self.y.len());
         self.record(worlds, settings.record_every > 0);
         for k in 0..settings.n_steps {
             self.command(worlds, k as usize);
-            let t = (first + u64::from(k)) as f64 * settings.h;
-            self.step(t, settings.h);
+            start.copy_from(self);
+            self.step((first + u64::from(k)) as f64 * settings.h, settings.h);
             if let Some(constraints) = &mut self.constraints {
                 constraints.note(worlds);
             }
-            self.note_stops(worlds, t);
+            self.note_stops(worlds, &start, settings.h);
             self.record(worlds, settings.record_every > 0 && (k + 1) % settings.record_every == 0);
             for world in worlds.iter_mut().filter(|w| w.stop.is_none()) {
                 world.state.tick += 1;
             }
         }
-        self.store(worlds);
+        start.copy_from(self);
+        for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
+            self.store_lane(k, &start, &mut world.state);
+        }
     }
 
     /// Makes one step of length `h` `[s]` from time `t` `[s]` in all lanes, compiled once for each instruction set. A
@@ -488,9 +506,10 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    /// A lane that stopped being finite keeps the state it had before and says so; the others are not concerned.
+    /// A lane that stopped being finite goes back to the start of its step of length `h` `[s]` and says so; the others
+    /// are not concerned.
     #[inline(always)]
-    fn note_stops(&self, worlds: &mut [BatchWorld], t: f64) {
+    fn note_stops(&self, worlds: &mut [BatchWorld], start: &StepStart<R>, h: f64) {
         // 0·x is 0, or NaN where x is not finite: one look at the lanes instead of one an entry
         let mut probe = R::zero();
         for y in &self.y {
@@ -499,9 +518,11 @@ impl<R: Real> LaneWorlds<R> {
         if probe.is_finite() {
             return;
         }
-        for (k, world) in worlds.iter_mut().enumerate() {
-            if world.stop.is_none() && !self.y.iter().all(|y| y.lane(k).is_finite()) {
+        for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
+            if !self.y.iter().all(|y| y.lane(k).is_finite()) {
+                let t = world.state.tick as f64 * h;
                 world.stop = Some(Stop::Integration(Failure::NotFinite { t }));
+                self.store_lane(k, start, &mut world.state);
             }
         }
     }

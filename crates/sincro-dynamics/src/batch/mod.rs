@@ -3,7 +3,8 @@
 //! Worlds may differ in every number of their model, in their initial state and in their inputs. World k of a batch has
 //! the bits that [`World`] gives it alone: lanes do the same operations in the same order. Limits of
 //! drives and dry friction are decided in each lane by itself over a step of semi-implicit Euler; what lanes cannot do
-//! together ([`obstacle_to_lanes`], and inputs with corners) is done one world at a time; the result does not tell.
+//! together is done one world at a time, and the result does not tell: an [obstacle](obstacle_to_lanes), inputs with
+//! corners within a run of RK4 or an implicit method, and forces that depend on time in worlds whose clocks differ.
 //!
 //! Steps are fixed: semi-implicit Euler, RK4 or implicit. No threads here; `sincro-sim` deals bundles to threads.
 
@@ -40,7 +41,8 @@ pub struct BatchWorld {
     /// Commands for every step, each in the unit of its actuator: `n_steps` rows of [`Model::n_commands`] numbers, one
     /// row after the other; empty to hold those in `state`.
     pub commands: Vec<f64>,
-    /// Reason for which it stopped before the end; `None` if it did not.
+    /// Reason for which it stopped before the end; `None` if it did not. A world that has one makes no further steps:
+    /// its state is that of the last instant reached.
     pub stop: Option<Stop>,
     /// Recorded coordinates and velocities in SI units: rows of n_q + n_v numbers, one row after the other, the first
     /// at the start, then one every `record_every` steps. A run appends to it.
@@ -132,7 +134,7 @@ pub fn advance_compiled(
     assert!(fixed, "a batch has a fixed step");
     let width = sincro_math::lanes::width();
     for (k, bundle) in worlds.chunks_mut(width).enumerate() {
-        if bundle.iter().all(|w| suits_lanes(w, settings) && has_limits_of(&w.model, &bundle[0].model)) {
+        if go_together(bundle, settings) {
             let compiled = compiled.map(|of| of(k * width));
             dispatch_lanes(Bundle { worlds: bundle, settings, compiled })?;
         } else {
@@ -142,12 +144,28 @@ pub fn advance_compiled(
     Ok(())
 }
 
-fn suits_lanes(world: &BatchWorld, settings: &BatchSettings) -> bool {
-    let end = settings.h * f64::from(settings.n_steps);
-    obstacle_to_lanes(&world.model, settings.method).is_none() && world.model.next_time_event(-1.0) >= end
+/// Returns true if lanes advance all worlds of a bundle.
+fn go_together(bundle: &[BatchWorld], settings: &BatchSettings) -> bool {
+    let first = &bundle[0];
+    let suits = |w: &BatchWorld| obstacle_to_lanes(&w.model, settings.method).is_none() && !has_corners(w, settings);
+    let goes_with_first = |w: &BatchWorld| {
+        let has_its_time = w.state.tick == first.state.tick || is_time_invariant(&w.model);
+        has_its_time && (w.model.is_same(&first.model) || has_limits_of(&w.model, &first.model))
+    };
+    bundle.iter().all(|w| suits(w) && goes_with_first(w))
 }
 
-/// Returns true if the same drives of two models of one structure have limits, and their joints the same limits.
+/// Returns true if an input has a corner within the run, at which a step of the world alone would end. Those of
+/// semi-implicit Euler go on.
+fn has_corners(world: &BatchWorld, settings: &BatchSettings) -> bool {
+    let time = |tick: u64| tick as f64 * settings.h;
+    let tick = world.state.tick;
+    settings.method != MethodKind::SemiImplicitEuler
+        && world.model.next_time_event(time(tick)) <= time(tick + u64::from(settings.n_steps))
+}
+
+/// Returns true if the same drives of two models of one structure have limits, and their joints and surfaces the same
+/// limits and materials.
 fn has_limits_of(model: &Model<f64>, other: &Model<f64>) -> bool {
     let mut drives = model.drives().iter().zip(other.drives());
     drives.all(|(a, b)| model.drive_limit(a).is_some() == other.drive_limit(b).is_some())
@@ -161,7 +179,7 @@ pub fn obstacle_to_lanes(model: &Model<f64>, method: MethodKind) -> Option<&'sta
     if !(constraints.loop_joints.is_empty() && constraints.gears.is_empty()) {
         return Some("loop joints or gears");
     }
-    if constraints.pairs.len() > MAX_PAIRS {
+    if constraints.pairs.iter().filter(|pair| !pair.is_ignored).count() > MAX_PAIRS {
         return Some("more than 256 pairs of surfaces that can touch");
     }
     if method != MethodKind::SemiImplicitEuler && !constraints.is_empty() {
@@ -216,6 +234,9 @@ pub fn is_time_invariant(model: &Model<f64>) -> bool {
 /// Advances one world by itself, without lanes, by `n_steps` steps of `settings`; any method. The results are those of
 /// [`advance`]; if it stops early, [`BatchWorld::stop`] has the reason and `state` the last state reached.
 pub fn advance_alone(world: &mut BatchWorld, settings: &BatchSettings) {
+    if world.stop.is_some() {
+        return;
+    }
     let (n_q, n_commands) = (world.model.n_q(), world.model.n_commands());
     let control = Control::new(1.0, settings.h);
     let mut alone = World::with_totals(world.model.clone(), world.state.clone(), settings.method, control, false);

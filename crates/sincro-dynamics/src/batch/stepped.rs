@@ -140,7 +140,7 @@ impl SteppedLanes {
 
     /// Makes `n_steps` steps of length `h` `[s]` in all lanes.
     pub fn advance(&mut self, h: f64, n_steps: u64) {
-        dispatch_lanes(Advance { lanes: self, h, n_steps });
+        dispatch_lanes(Advance { lanes: self, h, n_steps, system: None });
     }
 
     /// Makes one step of length `h` `[s]` in all lanes, together with a coupled system. It sees the time since the
@@ -151,14 +151,14 @@ impl SteppedLanes {
     /// If the system has another number of states than the worlds were made for, or if they have limits of joints or
     /// contacts.
     pub fn advance_with(&mut self, h: f64, system: &mut LaneSystem) {
-        dispatch_lanes(AdvanceWith { lanes: self, h, system });
+        dispatch_lanes(Advance { lanes: self, h, n_steps: 1, system: Some(system) });
     }
 
     /// Returns what `observer` makes of the state of all lanes; with `with_kinematics` the poses `[m]` and twists
     /// `[rad/s]`, `[m/s]` of links in its scratch are those of the state, else they are outdated.
     pub fn observe<O: LaneObserver>(&mut self, with_kinematics: bool, observer: O) -> O::Output {
         if with_kinematics {
-            dispatch_lanes(UpdateKinematics { lanes: self });
+            dispatch_lanes(UpdateKinematics { lanes: self, with_accelerations: false });
         }
         dispatch_lanes(Observe { lanes: self, observer })
     }
@@ -166,7 +166,7 @@ impl SteppedLanes {
     /// As [`SteppedLanes::observe`] with the kinematics, and with the accelerations of links `[rad/s²]`, `[m/s²]` under
     /// the present commands in the scratch.
     pub fn observe_with_accelerations<O: LaneObserver>(&mut self, observer: O) -> O::Output {
-        dispatch_lanes(FindAccelerations { lanes: self });
+        dispatch_lanes(UpdateKinematics { lanes: self, with_accelerations: true });
         dispatch_lanes(Observe { lanes: self, observer })
     }
 
@@ -257,6 +257,7 @@ struct Advance<'a> {
     lanes: &'a mut SteppedLanes,
     h: f64,
     n_steps: u64,
+    system: Option<&'a mut LaneSystem>,
 }
 
 impl LaneVisitor for Advance<'_> {
@@ -264,31 +265,19 @@ impl LaneVisitor for Advance<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) {
-        let worlds = self.lanes.worlds::<R>();
-        for _ in 0..self.n_steps {
-            worlds.step(0.0, self.h);
+        let Self { lanes, h, n_steps, system } = self;
+        let worlds = lanes.worlds::<R>();
+        match system {
+            None => (0..n_steps).for_each(|_| worlds.step(0.0, h)),
+            Some(system) => worlds.step_with(0.0, h, &mut **system.coupled::<R>()),
         }
     }
 }
 
-struct AdvanceWith<'a> {
-    lanes: &'a mut SteppedLanes,
-    h: f64,
-    system: &'a mut LaneSystem,
-}
-
-impl LaneVisitor for AdvanceWith<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn visit<R: Real>(self) {
-        let Self { lanes, h, system } = self;
-        lanes.worlds::<R>().step_with(0.0, h, &mut **system.coupled::<R>());
-    }
-}
-
+/// Kinematics of the state, with or without the accelerations under the present commands.
 struct UpdateKinematics<'a> {
     lanes: &'a mut SteppedLanes,
+    with_accelerations: bool,
 }
 
 impl LaneVisitor for UpdateKinematics<'_> {
@@ -296,20 +285,12 @@ impl LaneVisitor for UpdateKinematics<'_> {
 
     #[inline(always)]
     fn visit<R: Real>(self) {
-        self.lanes.worlds::<R>().view(true);
-    }
-}
-
-struct FindAccelerations<'a> {
-    lanes: &'a mut SteppedLanes,
-}
-
-impl LaneVisitor for FindAccelerations<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn visit<R: Real>(self) {
-        self.lanes.worlds::<R>().view_with_accelerations();
+        let worlds = self.lanes.worlds::<R>();
+        if self.with_accelerations {
+            worlds.view_with_accelerations();
+        } else {
+            worlds.view(true);
+        }
     }
 }
 

@@ -169,14 +169,17 @@ impl TaskWorlds {
             Err(obstacle) => StepsBy::Recursions { reason: obstacle.to_string() },
         };
         let plan = Arc::new(plan);
-        let width = if plan.lanes_refused().is_none() { sincro_math::lanes::width() } else { 1 };
-        let mut groups: Vec<Group> = (0..n / width).map(|_| Group::new(&plan, width)).collect();
-        // worlds that do not fill the lanes: lock-steps are shared out one by one
-        let rest = n % width;
-        let sizes = if plan.recursions_refused().is_some() { vec![1; rest] } else { vec![rest; usize::from(rest > 0)] };
-        groups.extend(sizes.into_iter().map(|n| Group::new(&plan, n)));
         let available = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { available } else { threads };
+        let width = if plan.lanes_refused().is_none() { sincro_math::lanes::width() } else { 1 };
+        // steps that worlds make alone gain from each thread, from lanes they do not
+        let makes_steps_alone = width > 1 && !plan.scene().model.constraints().is_empty();
+        let size = if makes_steps_alone { width.min(n.div_ceil(threads).max(1)) } else { width };
+        let mut groups: Vec<Group> = (0..n / size).map(|_| Group::new(&plan, size)).collect();
+        // worlds that do not fill the lanes: lock-steps are shared out one by one
+        let rest = n % size;
+        let sizes = if plan.recursions_refused().is_some() { vec![1; rest] } else { vec![rest; usize::from(rest > 0)] };
+        groups.extend(sizes.into_iter().map(|n| Group::new(&plan, n)));
         let threads = Threads::new(&plan, threads.min(groups.len()), width);
         Ok(Self { plan, groups, n, steps_by, threads })
     }

@@ -185,7 +185,8 @@ impl Plan {
 
     /// Part of the scene that keeps the recursions from advancing its worlds in lanes, in words.
     fn obstacle_to_recursions(&self) -> Option<String> {
-        let common = self.common_obstacle().map(ToOwned::to_owned);
+        let model = &self.scene().model;
+        let common = self.common_obstacle().or_else(|| obstacle_to_lanes(model, self.method)).map(ToOwned::to_owned);
         common.or_else(|| self.obstacle_in_diagram()).or_else(|| self.obstacle_in_sensors()).or_else(|| {
             let is_known = |probe: &Probe| is_of_state(&self.loaded.scene.model, *probe) || self.is_of_lanes(*probe);
             let words = "a signal that lanes do not compute, such as a contact, an acceleration or a proximity sensor";
@@ -282,8 +283,9 @@ impl Plan {
 
     /// Part of the scene that keeps compiled programs from advancing its worlds, in words; its diagram apart.
     pub(super) fn obstacle_to_programs(&self) -> Option<&str> {
-        let switches = || obstacle_to_programs(&self.loaded.scene.model, self.method);
-        self.common_obstacle().or_else(switches).or_else(|| {
+        let model = &self.loaded.scene.model;
+        let of_model = || obstacle_to_programs(model, self.method).or_else(|| obstacle_to_lanes(model, self.method));
+        self.common_obstacle().or_else(of_model).or_else(|| {
             let scene = &self.loaded.scene;
             if !scene.commands.iter().all(|s| matches!(s, Signal::Constant(_))) {
                 return Some("signals of the scene that change with time");
@@ -314,10 +316,7 @@ impl Plan {
         if !is_time_invariant(model) {
             return Some("forces, gusts or turbulence that change with time");
         }
-        if sincro_math::lanes::width() == 1 {
-            return Some("a processor without AVX2");
-        }
-        obstacle_to_lanes(model, self.method)
+        (sincro_math::lanes::width() == 1).then_some("a processor without AVX2")
     }
 
     /// Returns the reason in English why SIMD lanes cannot advance the worlds, such as a diagram, so that each is
