@@ -26,11 +26,12 @@ pub fn linked_replay(film_json: &str, folder: &str) -> String {
 }
 
 fn section(film_json: &str, before: &str, style: &str, script: &str) -> String {
-    format!(
+    let opening = format!(
         "<div id=\"sincro-viewer\" class=\"sv-embedded\">{before}<noscript>The replay needs JavaScript; everything else on this page \
-         does not.</noscript></div>\n{style}\n<script type=\"application/json\" id=\"sincro-film\">{}</script>\n{script}\n",
-        escape_for_html(film_json)
-    )
+         does not.</noscript></div>\n"
+    );
+    let film = "\n<script type=\"application/json\" id=\"sincro-film\">";
+    [&opening, style, film, &escape_for_html(film_json), "</script>\n", script, "\n"].concat()
 }
 
 /// Names of the files of [`linked_replay`].
@@ -47,7 +48,17 @@ pub fn assets() -> [(&'static str, &'static str); 2] {
 /// JSON that no HTML parser finds a tag in.
 #[must_use]
 pub(crate) fn escape_for_html(json: &str) -> String {
-    json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
+    let mut escaped = String::with_capacity(json.len());
+    let mut rest = json;
+    while let Some(at) = rest.find(['<', '\u{2028}', '\u{2029}']) {
+        let (before, from) = rest.split_at(at);
+        let mut chars = from.chars();
+        let code = chars.next().map_or(0, u32::from);
+        escaped.push_str(before);
+        escaped.push_str(&format!("\\u{code:04x}"));
+        rest = chars.as_str();
+    }
+    escaped + rest
 }
 
 #[cfg(test)]

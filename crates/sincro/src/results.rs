@@ -1,9 +1,10 @@
 //! Files of a run's results: report, replay, figures, frames.
 
 use std::path::Path;
+use std::thread;
 
 use sincro_figures::campaign;
-use sincro_figures::plot::{Size, svg};
+use sincro_figures::plot::{Figure, Size, svg};
 use sincro_figures::report::{self, Card, Page};
 use sincro_scene::camera::png;
 use sincro_scene::scene::Camera;
@@ -66,21 +67,44 @@ fn write_with(
     campaign: &Campaign,
     out: &Path,
     index: Option<Link<'_>>,
-    embed: impl Fn(&str) -> String,
+    embed: impl Fn(&str) -> String + Sync,
 ) -> Result<(), FileError> {
     let page = campaign::page(loaded, campaign);
-    let folder = out.join("figures");
-    prepare(&folder)?;
-    for (k, figure) in page.figures.iter().enumerate() {
+    let drawing = main_drawing(loaded, &page);
+    let replay = || {
+        let replay = Replay::of_campaign(loaded, campaign, drawing).to_json();
+        write_text(&out.join("replay.json"), &replay)?;
+        Ok(embed(&replay))
+    };
+    let figures = || {
+        write_figures(&page.figures, &out.join("figures"))?;
+        write_images(&campaign.main.simulated.images, out)
+    };
+    let (replay, figures) = thread::scope(|scope| {
+        let replay = scope.spawn(replay);
+        let figures = figures();
+        (replay.join().expect("a replay is written without panic"), figures)
+    });
+    figures?;
+    let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
+    let page = with_mechanism(Page { replay: replay?, up, ..page }, campaign);
+    write_text(&out.join("report.html"), &report::html(&page))
+}
+
+/// Drawing of the diagram of the main run, as it stands on the page; none without a diagram.
+fn main_drawing(loaded: &Loaded, page: &Page) -> Option<String> {
+    let (_, drawing) = page.diagrams.first()?;
+    loaded.controller.as_ref().map(|_| drawing.clone())
+}
+
+/// Writes figures as SVG files into a folder, which is made.
+fn write_figures(figures: &[Figure], folder: &Path) -> Result<(), FileError> {
+    prepare(folder)?;
+    for (k, figure) in figures.iter().enumerate() {
         let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
         write_text(&folder.join(name), &svg(figure, Size::wide(figure)))?;
     }
-    write_images(&campaign.main.simulated.images, out)?;
-    let replay = replay(loaded, campaign).to_json();
-    write_text(&out.join("replay.json"), &replay)?;
-    let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
-    let page = with_mechanism(Page { replay: embed(&replay), up, ..page }, campaign);
-    write_text(&out.join("report.html"), &report::html(&page))
+    Ok(())
 }
 
 /// Writes the pictures that scripts have saved into the folder `images` of a result, the texts into `files`.
@@ -98,8 +122,9 @@ pub(crate) fn write_images(images: &[SavedImage], out: &Path) -> Result<(), File
 /// shows it.
 #[must_use]
 pub fn report_html(loaded: &Loaded, campaign: &Campaign) -> String {
-    let replay = embed::replay(&replay(loaded, campaign).to_json());
-    report::html(&with_mechanism(Page { replay, ..campaign::page(loaded, campaign) }, campaign))
+    let page = campaign::page(loaded, campaign);
+    let replay = Replay::of_campaign(loaded, campaign, main_drawing(loaded, &page));
+    report::html(&with_mechanism(Page { replay: embed::replay(&replay.to_json()), ..page }, campaign))
 }
 
 /// The page with the labelled picture of the scene at its start, and its equations.

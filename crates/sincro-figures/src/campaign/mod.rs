@@ -10,7 +10,7 @@ use sincro_sim::audit::Finding;
 use sincro_sim::campaign::Campaign;
 use sincro_sim::results::{CheckReport, Status, VerdictReport};
 
-use crate::draw::{self, Options};
+use crate::draw::{self, Layouts, Options};
 use crate::plot::{self, number};
 use crate::report::{Card, CheckRow, CheckVerdict, Energy, FindingRow, Page, SignalRow, Stop};
 
@@ -43,12 +43,21 @@ pub fn card(loaded: &Loaded, campaign: &Campaign, href: &str) -> Card {
 /// name of the scene.
 #[must_use]
 pub fn diagram(controller: &ControlDiagram, title: &str, world: &str, is_inline: bool) -> String {
+    diagram_with(&mut Layouts::default(), controller, (title, world), is_inline)
+}
+
+fn diagram_with(
+    layouts: &mut Layouts,
+    controller: &ControlDiagram,
+    (title, world): (&str, &str),
+    is_inline: bool,
+) -> String {
     let outputs = controller.wiring.program().steps.iter().flat_map(|step| {
         let ports = step.output_names.iter().zip(&step.node.outputs);
         ports.map(|(port, width)| (format!("{}.{port}", step.path), *width))
     });
     let options = Options { title: title.to_owned(), world: world.to_owned(), is_inline, widths: outputs.collect() };
-    draw::draw(&controller.diagram, &options)
+    draw::draw(&controller.diagram, &options, layouts)
 }
 
 /// Report page of an experiment with its figures, checks, signals and settings, to be turned into HTML by
@@ -112,10 +121,10 @@ fn messages(campaign: &Campaign) -> Vec<(String, String, String)> {
 fn diagrams(loaded: &Loaded, campaign: &Campaign) -> Vec<(String, String)> {
     let variants = campaign.variants.iter().map(|(v, done)| (format!("variant `{}`", v.name), done));
     let mut shown: Vec<String> = Vec::new();
-    let mut drawings = Vec::new();
+    let (mut drawings, mut layouts) = (Vec::new(), Layouts::default());
     for (title, done) in std::iter::once(("main run".to_owned(), &campaign.main)).chain(variants) {
         let Some(controller) = &done.controller else { continue };
-        let drawing = diagram(controller, "", &campaign.report.scene, true);
+        let drawing = diagram_with(&mut layouts, controller, ("", &campaign.report.scene), true);
         // what is told on hovering alone is no other picture
         let picture: String =
             drawing.split("<title>").map(|part| part.split_once("</title>").map_or(part, |p| p.1)).collect();

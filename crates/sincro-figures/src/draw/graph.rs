@@ -10,14 +10,14 @@ use sincro_blocks::diagram::{Content, Diagram, Entry};
 use sincro_blocks::endpoint::{Endpoint, WORLD};
 
 /// Nodes and nets of one diagram.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Graph {
     pub nodes: Vec<Node>,
     pub nets: Vec<Net>,
 }
 
 /// Something with an outline.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
     pub shape: Shape,
     /// Stands inside.
@@ -66,7 +66,7 @@ pub(super) struct Pin {
 }
 
 /// One output and the inputs that it feeds, in the order of the wires.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Net {
     pub from: Pin,
     pub to: Vec<Pin>,

@@ -28,6 +28,7 @@ use sincro_blocks::diagram::{Content, Diagram};
 
 use self::canvas::Canvas;
 use self::graph::Graph;
+use self::place::Heights;
 use self::route::Layout;
 use crate::plot::{escape, with_light_colors};
 
@@ -60,15 +61,42 @@ struct Figure<'a> {
     diagram: &'a Diagram,
 }
 
-/// Draws a diagram, and below it each diagram that stands inside, once for each definition.
+/// Layouts of the diagrams drawn so far: most diagrams of variants look like that of the main run.
+#[derive(Debug, Default)]
+pub(crate) struct Layouts(Vec<Placed>);
+
+/// A diagram with all its places.
+#[derive(Debug)]
+struct Placed {
+    /// The graph of the diagram, before its ports were put in order.
+    unordered: Graph,
+    graph: Graph,
+    layout: Layout,
+    heights: Heights,
+}
+
+impl Layouts {
+    fn of(&mut self, unordered: Graph) -> &Placed {
+        let known = self.0.iter().position(|placed| placed.unordered == unordered);
+        let at = known.unwrap_or_else(|| {
+            let mut graph = unordered.clone();
+            let (layout, heights) = Layout::new(&mut graph);
+            self.0.push(Placed { unordered, graph, layout, heights });
+            self.0.len() - 1
+        });
+        &self.0[at]
+    }
+}
+
+/// Draws a diagram, and below it each diagram that stands inside, once for each definition. Layouts that are known are
+/// not found again.
 #[must_use]
-pub(crate) fn draw(diagram: &Diagram, options: &Options) -> String {
+pub(crate) fn draw(diagram: &Diagram, options: &Options, layouts: &mut Layouts) -> String {
     let mut canvas = Canvas::default();
     let (mut width, mut height) = (0, 0);
     for figure in figures(diagram, options) {
         let world = if options.world.is_empty() { "World" } else { &options.world };
-        let mut graph = Graph::new(figure.diagram, world);
-        let (layout, heights) = Layout::new(&mut graph);
+        let Placed { graph, layout, heights, .. } = layouts.of(Graph::new(figure.diagram, world));
         let heading = if figure.title.is_empty() { 0 } else { TITLE_ROW };
         if heading > 0 {
             canvas.text.push_str("<g font-weight=\"600\">\n");
@@ -78,9 +106,9 @@ pub(crate) fn draw(diagram: &Diagram, options: &Options) -> String {
         }
         canvas.text.push_str(&format!("<g transform=\"translate(0 {})\">\n", height + heading));
         for (net, run) in graph.nets.iter().zip(&layout.runs) {
-            let is_wide = is_wide(&graph, net, &figure.path, options);
+            let is_wide = is_wide(graph, net, &figure.path, options);
             if options.is_inline {
-                canvas.text.push_str(&carrier(&graph, net, &figure.path, run.start));
+                canvas.text.push_str(&carrier(graph, net, &figure.path, run.start));
                 wire::draw(&mut canvas, run, is_wide);
                 canvas.close();
             } else {

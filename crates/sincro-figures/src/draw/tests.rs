@@ -17,6 +17,11 @@ use sincro_math::record::Recorded;
 use super::route::{Point, Run};
 use super::*;
 
+/// A drawing whose layouts are found anew.
+fn drawn(diagram: &Diagram, options: &Options) -> String {
+    draw(diagram, options, &mut Layouts::default())
+}
+
 /// A block that can only be drawn.
 #[derive(Clone, Debug)]
 struct Sham {
@@ -265,7 +270,7 @@ fn shares(a: &(Point, Point), b: &(Point, Point)) -> bool {
 #[test]
 fn every_block_and_wire_is_drawn() {
     for (name, diagram) in examples() {
-        let text = draw(&diagram, &Options::default());
+        let text = drawn(&diagram, &Options::default());
         for entry in &diagram.entries {
             assert!(text.contains(&format!("<title>{} ", entry.name)), "{name}: {}", entry.name);
         }
@@ -353,8 +358,27 @@ fn two_wires_never_share_a_piece() {
 #[test]
 fn the_same_diagram_gives_the_same_picture() {
     for (_, diagram) in examples() {
-        assert_eq!(draw(&diagram, &Options::default()), draw(&diagram, &Options::default()));
+        assert_eq!(drawn(&diagram, &Options::default()), drawn(&diagram, &Options::default()));
     }
+}
+
+#[test]
+fn known_layouts_give_the_same_picture() {
+    let mut layouts = Layouts::default();
+    let mut n_known = 0;
+    for _ in 0..2 {
+        for (name, diagram) in examples() {
+            let picture = draw(&diagram, &Options::default(), &mut layouts);
+            assert_eq!(picture, drawn(&diagram, &Options::default()), "{name}");
+        }
+        assert!(n_known == 0 || n_known == layouts.0.len());
+        n_known = layouts.0.len();
+    }
+    let mut other = pid();
+    let world = Options { world: "another world".into(), ..Options::default() };
+    assert_ne!(draw(&other, &world, &mut layouts), draw(&other, &Options::default(), &mut layouts));
+    other.entries.pop();
+    assert_eq!(draw(&other, &world, &mut layouts), drawn(&other, &world));
 }
 
 #[test]
@@ -371,14 +395,14 @@ fn markup_in_names_does_not_reach_the_picture() {
     let mut d = chain(2);
     d.entries[0].name = evil.into();
     d.inputs.push(evil.into());
-    let text = draw(&d, &Options { title: evil.into(), world: evil.into(), ..Options::default() });
+    let text = drawn(&d, &Options { title: evil.into(), world: evil.into(), ..Options::default() });
     assert!(!text.contains("<script") && text.contains("&lt;script"));
 }
 
 #[test]
 fn a_standalone_file_names_no_variable() {
-    assert!(!draw(&pid(), &Options::default()).contains("var("));
-    assert!(!draw(&pid(), &Options { is_inline: true, ..Options::default() }).contains("<style"));
+    assert!(!drawn(&pid(), &Options::default()).contains("var("));
+    assert!(!drawn(&pid(), &Options { is_inline: true, ..Options::default() }).contains("<style"));
 }
 
 /// Writes the examples for the eye: `SINCRO_DRAW=folder cargo test -p sincro draw`.
@@ -386,11 +410,11 @@ fn a_standalone_file_names_no_variable() {
 fn examples_can_be_looked_at() {
     let Ok(folder) = std::env::var("SINCRO_DRAW") else { return };
     let (css, inline) = (crate::plot::PAGE_CSS, Options { is_inline: true, ..Options::default() });
-    let pictures: String = examples().iter().take(5).map(|(_, diagram)| draw(diagram, &inline)).collect();
+    let pictures: String = examples().iter().take(5).map(|(_, diagram)| drawn(diagram, &inline)).collect();
     let page = format!("<style>{css}{DRAW_CSS}body {{ background: var(--sp-paper); }}</style>{pictures}");
     std::fs::write(format!("{folder}/page.html"), page).unwrap();
     for (name, diagram) in examples().iter().take(11) {
         let options = Options { title: (*name).into(), ..Options::default() };
-        std::fs::write(format!("{folder}/{name}.svg"), draw(diagram, &options)).unwrap();
+        std::fs::write(format!("{folder}/{name}.svg"), drawn(diagram, &options)).unwrap();
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! Coordinates inside SVG use the ASCII minus, numbers for readers the minus sign (−) and powers of ten as `×10⁻⁹`.
 
+use std::fmt::Write;
+
 /// Decimal exponent of a finite number other than zero: 3 for 1234, −2 for 0.05; 0 for everything else.
 ///
 /// Read off the shortest decimal form, which is exact, where a logarithm could be off by one next to a power of ten.
@@ -33,6 +35,22 @@ pub(crate) fn coordinate(x: f64) -> String {
     let text = format!("{x:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if matches!(text, "-0" | "") { "0".into() } else { text.into() }
+}
+
+/// Adds a whole number of hundredths to an attribute as [`coordinate`] writes it.
+pub(crate) fn push_hundredths(text: &mut String, hundredths: f64) {
+    // above, a double has no hundredths
+    if hundredths.abs() >= 1e15 || hundredths.is_nan() {
+        return text.push_str(&coordinate(hundredths / 100.0));
+    }
+    let (whole, rest) = (hundredths.abs() as u64 / 100, hundredths.abs() as u64 % 100);
+    let sign = if hundredths < 0.0 { "-" } else { "" };
+    let written = match (rest / 10, rest % 10) {
+        (0, 0) => write!(text, "{sign}{whole}"),
+        (tenths, 0) => write!(text, "{sign}{whole}.{tenths}"),
+        (tenths, last) => write!(text, "{sign}{whole}.{tenths}{last}"),
+    };
+    written.expect("a string takes all text");
 }
 
 /// Formats a number with `decimals` digits after the point and a typographic minus: `−0.50`. The caller adds the unit.
@@ -114,6 +132,16 @@ fn special(x: f64) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn hundredths_are_written_as_coordinates() {
+        let large = [1e7 + 3.0, 123_456_789_012_345.0, 1e15, 3e18, f64::NAN, f64::NEG_INFINITY];
+        for hundredths in (-2001..2001).map(f64::from).chain([-0.0]).chain(large) {
+            let mut text = String::new();
+            push_hundredths(&mut text, hundredths);
+            assert_eq!(text, coordinate(hundredths / 100.0), "{hundredths}");
+        }
+    }
 
     #[test]
     fn negative_zero_is_never_written() {

@@ -4,7 +4,7 @@ use super::axis::Scale;
 use super::decimate::{Point, decimate};
 use super::draw::{Canvas, Context};
 use super::layout::{Entry, Fonts, Layout, PanelLayout, Sample, is_near};
-use super::number::{coordinate, short};
+use super::number::{coordinate, push_hundredths, short};
 use super::style::{self, Look};
 use super::text::{fit, width};
 use super::{Band, Guide, Role, Series, Stroke, Weight};
@@ -269,17 +269,22 @@ fn staircase(points: &[Point]) -> Vec<Point> {
 /// Path data through the points, as steps on a grid of hundredths of a pixel; steps of nothing are left out.
 fn polyline(points: &[Point]) -> String {
     let on_grid = |&(x, y): &Point| ((100.0 * x).round(), (100.0 * y).round());
-    let pixels = |hundredths: f64| coordinate(hundredths / 100.0);
     let Some((mut x, mut y)) = points.first().map(on_grid) else { return String::new() };
-    let mut data = format!("M{} {}", pixels(x), pixels(y));
+    let mut data = String::with_capacity(8 * points.len());
+    data.push('M');
+    push_hundredths(&mut data, x);
+    data.push(' ');
+    push_hundredths(&mut data, y);
     let mut command = "l";
+    let separator = |next: f64| if next < 0.0 { "" } else { " " };
     for (next_x, next_y) in points[1..].iter().map(on_grid) {
         if (next_x, next_y) != (x, y) {
-            let (dx, dy) = (pixels(next_x - x), pixels(next_y - y));
+            let (dx, dy) = (next_x - x, next_y - y);
             // One `l` holds for all steps that follow; a minus sign separates as well as a space.
-            let lead = if command.is_empty() && !dx.starts_with('-') { " " } else { command };
-            let gap = if dy.starts_with('-') { "" } else { " " };
-            data.push_str(&format!("{lead}{dx}{gap}{dy}"));
+            data.push_str(if command.is_empty() { separator(dx) } else { command });
+            push_hundredths(&mut data, dx);
+            data.push_str(separator(dy));
+            push_hundredths(&mut data, dy);
             (x, y, command) = (next_x, next_y, "");
         }
     }

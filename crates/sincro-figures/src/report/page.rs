@@ -1,5 +1,7 @@
 //! `report.html`: verdict first, then pictures, then numbers, then settings.
 
+use std::thread;
+
 use super::checks::check_table;
 use super::mechanism;
 use super::shell::{Outcome, PLOT_SCRIPT, cell, document, list, paragraph, prose, sections, settings, table};
@@ -26,7 +28,7 @@ pub(super) fn html(page: &Page) -> String {
         ("Notes", list(&page.notes)),
     ];
     let all = all.map(|(heading, content)| (heading.to_owned(), content));
-    let body = header(page) + &sections(&all) + PLOT_SCRIPT;
+    let body = [&header(page), &sections(&all), PLOT_SCRIPT].concat();
     document(&page.title, "report", &body)
 }
 
@@ -74,19 +76,27 @@ fn diagrams(list: &[(String, String)]) -> String {
     list.iter().map(one).collect()
 }
 
+/// HTML of figures, drawn on two processors.
 fn figures(figures: &[Figure]) -> String {
-    figures.iter().map(figure).collect()
+    let all = |size: fn(&Figure) -> Size| -> Vec<String> { figures.iter().map(|f| inline_svg(f, size(f))).collect() };
+    let (wide, narrow) = thread::scope(|scope| {
+        let wide = scope.spawn(|| all(Size::wide));
+        let narrow = all(Size::narrow);
+        (wide.join().expect("figures are drawn without panic"), narrow)
+    });
+    wide.iter().zip(&narrow).map(|(wide, narrow)| in_two_sizes(wide, narrow)).collect::<Vec<_>>().concat()
 }
 
 /// HTML of a figure as inline SVG in two sizes, for wide and for narrow screens, of which the style sheet of
 /// [`shell::document`](super::shell::document) shows one.
 #[must_use]
 pub fn figure(figure: &Figure) -> String {
-    format!(
-        "<figure>\n<div class=\"wide\">{}</div>\n<div class=\"narrow\">{}</div>\n</figure>\n",
-        inline_svg(figure, Size::wide(figure)),
-        inline_svg(figure, Size::narrow(figure))
-    )
+    in_two_sizes(&inline_svg(figure, Size::wide(figure)), &inline_svg(figure, Size::narrow(figure)))
+}
+
+fn in_two_sizes(wide: &str, narrow: &str) -> String {
+    let between = "</div>\n<div class=\"narrow\">";
+    ["<figure>\n<div class=\"wide\">", wide, between, narrow, "</div>\n</figure>\n"].concat()
 }
 
 /// Findings of the audit, with what would help against each.

@@ -11,15 +11,14 @@ use crate::plot::{self, escape, escape_raised};
 pub fn document(title: &str, class: &str, body: &str) -> String {
     let title = escape(title);
     let (plot_css, draw_css, page_css) = (plot::PAGE_CSS, DRAW_CSS, include_str!("style.css"));
-    format!(
-        concat!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
-            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
-            "<meta name=\"color-scheme\" content=\"light dark\">\n",
-            "<title>{}</title>\n<style>\n{}{}{}</style>\n</head>\n<body class=\"{}\">\n<main>\n{}</main>\n</body>\n</html>\n"
-        ),
-        title, plot_css, draw_css, page_css, class, body
-    )
+    let viewport = "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+    let head = ["<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n", viewport];
+    let head = head.concat() + "<meta name=\"color-scheme\" content=\"light dark\">\n";
+    let styles = [plot_css, draw_css, page_css].concat();
+    let title =
+        format!("<title>{title}</title>\n<style>\n{styles}</style>\n</head>\n<body class=\"{class}\">\n<main>\n");
+    // pages are large: the length of the whole is known beforehand
+    [&head, &title, body, "</main>\n</body>\n</html>\n"].concat()
 }
 
 /// Outcome of a run.
@@ -129,7 +128,8 @@ pub(crate) fn section(heading: &str, content: &str) -> String {
     if content.is_empty() {
         return String::new();
     }
-    format!("<section id=\"{}\">\n<h2>{heading}</h2>\n{content}</section>\n", anchor(heading))
+    let opening = format!("<section id=\"{}\">\n<h2>{heading}</h2>\n", anchor(heading));
+    [&opening, content, "</section>\n"].concat()
 }
 
 /// Name of a section in addresses.
@@ -148,7 +148,8 @@ pub fn sections(all: &[(String, String)]) -> String {
         true => links,
         false => format!("<nav class=\"contents\" aria-label=\"Contents\">\n{links}</nav>\n"),
     };
-    filled().fold(contents, |page, (heading, content)| page + &section(heading, content))
+    let written = filled().map(|(heading, content)| section(heading, content));
+    std::iter::once(contents).chain(written).collect::<Vec<_>>().concat()
 }
 
 /// HTML element with the script that reads values from the figures of a page and magnifies them; put it once, behind
