@@ -93,6 +93,7 @@ fn step(diagram: Option<Diagram>, method: MethodKind) -> Subject {
         folder: std::sync::Arc::default(),
         extensions: extensions(),
         controllers: Vec::new(),
+        trials: std::sync::Arc::default(),
     };
     let mut run = LockStep::new(&loaded, method, false);
     run.start().expect("finite");

@@ -19,30 +19,32 @@ pub struct Folder {
     texts: Cache<SourceText>,
     /// Files that are no texts: meshes.
     bytes: Cache<Vec<u8>>,
+    /// Two columns of tables of numbers, by path of the file and names of the columns.
+    pub(crate) columns: Cache<[Vec<f64>; 2], (PathBuf, [String; 2])>,
 }
 
-/// Contents of files by their path.
+/// Contents of files by their path, or by a key that tells what of a file it is.
 #[derive(Debug)]
-struct Cache<T>(Mutex<BTreeMap<PathBuf, Arc<T>>>);
+pub(crate) struct Cache<T, K = PathBuf>(Mutex<BTreeMap<K, Arc<T>>>);
 
-impl<T> Default for Cache<T> {
+impl<T, K> Default for Cache<T, K> {
     fn default() -> Self {
         Self(Mutex::default())
     }
 }
 
-impl<T> Cache<T> {
+impl<T, K: Ord> Cache<T, K> {
     /// The content of a file, read if it is not there yet. Two threads may both read it; they get the same content.
-    fn get(&self, path: &Path, read: impl FnOnce(&Path) -> Result<T, String>) -> Result<Arc<T>, String> {
-        let known = |cache: &Self| cache.all().get(path).cloned();
+    pub(crate) fn get<E>(&self, key: K, read: impl FnOnce(&K) -> Result<T, E>) -> Result<Arc<T>, E> {
+        let known = |cache: &Self| cache.all().get(&key).cloned();
         if let Some(known) = known(self) {
             return Ok(known);
         }
-        let content = Arc::new(read(path)?);
-        Ok(self.all().entry(path.to_owned()).or_insert(content).clone())
+        let content = Arc::new(read(&key)?);
+        Ok(self.all().entry(key).or_insert(content).clone())
     }
 
-    fn all(&self) -> std::sync::MutexGuard<'_, BTreeMap<PathBuf, Arc<T>>> {
+    fn all(&self) -> std::sync::MutexGuard<'_, BTreeMap<K, Arc<T>>> {
         // a reader that panicked has put nothing half-made into the map
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -95,7 +97,7 @@ impl Folder {
 
     /// Bytes of a file that is named in a file, whatever is in it.
     pub(crate) fn bytes_named(&self, name: &Located<String>) -> Result<Arc<Vec<u8>>, Diagnostic> {
-        self.named(name, |path| self.bytes.get(&self.path_of(path), read_bytes))
+        self.named(name, |path| self.bytes.get(self.path_of(path), |path| read_bytes(path)))
     }
 
     /// Gives the bytes of the file `name` of the folder, which are not read from there then.
@@ -105,7 +107,7 @@ impl Folder {
 
     /// Bytes of a file of the folder.
     pub(crate) fn bytes(&self, name: &str) -> Result<Arc<Vec<u8>>, String> {
-        self.bytes.get(&self.path_of(name), read_bytes)
+        self.bytes.get(self.path_of(name), |path| read_bytes(path))
     }
 
     /// Returns every file read so far, its path and its bytes: texts, then other files, each ordered by path.
@@ -127,7 +129,7 @@ impl Folder {
     }
 
     fn text(&self, name: &str) -> Result<Arc<SourceText>, String> {
-        self.texts.get(&self.path_of(name), |path| Ok(SourceText { text: read_text(path)?, path: path.to_owned() }))
+        self.texts.get(self.path_of(name), |path| Ok(SourceText { text: read_text(path)?, path: path.clone() }))
     }
 
     /// A help that names files of the same kind beside one that is not there.

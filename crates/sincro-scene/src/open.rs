@@ -98,23 +98,50 @@ pub fn open_in(
     loaders: Loaders,
     with_others: bool,
 ) -> Result<Opened, Diagnostics> {
-    let mut loaded = open_one(folder, overrides, loaders)?;
-    let mut diagnostics = Diagnostics(std::mem::take(&mut loaded.warnings));
-    // a variant was opened with the main run: its own settings must not meet those of the others
-    let file = folder.path_of(EXPERIMENT);
-    let is_variant = overrides.iter().any(|setting| setting.path.at.source.path == file);
-    let further = if is_variant || !with_others { Vec::new() } else { further_settings(&loaded.experiment) };
-    for setting in further {
-        let settings = settings_with(overrides, &setting);
-        match open_one(folder, &settings, loaders) {
-            Ok(variant) => diagnostics.merge(Diagnostics(variant.warnings)),
-            Err(found) => diagnostics.merge(found),
+    let opened = open_one(folder, overrides, loaders)?;
+    let further = if with_others { opened.trials(overrides) } else { Vec::new() };
+    let tried = further.iter().map(|settings| open_one(folder, settings, loaders)).collect();
+    Ok(opened.with_trials(tried)?.0)
+}
+
+impl Opened {
+    /// Settings with which this experiment, opened with the settings `overrides`, is to be opened on trial before it
+    /// runs: those of its variants, and of the first and last run of its sweep. None if it is opened as a variant.
+    #[must_use]
+    pub fn trials(&self, overrides: &[Override]) -> Vec<Vec<Override>> {
+        // a variant was opened with the main run: its own settings must not meet those of the others
+        let file = self.folder.path_of(EXPERIMENT);
+        if overrides.iter().any(|setting| setting.path.at.source.path == file) {
+            return Vec::new();
         }
+        let Experiment { variants, sweep, .. } = &self.experiment;
+        let of_variants = variants.iter().map(|variant| variant.set.clone());
+        let ends = sweep.iter().flat_map(|sweep| {
+            let ends = [sweep.values.first(), sweep.values.last()].into_iter().flatten();
+            ends.map(|value| sweep.settings(*value).collect())
+        });
+        of_variants.chain(ends).map(|setting: Vec<_>| settings_with(overrides, &setting)).collect()
     }
-    if diagnostics.any_error() {
-        return Err(diagnostics.sorted());
+
+    /// Adds what was found where it was opened on trial, warnings included; returns the trials beside it.
+    ///
+    /// # Errors
+    ///
+    /// All findings, if there is an error among them.
+    pub fn with_trials(mut self, tried: Vec<Result<Self, Diagnostics>>) -> Result<(Self, Vec<Self>), Diagnostics> {
+        let mut diagnostics = Diagnostics(std::mem::take(&mut self.warnings));
+        for trial in &tried {
+            diagnostics.merge(match trial {
+                Ok(trial) => Diagnostics(trial.warnings.clone()),
+                Err(found) => found.clone(),
+            });
+        }
+        if diagnostics.any_error() {
+            return Err(diagnostics.sorted());
+        }
+        let sources = self.folder.sources();
+        Ok((Self { warnings: diagnostics.sorted().0, sources, ..self }, tried.into_iter().flatten().collect()))
     }
-    Ok(Opened { warnings: diagnostics.sorted().0, sources: folder.sources(), ..loaded })
 }
 
 /// Returns the name of a scene, that of its folder; `path` is the folder or its `experiment.toml`. `scene` if the path
@@ -145,16 +172,6 @@ pub fn settings_with(overrides: &[Override], variant: &[Override]) -> Vec<Overri
     let exchanges = variant.iter().any(|setting| setting.path.value == "diagram");
     let outer = overrides.iter().filter(|setting| !(exchanges && setting.target() == Target::Diagram));
     outer.chain(variant).cloned().collect()
-}
-
-/// Settings of the variants, and of the first and last run of the sweep.
-fn further_settings(experiment: &Experiment) -> Vec<Vec<Override>> {
-    let mut all: Vec<Vec<Override>> = experiment.variants.iter().map(|variant| variant.set.clone()).collect();
-    if let Some(sweep) = &experiment.sweep {
-        let ends = [sweep.values.first(), sweep.values.last()];
-        all.extend(ends.into_iter().flatten().map(|value| sweep.settings(*value).collect()));
-    }
-    all
 }
 
 /// The folder that is meant by a folder or by the experiment file in it.

@@ -18,8 +18,8 @@ pub struct Query<'a> {
 }
 
 /// Reads two columns of finite numbers, the key and the values, row by row and equally long; none, with problems noted,
-/// if they are not there, are not numbers, or the key does not increase.
-pub fn read(folder: &Folder, query: &Query<'_>, diagnostics: &mut Diagnostics) -> Option<(Vec<f64>, Vec<f64>)> {
+/// if they are not there, are not numbers, or the key does not increase. Those that the folder has are not read again.
+pub fn read(folder: &Folder, query: &Query<'_>, diagnostics: &mut Diagnostics) -> Option<Arc<[Vec<f64>; 2]>> {
     let source = match folder.read_named(query.file) {
         Ok(source) => source,
         Err(diagnostic) => {
@@ -27,7 +27,8 @@ pub fn read(folder: &Folder, query: &Query<'_>, diagnostics: &mut Diagnostics) -
             return None;
         }
     };
-    match columns(&source, query) {
+    let names = [&query.key.value, &query.column.value].map(String::clone);
+    match folder.columns.get((source.path.clone(), names), |_| columns(&source, query)) {
         Ok(columns) => Some(columns),
         Err(found) => {
             diagnostics.merge(found);
@@ -65,7 +66,7 @@ pub fn column(folder: &Folder, file: &str, column: &str) -> Result<Vec<f64>, Str
     Ok(numbers)
 }
 
-fn columns(source: &Arc<SourceText>, query: &Query<'_>) -> Result<(Vec<f64>, Vec<f64>), Diagnostics> {
+fn columns(source: &Arc<SourceText>, query: &Query<'_>) -> Result<[Vec<f64>; 2], Diagnostics> {
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source.text.as_bytes());
     let header = reader.headers().map_err(|e| csv_diagnostic(source, &e))?.clone();
@@ -94,7 +95,7 @@ fn columns(source: &Arc<SourceText>, query: &Query<'_>) -> Result<(Vec<f64>, Vec
         let at = Location { source: source.clone(), span: 0..0 };
         return Err(Diagnostic::error(&at, "the file has no rows below its header").into());
     }
-    Ok((keys, values))
+    Ok([keys, values])
 }
 
 fn column_index(names: &[&str], wanted: &Located<String>, source: &SourceText) -> Result<usize, Diagnostic> {
@@ -176,7 +177,7 @@ mod tests {
     fn of(csv: &str, column: &str) -> Result<(Vec<f64>, Vec<f64>), String> {
         let source = Arc::new(SourceText { path: "r.csv".into(), text: csv.into() });
         let query = Query { file: &located("r.csv"), key: &located("t"), column: &located(column) };
-        columns(&source, &query).map_err(|diagnostics| diagnostics.to_string())
+        columns(&source, &query).map(Into::into).map_err(|diagnostics| diagnostics.to_string())
     }
 
     #[test]

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use sincro_dynamics::world::MethodKind;
 
 use crate::controller::Controller;
+use crate::workers::on_all_processors;
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::Experiment;
@@ -51,6 +52,8 @@ pub struct Loaded {
     /// Factories of the program's own controllers, which are attached to each run of the scene after those of its
     /// files, in this order.
     pub controllers: Vec<Arc<dyn ControllerFactory>>,
+    /// Experiments that were opened on trial with this one, each with its settings: variants need not be opened again.
+    pub trials: Arc<[(Vec<Override>, Opened)]>,
 }
 
 /// Factory of a controller for each run of a scene: the main run, its finer run, the variants. Added to
@@ -197,14 +200,31 @@ fn with(
     extensions: Extensions,
     with_others: bool,
 ) -> Result<Loaded, Diagnostics> {
-    Ok(Loaded::new(open(folder, overrides, extensions.loaders(), with_others)?, extensions))
+    let opened = open(folder, overrides, extensions.loaders(), false)?;
+    if with_others { with_trials(opened, overrides, extensions) } else { Ok(Loaded::new(opened, extensions)) }
+}
+
+/// Opens on trial, on all processors, what will run with an experiment that was opened with the settings `overrides`.
+fn with_trials(opened: Opened, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
+    let settings = opened.trials(overrides);
+    if settings.is_empty() {
+        return Ok(Loaded::new(opened, extensions));
+    }
+    let folder = opened.folder.clone();
+    let open_trial = |k: usize| open_in(&folder, &settings[k], extensions.loaders(), false);
+    let tried = on_all_processors(settings.len(), &open_trial, &mut || ());
+    let (opened, trials) = opened.with_trials(tried)?;
+    // those that have trials of their own are opened again, with these
+    let known = settings.into_iter().zip(trials).filter(|(settings, trial)| trial.trials(settings).is_empty());
+    Ok(Loaded { trials: known.collect(), ..Loaded::new(opened, extensions) })
 }
 
 impl Loaded {
     fn new(opened: Opened, extensions: Extensions) -> Self {
         let Opened { experiment, scene, controller, warnings, sources, folder } = opened;
         let scene = Arc::new(scene);
-        Self { experiment, scene, controller, warnings, sources, folder, extensions, controllers: Vec::new() }
+        let (controllers, trials) = (Vec::new(), Arc::default());
+        Self { experiment, scene, controller, warnings, sources, folder, extensions, controllers, trials }
     }
 
     /// As [`Loaded::with_overrides`], without opening variants and sweep.
@@ -224,7 +244,16 @@ impl Loaded {
     ///
     /// As [`load`].
     pub fn with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
-        let opened = open_in(&self.folder, overrides, self.extensions.loaders(), true)?;
-        Ok(Self { controllers: self.controllers.clone(), ..Self::new(opened, self.extensions) })
+        let loaded = match self.trials.iter().find(|(settings, _)| settings == overrides) {
+            Some((_, trial)) => {
+                let opened = Opened { sources: self.folder.sources(), ..trial.clone() };
+                Self::new(opened, self.extensions)
+            }
+            None => {
+                let opened = open_in(&self.folder, overrides, self.extensions.loaders(), false)?;
+                with_trials(opened, overrides, self.extensions)?
+            }
+        };
+        Ok(Self { controllers: self.controllers.clone(), ..loaded })
     }
 }

@@ -302,14 +302,14 @@ impl CheckReader<'_> {
         };
         let (name, column) = (located("file", &file.file), located("column", &file.column));
         let query = Query { file: &name, key: &key, column: &column };
-        let (keys, values) = series::read(self.folder, &query, self.diagnostics)?;
+        let [keys, values] = &*series::read(self.folder, &query, self.diagnostics)?;
         Some(Reference {
             file: self.folder.path_of(&file.file),
             key_column: key.value,
             column: column.value,
             scale: file.scale,
             offset: file.offset,
-            keys: keys.into(),
+            keys: keys.as_slice().into(),
             values: values.iter().map(|x| file.scale * x + file.offset).collect(),
             location: column.at,
         })

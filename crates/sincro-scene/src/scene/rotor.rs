@@ -310,8 +310,8 @@ impl Judge<'_, '_> {
         let mut read = |column: &Located<String>| {
             series::read(folder, &series::Query { file: &file, key: &key, column }, diagnostics)
         };
-        let (advances, thrusts) = read(&columns[0])?;
-        let (_, torques) = read(&columns[1])?;
+        let (of_thrust, of_torque) = (read(&columns[0])?, read(&columns[1])?);
+        let ([advances, thrusts], [_, torques]) = (&*of_thrust, &*of_torque);
         let row = |k: usize| TableRow { advance: advances[k], thrust: thrusts[k], torque: torques[k] };
         Some((0..advances.len()).map(row).collect())
     }

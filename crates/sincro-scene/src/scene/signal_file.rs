@@ -236,7 +236,8 @@ impl SignalReader<'_> {
         };
         let file = located("file", table.file.as_ref()?);
         let key = located("time", table.time.as_ref().unwrap_or(&"t".to_owned()));
-        series::read(self.folder, &series::Query { file: &file, key: &key, column: &column }, self.diagnostics)
+        let query = series::Query { file: &file, key: &key, column: &column };
+        series::read(self.folder, &query, self.diagnostics).map(|columns| (*columns).clone().into())
     }
 
     fn points(&mut self, table: &TableFile, pointer: &str) -> Option<(Vec<f64>, Vec<f64>)> {
