@@ -212,13 +212,16 @@ impl<R: Real> Dense<R> {
     fn eliminate(&mut self, k: usize) {
         let n = self.n;
         let inverse = R::one() / self.a[k * n + k];
+        // bodies on each other couple neighbours alone: nothing is taken away beyond the last entry of the pivot's row
+        let row = &self.a[k * n..k * n + n];
+        let end = (k + 1..n).rev().find(|j| row[*j] != R::zero()).map_or(k + 1, |last| last + 1);
         for i in k + 1..n {
             let factor = self.a[i * n + k] * inverse;
             if factor == R::zero() {
                 continue;
             }
             let (above, below) = self.a.split_at_mut(i * n);
-            for (x, p) in below[k + 1..n].iter_mut().zip(&above[k * n + k + 1..k * n + n]) {
+            for (x, p) in below[k + 1..end].iter_mut().zip(&above[k * n + k + 1..k * n + end]) {
                 *x -= factor * *p;
             }
             let of_pivot = self.rhs[k];

@@ -24,7 +24,7 @@ use crate::run::{RunError, RunMonitor, RunOptions, Simulated, method_word, simul
 use crate::sweep::Sweep;
 use crate::table::Table;
 use crate::trace::model_hash;
-use crate::workers::on_all_processors;
+use crate::workers::{Processors, on_all_processors};
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::{Experiment, Sweep as SweepPlan, Variant};
 use sincro_scene::open::settings_with;
@@ -126,7 +126,8 @@ pub fn run_campaign(
     let (main, variants) = match loaded.experiment.variants.as_slice() {
         [] => {
             let mut tell = |share: f64| progress("run", share);
-            let mut main = one_run(loaded, None, out_dir, &mut RunMonitor { interrupt, progress: &mut tell })?;
+            let mut monitor = RunMonitor { interrupt, progress: &mut tell };
+            let mut main = one_run(loaded, None, out_dir, (&mut monitor, &Processors::new()))?;
             main.outcomes = evaluate_checks(loaded, None, &main, &[]);
             (main, Vec::new())
         }
@@ -176,17 +177,17 @@ fn run_with_variants(
 ) -> Result<(CompletedRun, Vec<(Variant, CompletedRun)>), RunError> {
     let n = 1 + variants.len();
     let shares: Vec<AtomicU64> = (0..n).map(|_| AtomicU64::new(0)).collect();
-    let is_refused = AtomicBool::new(false);
+    let (is_refused, processors) = (AtomicBool::new(false), Processors::new());
     let job = |k: usize| -> Result<Option<(Option<Loaded>, CompletedRun)>, RunError> {
         let variant = k.checked_sub(1).map(|k| &variants[k]);
         if is_refused.load(Ordering::Relaxed) {
             return Ok(None);
         }
         let mut tell = |share: f64| shares[k].store(share.to_bits(), Ordering::Relaxed);
-        let mut monitor = RunMonitor { interrupt, progress: &mut tell };
+        let by = (&mut RunMonitor { interrupt, progress: &mut tell }, &processors);
         let done = match variant {
-            None => one_run(loaded, None, out_dir, &mut monitor).map(|done| (None, done)),
-            Some(variant) => variant_run((overrides, loaded), variant, out_dir, &mut monitor),
+            None => one_run(loaded, None, out_dir, by).map(|done| (None, done)),
+            Some(variant) => variant_run((overrides, loaded), variant, out_dir, by),
         };
         tell(1.0);
         is_refused.fetch_or(done.is_err(), Ordering::Relaxed);
@@ -237,14 +238,14 @@ fn variant_run(
     (overrides, loaded): (&[Override], &Loaded),
     variant: &Variant,
     out_dir: Option<&Path>,
-    monitor: &mut RunMonitor<'_>,
+    by: (&mut RunMonitor<'_>, &Processors),
 ) -> Result<(Option<Loaded>, CompletedRun), RunError> {
     let own = loaded.with_overrides(&settings_with(overrides, &variant.set))?;
     let dir = out_dir.map(|dir| dir.join("variants").join(&variant.name));
     if let Some(dir) = &dir {
         crate::file::prepare(dir)?;
     }
-    let done = one_run(&own, Some(&variant.name), dir.as_deref(), monitor)?;
+    let done = one_run(&own, Some(&variant.name), dir.as_deref(), by)?;
     Ok((Some(own), done))
 }
 
@@ -253,11 +254,11 @@ fn one_run(
     loaded: &Loaded,
     variant: Option<&str>,
     dir: Option<&Path>,
-    monitor: &mut RunMonitor<'_>,
+    (monitor, processors): (&mut RunMonitor<'_>, &Processors),
 ) -> Result<CompletedRun, RunError> {
     let csv = dir.map(|dir| dir.join("signals.csv"));
     let options = RunOptions { csv: csv.as_deref(), variant, keyframes: true, ..RunOptions::default() };
-    let (simulated, finer) = refine::with_finer_run(loaded, options, monitor)?;
+    let (simulated, finer) = refine::with_finer_run(loaded, options, monitor, processors)?;
     let columns = match simulated.status {
         Status::Completed => refine::columns(loaded, &simulated, finer.as_ref(), monitor)?,
         _ => ColumnReport::of_table(&simulated.table),

@@ -8,8 +8,8 @@
 //! follows others, and bars cover it. Where the finer run cannot halve the step of scripts, which is part of
 //! the error, there are no bars.
 //!
-//! Both runs are made at the same time, on two processors; one after the other where code of others takes part, which
-//! may have a memory that both would share, or write files: scripts, FMUs, controllers of a program.
+//! Both runs are made at the same time where two processors are free; one after the other where code of others takes
+//! part, which may have a memory that both would share, or write files: scripts, FMUs, controllers of a program.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -20,7 +20,7 @@ use sincro_dynamics::world::MethodKind;
 use crate::load::Loaded;
 use crate::results::{ColumnReport, Status};
 use crate::run::{RunError, RunMonitor, RunOptions, Simulated, finer_accuracy, has_foreign_blocks, simulate};
-use crate::workers::{POLL_INTERVAL, STACK_BYTES};
+use crate::workers::{POLL_INTERVAL, Processors, STACK_BYTES};
 use sincro_scene::experiment::ErrorBar;
 
 /// A run and the finer run of its error bars: none if the experiment wants no bars, the run does not come to its end,
@@ -29,27 +29,33 @@ pub(super) fn with_finer_run(
     loaded: &Loaded,
     options: RunOptions<'_>,
     monitor: &mut RunMonitor<'_>,
+    processors: &Processors,
 ) -> Result<(Simulated, Option<Simulated>), RunError> {
+    let run = |monitor: &mut RunMonitor<'_>| processors.work(|| simulate(loaded, options, monitor));
+    let finer = |monitor: &mut RunMonitor<'_>| processors.work(|| finer_run(loaded, monitor));
     if loaded.experiment.error_bar == ErrorBar::None {
-        return Ok((simulate(loaded, options, monitor)?, None));
+        return Ok((run(monitor)?, None));
     }
     if !loaded.controllers.is_empty() || !loaded.scene.scripts.is_empty() || has_foreign_blocks(loaded) {
-        let run = simulate(loaded, options, monitor)?;
-        let finer = if run.status == Status::Completed { finer_run(loaded, monitor)? } else { None };
+        let run = run(monitor)?;
+        let finer = if run.status == Status::Completed { finer(monitor)? } else { None };
         return Ok((run, finer));
     }
     let (user, is_cancelled, caller) = (monitor.interrupt, AtomicBool::new(false), thread::current());
+    let is_made = AtomicBool::new(false);
     let finer = || {
-        let finer = finer_run(loaded, &mut RunMonitor { interrupt: &is_cancelled, progress: &mut |_| {} });
+        let finer = finer(&mut RunMonitor { interrupt: &is_cancelled, progress: &mut |_| {} });
+        // said before the caller looks: a thread is not yet finished when it wakes another
+        is_made.store(true, Ordering::Release);
         caller.unpark();
         finer
     };
     let (run, finer) = thread::scope(|scope| {
         let finer = thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, finer);
         let finer = finer.expect("a thread can be made");
-        let run = simulate(loaded, options, monitor);
+        let run = run(monitor);
         let is_whole = run.as_ref().is_ok_and(|run| run.status == Status::Completed);
-        while !finer.is_finished() {
+        while !(is_made.load(Ordering::Acquire) || finer.is_finished()) {
             is_cancelled.fetch_or(!is_whole || user.load(Ordering::Relaxed), Ordering::Relaxed);
             thread::park_timeout(POLL_INTERVAL);
         }
