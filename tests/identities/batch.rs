@@ -282,9 +282,10 @@ fn a_world_that_stops_in_the_lanes_keeps_its_last_state() {
         advance_and_compare_by(&mut worlds, &settings);
         let ticks: Vec<_> = worlds.iter().filter(|w| w.stop.is_some()).map(|w| w.state.tick).collect();
         assert!(ticks.len() > 2 && ticks.iter().any(|tick| *tick > 0), "{ticks:?}");
-        // they stay where they are; the others go on
+        // they stay where they are; the others go on, in lanes
         let stopped = worlds.clone();
         advance_and_compare_by(&mut worlds, &settings);
+        assert!(worlds.iter().all(|w| w.steps_alone == 0) || sincro_math::lanes::width() == 1);
         for (now, then) in worlds.iter().zip(&stopped) {
             let of = |w: &BatchWorld| (w.stop, w.state.tick, bits(&w.state.q), bits(&w.state.v), w.record.len());
             assert_eq!(then.stop.is_some(), of(now) == of(then));
@@ -336,7 +337,9 @@ fn corners_of_inputs_keep_worlds_from_lanes_where_they_end_steps() {
         let step = Signal::Step { time: start, from: 1.0, to: -2.0 };
         for method in METHODS {
             let settings = BatchSettings { method, h: 0.004, n_steps: 30, record_every: 1 };
-            for (tick, is_outside) in [(80, true), (110, false), (126, true)] {
+            for tick in [80, 95, 110, 125, 126] {
+                let [from, to] = [tick, tick + 30].map(|tick| 0.004 * tick as f64);
+                let is_outside = !(from < start && start <= to);
                 let mut worlds = worlds_with_a_signal(&step, |_| tick);
                 advance_and_compare_by(&mut worlds, &settings);
                 let in_lanes = is_outside || method == MethodKind::SemiImplicitEuler;

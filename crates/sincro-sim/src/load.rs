@@ -52,7 +52,9 @@ pub struct Loaded {
     /// Factories of the program's own controllers, which are attached to each run of the scene after those of its
     /// files, in this order.
     pub controllers: Vec<Arc<dyn ControllerFactory>>,
-    /// Experiments that were opened on trial with this one, each with its settings: variants need not be opened again.
+    /// Variants, and first and last run of the sweep, that were opened on trial with this one, each with its settings:
+    /// [`Loaded::with_overrides`] does not open them again, if `folder` is still theirs. Those with trials of their
+    /// own are left out. Whoever changes `extensions` or the files kept in `folder` empties it.
     pub trials: Arc<[(Vec<Override>, Opened)]>,
 }
 
@@ -244,7 +246,11 @@ impl Loaded {
     ///
     /// As [`load`].
     pub fn with_overrides(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
-        let loaded = match self.trials.iter().find(|(settings, _)| settings == overrides) {
+        let loaded = match self
+            .trials
+            .iter()
+            .find(|(settings, trial)| settings == overrides && Arc::ptr_eq(&trial.folder, &self.folder))
+        {
             Some((_, trial)) => {
                 let opened = Opened { sources: self.folder.sources(), ..trial.clone() };
                 Self::new(opened, self.extensions)

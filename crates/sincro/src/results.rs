@@ -1,5 +1,6 @@
 //! Files of a run's results: report, replay, figures, frames.
 
+use std::panic::resume_unwind;
 use std::path::Path;
 use std::thread;
 
@@ -70,20 +71,22 @@ fn write_with(
     embed: impl Fn(&str) -> String + Sync,
 ) -> Result<(), FileError> {
     let page = campaign::page(loaded, campaign);
-    let drawing = main_drawing(loaded, &page);
+    let drawing = main_drawing(campaign, &page);
+    let folder = out.join("figures");
+    prepare(&folder)?;
     let replay = || {
         let replay = Replay::of_campaign(loaded, campaign, drawing).to_json();
         write_text(&out.join("replay.json"), &replay)?;
         Ok(embed(&replay))
     };
     let figures = || {
-        write_figures(&page.figures, &out.join("figures"))?;
+        write_figures(&page.figures, &folder)?;
         write_images(&campaign.main.simulated.images, out)
     };
     let (replay, figures) = thread::scope(|scope| {
         let replay = scope.spawn(replay);
         let figures = figures();
-        (replay.join().expect("a replay is written without panic"), figures)
+        (replay.join().unwrap_or_else(|panic| resume_unwind(panic)), figures)
     });
     figures?;
     let up = index.map(|link| (link.label.to_owned(), link.href.to_owned()));
@@ -92,14 +95,13 @@ fn write_with(
 }
 
 /// Drawing of the diagram of the main run, as it stands on the page; none without a diagram.
-fn main_drawing(loaded: &Loaded, page: &Page) -> Option<String> {
+fn main_drawing(campaign: &Campaign, page: &Page) -> Option<String> {
     let (_, drawing) = page.diagrams.first()?;
-    loaded.controller.as_ref().map(|_| drawing.clone())
+    campaign.main.controller.as_ref().map(|_| drawing.clone())
 }
 
-/// Writes figures as SVG files into a folder, which is made.
+/// Writes figures as SVG files into a folder.
 fn write_figures(figures: &[Figure], folder: &Path) -> Result<(), FileError> {
-    prepare(folder)?;
     for (k, figure) in figures.iter().enumerate() {
         let name = format!("{:02}-{}.svg", k + 1, file_name(&figure.title));
         write_text(&folder.join(name), &svg(figure, Size::wide(figure)))?;
@@ -123,7 +125,7 @@ pub(crate) fn write_images(images: &[SavedImage], out: &Path) -> Result<(), File
 #[must_use]
 pub fn report_html(loaded: &Loaded, campaign: &Campaign) -> String {
     let page = campaign::page(loaded, campaign);
-    let replay = Replay::of_campaign(loaded, campaign, main_drawing(loaded, &page));
+    let replay = Replay::of_campaign(loaded, campaign, main_drawing(campaign, &page));
     report::html(&with_mechanism(Page { replay: embed::replay(&replay.to_json()), ..page }, campaign))
 }
 

@@ -170,7 +170,7 @@ impl<R: Real> LaneWorlds<R> {
     ///
     /// # Errors
     ///
-    /// [`PackError`] if the models differ in more than their numbers.
+    /// [`PackError`] if the models differ in more than their numbers, or in which motors have limits.
     ///
     /// # Panics
     ///
@@ -355,8 +355,8 @@ impl<R: Real> LaneWorlds<R> {
     #[inline(always)]
     pub(super) fn run(&mut self, worlds: &mut [BatchWorld], settings: &BatchSettings) {
         self.load(worlds);
-        // forces that depend on time are those of worlds with one clock
-        let first = worlds[0].state.tick;
+        // where forces depend on time, all that have not stopped have one clock
+        let first = worlds.iter().find(|w| w.stop.is_none()).map_or(0, |w| w.state.tick);
         let mut start = StepStart::new(&self.mechanism, self.y.len());
         self.record(worlds, settings.record_every > 0);
         for k in 0..settings.n_steps {

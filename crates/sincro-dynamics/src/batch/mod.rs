@@ -144,15 +144,13 @@ pub fn advance_compiled(
     Ok(())
 }
 
-/// Returns true if lanes advance all worlds of a bundle.
+/// Returns true if lanes advance the worlds of a bundle that have not stopped, of which there is one at least.
 fn go_together(bundle: &[BatchWorld], settings: &BatchSettings) -> bool {
-    let first = &bundle[0];
+    let Some(first) = bundle.iter().find(|w| w.stop.is_none()) else { return false };
     let suits = |w: &BatchWorld| obstacle_to_lanes(&w.model, settings.method).is_none() && !has_corners(w, settings);
-    let goes_with_first = |w: &BatchWorld| {
-        let has_its_time = w.state.tick == first.state.tick || is_time_invariant(&w.model);
-        has_its_time && (w.model.is_same(&first.model) || has_limits_of(&w.model, &first.model))
-    };
-    bundle.iter().all(|w| suits(w) && goes_with_first(w))
+    let has_time_of_first = |w: &BatchWorld| w.state.tick == first.state.tick || is_time_invariant(&w.model);
+    let has_limits_of_first = |w: &BatchWorld| w.model.is_same(&first.model) || has_limits_of(&w.model, &first.model);
+    bundle.iter().all(|w| has_limits_of_first(w) && (w.stop.is_some() || suits(w) && has_time_of_first(w)))
 }
 
 /// Returns true if an input has a corner within the run, at which a step of the world alone would end. Those of

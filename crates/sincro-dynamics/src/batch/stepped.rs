@@ -84,7 +84,7 @@ impl SteppedLanes {
     ///
     /// # Errors
     ///
-    /// [`PackError`] if the models differ in more than their numbers; it names the part.
+    /// [`PackError`], which names the part, if the models differ in more than numbers, or in which motors have limits.
     ///
     /// # Panics
     ///

@@ -248,7 +248,9 @@ fn settings(campaign: &Campaign) -> Vec<(String, String)> {
                 "{} s, {} times real time",
                 plot::number::significant(report.wall_time_s, 2),
                 plot::number::significant(report.real_time_factor, 2)
-            ),
+            ) + &report.compile_time_s.map_or(String::new(), |t| {
+                format!("; equations compiled in {} ms", plot::number::significant(1e3 * t, 2))
+            }),
         ),
         ("sincro".to_owned(), report.sincro_version.clone()),
     ]);

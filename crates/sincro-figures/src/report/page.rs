@@ -1,5 +1,6 @@
 //! `report.html`: verdict first, then pictures, then numbers, then settings.
 
+use std::panic::resume_unwind;
 use std::thread;
 
 use super::checks::check_table;
@@ -82,7 +83,7 @@ fn figures(figures: &[Figure]) -> String {
     let (wide, narrow) = thread::scope(|scope| {
         let wide = scope.spawn(|| all(Size::wide));
         let narrow = all(Size::narrow);
-        (wide.join().expect("figures are drawn without panic"), narrow)
+        (wide.join().unwrap_or_else(|panic| resume_unwind(panic)), narrow)
     });
     wide.iter().zip(&narrow).map(|(wide, narrow)| in_two_sizes(wide, narrow)).collect::<Vec<_>>().concat()
 }

@@ -260,7 +260,7 @@ fn one_run(
     let options = RunOptions { csv: csv.as_deref(), variant, keyframes: true, ..RunOptions::default() };
     let (simulated, finer) = refine::with_finer_run(loaded, options, monitor, processors)?;
     let columns = match simulated.status {
-        Status::Completed => refine::columns(loaded, &simulated, finer.as_ref(), monitor)?,
+        Status::Completed => refine::columns(loaded, &simulated, finer.as_ref(), (monitor, processors))?,
         _ => ColumnReport::of_table(&simulated.table),
     };
     let audit = audit(loaded, &simulated, finer.as_ref());
@@ -409,6 +409,7 @@ fn report(
         changes: main.simulated.changes.iter().map(change_report).collect(),
         wall_time_s: main.simulated.wall_time,
         real_time_factor: main.simulated.table.times().last().copied().unwrap_or(0.0) / main.simulated.wall_time,
+        compile_time_s: main.simulated.compile_time,
     }
 }
 

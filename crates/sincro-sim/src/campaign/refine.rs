@@ -11,6 +11,7 @@
 //! Both runs are made at the same time where two processors are free; one after the other where code of others takes
 //! part, which may have a memory that both would share, or write files: scripts, FMUs, controllers of a program.
 
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
@@ -51,15 +52,17 @@ pub(super) fn with_finer_run(
         finer
     };
     let (run, finer) = thread::scope(|scope| {
-        let finer = thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, finer);
-        let finer = finer.expect("a thread can be made");
-        let run = run(monitor);
+        // the finer run asks for a processor once the run has one: who waits for both sees an interrupt in the run
+        let (run, finer) = processors.work(|| {
+            let finer = thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, finer);
+            (simulate(loaded, options, monitor), finer.expect("a thread can be made"))
+        });
         let is_whole = run.as_ref().is_ok_and(|run| run.status == Status::Completed);
         while !(is_made.load(Ordering::Acquire) || finer.is_finished()) {
             is_cancelled.fetch_or(!is_whole || user.load(Ordering::Relaxed), Ordering::Relaxed);
             thread::park_timeout(POLL_INTERVAL);
         }
-        (run, finer.join().expect("a run does not panic"))
+        (run, finer.join().unwrap_or_else(|panic| resume_unwind(panic)))
     });
     let run = run?;
     Ok(if run.status == Status::Completed { (run, finer?) } else { (run, None) })
@@ -70,7 +73,7 @@ pub(super) fn columns(
     loaded: &Loaded,
     run: &Simulated,
     finer: Option<&Simulated>,
-    monitor: &mut RunMonitor<'_>,
+    (monitor, processors): (&mut RunMonitor<'_>, &Processors),
 ) -> Result<Vec<ColumnReport>, RunError> {
     let mut columns = ColumnReport::of_table(&run.table);
     if loaded.experiment.error_bar == ErrorBar::None {
@@ -91,7 +94,7 @@ pub(super) fn columns(
     if !loaded.scene.scripts.is_empty() {
         method += "; step of scripts halved";
     }
-    let other = if run.is_ambiguous { Some(other_run(loaded, monitor)?) } else { None };
+    let other = if run.is_ambiguous { Some(processors.work(|| other_run(loaded, monitor))?) } else { None };
     if let Some(reason) = other.as_ref().and_then(|other| why_unfinished(&other.status)) {
         without_bars(&mut columns, &format!("not estimated: the run with other contact forces stopped: {reason}"));
         return Ok(columns);

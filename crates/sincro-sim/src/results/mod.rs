@@ -85,6 +85,9 @@ pub struct RunReport {
     /// Simulated time divided by wall time (dimensionless).
     #[serde(with = "number")]
     pub real_time_factor: f64,
+    /// Part of the wall time in which the equations were compiled `[s]`; `None` if they were not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compile_time_s: Option<f64>,
 }
 
 /// Rotor that ran outside the validity of its theory, for one reason; part of a [`RunReport`].

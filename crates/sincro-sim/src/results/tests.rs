@@ -70,6 +70,7 @@ fn report() -> RunReport {
         changes: Vec::new(),
         wall_time_s: 0.25,
         real_time_factor: 12.0,
+        compile_time_s: None,
     }
 }
 

@@ -644,6 +644,16 @@ impl LockStep {
         self.compilation.equations_by(&self.world)
     }
 
+    /// Time in which the equations that are evaluated now were compiled `[s]`; `None` for the recursions.
+    #[must_use]
+    pub fn compile_time(&self) -> Option<f64> {
+        #[cfg(feature = "jit")]
+        if let EquationsBy::Compiled { elapsed } = self.equations_by() {
+            return Some(elapsed.as_secs_f64());
+        }
+        None
+    }
+
     /// Compiles the equations of the world once that pays, and again after parameters have changed.
     #[cfg(feature = "jit")]
     fn compile_if_it_pays(&mut self) {

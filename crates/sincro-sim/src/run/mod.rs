@@ -108,6 +108,9 @@ pub struct Simulated {
     pub n_streams: usize,
     /// Wall time `[s]`, recording included.
     pub wall_time: f64,
+    /// Part of it in which the equations were compiled `[s]`; `None` if they were evaluated by the recursions, as they
+    /// always are without the feature `jit`.
+    pub compile_time: Option<f64>,
 }
 
 /// Monitor of a run: takes interruptions, receives progress.

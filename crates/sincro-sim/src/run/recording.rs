@@ -261,6 +261,7 @@ impl Recording {
             images,
             n_streams,
             wall_time,
+            compile_time: lockstep.compile_time(),
         })
     }
 }

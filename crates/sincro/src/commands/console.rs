@@ -92,11 +92,13 @@ pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
     print_error_bars(report);
     print_findings("  ", report.findings());
     say!("{}", verdict_line(report));
+    let compiled = report.compile_time_s.map(|t| format!(", equations compiled in {} ms", significant(1e3 * t, 2)));
     say!(
-        "  trace {}   wall time {} s, {} times real time",
+        "  trace {}   wall time {} s, {} times real time{}",
         report.trace_hash,
         significant(report.wall_time_s, 2),
-        significant(report.real_time_factor, 2)
+        significant(report.real_time_factor, 2),
+        compiled.unwrap_or_default()
     );
     say!("  report {}", out.join("report.html").display());
     let _ = loaded;
