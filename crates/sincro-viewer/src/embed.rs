@@ -48,17 +48,7 @@ pub fn assets() -> [(&'static str, &'static str); 2] {
 /// JSON that no HTML parser finds a tag in.
 #[must_use]
 pub(crate) fn escape_for_html(json: &str) -> String {
-    let mut escaped = String::with_capacity(json.len());
-    let mut rest = json;
-    while let Some(at) = rest.find(['<', '\u{2028}', '\u{2029}']) {
-        let (before, from) = rest.split_at(at);
-        let mut chars = from.chars();
-        let code = chars.next().map_or(0, u32::from);
-        escaped.push_str(before);
-        escaped.push_str(&format!("\\u{code:04x}"));
-        rest = chars.as_str();
-    }
-    escaped + rest
+    json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
 }
 
 #[cfg(test)]

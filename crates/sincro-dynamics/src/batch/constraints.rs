@@ -8,10 +8,9 @@
 use sincro_math::{Real, Task};
 
 use super::BatchWorld;
-use super::lane_worlds::{LaneWorlds, StepStart};
+use super::lane_worlds::LaneWorlds;
 use super::near_pairs::NearPairs;
 use crate::integrate::Control;
-use crate::mechanism::Mechanism;
 use crate::mechanism::constraints::ActivationRule;
 use crate::mechanism::foresight::passed;
 use crate::model::{Limit, Model};
@@ -29,7 +28,8 @@ pub(super) struct LaneConstraints<R> {
     is_used: Vec<bool>,
     /// Strongest gravity [m/s²].
     gravity: R,
-    start: StepStart<R>,
+    /// Unknowns, coordinates and modes of drives at the start of the step.
+    start: [Vec<R>; 3],
     /// 1 for each lane whose step is made alone.
     is_alone: R,
     /// Number of steps that each lane has made alone.
@@ -40,25 +40,27 @@ pub(super) struct LaneConstraints<R> {
 
 impl<R: Real> LaneConstraints<R> {
     /// Constraints of `models`, the last of which fills the remaining lanes; `None` if they have none.
-    pub fn new(models: &[&Model<f64>], mechanism: &Mechanism<R>, dim: usize) -> Option<Self> {
+    pub fn new(models: &[&Model<f64>], dim: usize) -> Option<Self> {
         let first = models[0];
         let set = first.constraints();
         if R::IS_SCALAR || set.is_empty() {
             return None;
         }
         let of = |k: usize| models[k.min(models.len() - 1)];
+        // a step of its own length each time
         let control = Control::new(1.0, 1.0);
         let world = |k: usize| {
             let (model, state) = (of(k).clone(), State::new(of(k)));
             World::with_totals(model, state, MethodKind::SemiImplicitEuler, control, false)
         };
+        let zeros = |n: usize| vec![R::zero(); n];
         Some(Self {
             limits: set.limits.clone(),
             pairs: NearPairs::new(set, first.n_v()),
             alone: (0..R::LANES).map(world).collect(),
             is_used: vec![false; R::LANES],
             gravity: R::from_lanes(|k| of(k).strongest_gravity(&[])),
-            start: StepStart::new(mechanism, dim),
+            start: [zeros(dim), zeros(first.n_q()), zeros(first.n_drives())],
             is_alone: R::zero(),
             n_alone: vec![0; R::LANES],
             stops: vec![None; R::LANES],
@@ -132,7 +134,7 @@ impl<R: Real> Task for Look<'_, R> {
         }
         if let Some(pairs) = &mut constraints.pairs {
             // the velocities at the end, in the positions at the start
-            let base = &constraints.start.base;
+            let [_, base, _] = &constraints.start;
             let velocities = worlds.mechanism.layout().velocities();
             let LaneWorlds { mechanism, y, .. } = worlds;
             is_alone = is_alone.max(pairs.find(mechanism, (base, &y[velocities]), (h, gravity), is_end));
@@ -146,7 +148,10 @@ impl<R: Real> LaneWorlds<R> {
     /// as if there were none.
     pub(super) fn step_beside_constraints(&mut self, t: f64, h: f64, step: impl FnOnce(&mut Self)) {
         let Some(mut constraints) = self.constraints.take() else { return };
-        constraints.start.copy_from(self);
+        let [y, base, drives] = &mut constraints.start;
+        y.copy_from_slice(&self.y);
+        base.copy_from_slice(self.mechanism.base());
+        drives.copy_from_slice(&self.mechanism.drives);
         R::run_hot(Look { worlds: self, constraints: &mut constraints, h, is_end: false });
         if (0..R::LANES).any(|k| constraints.is_alone.lane(k) < 0.5) {
             step(self);
@@ -169,9 +174,9 @@ impl<R: Real> LaneWorlds<R> {
 
     /// Makes the step of lane `k` from its start by itself.
     fn step_alone(&mut self, constraints: &mut LaneConstraints<R>, k: usize, (t, h): (f64, f64)) {
-        let LaneConstraints { alone, start, stops, n_alone, .. } = constraints;
+        let LaneConstraints { alone, start: [y, base, drives], stops, n_alone, .. } = constraints;
         let world = &mut alone[k];
-        self.store_lane(k, start, &mut world.state);
+        self.store_lane(k, [base, y, drives], &mut world.state);
         stops[k] = world.advance(t, h).err().map(|(_, stop)| stop);
         self.set_numbers(k, &world.state);
         if stops[k].is_none() {

@@ -6,7 +6,7 @@ use sincro_math::{Real, Task};
 
 use super::constraints::LaneConstraints;
 use super::step_modes::StepModes;
-use super::{BatchSettings, BatchWorld, CompiledStep, has_limits_of};
+use super::{BatchSettings, BatchWorld, CompiledStep, advance_alone, has_limits_of};
 use crate::coupled::{Coupled, CoupledSystem, StateView};
 use crate::integrate::{Control, Extrapolated, Failure, FixedStep, Rk4, SemiImplicitEuler, System};
 use crate::kinematics;
@@ -78,29 +78,6 @@ impl<R: Real> FixedMethod<R> {
             Self::Rk4(method) => method.step(system, t, h, y),
             Self::Implicit(method) => method.step(system, t, h, y),
         }
-    }
-}
-
-/// State of all lanes at the start of a step, to which those go back that cannot make it.
-#[derive(Clone, Debug)]
-pub(super) struct StepStart<R> {
-    pub y: Vec<R>,
-    pub base: Vec<R>,
-    pub drives: Vec<R>,
-}
-
-impl<R: Real> StepStart<R> {
-    /// Room for the state of a mechanism, and of what is integrated with it: `dim` numbers.
-    pub fn new(mechanism: &Mechanism<R>, dim: usize) -> Self {
-        let zeros = |n: usize| vec![R::zero(); n];
-        Self { y: zeros(dim), base: zeros(mechanism.base().len()), drives: zeros(mechanism.drives.len()) }
-    }
-
-    #[inline(always)]
-    pub fn copy_from(&mut self, worlds: &LaneWorlds<R>) {
-        self.y.copy_from_slice(&worlds.y);
-        self.base.copy_from_slice(worlds.mechanism.base());
-        self.drives.copy_from_slice(&worlds.mechanism.drives);
     }
 }
 
@@ -213,7 +190,7 @@ impl<R: Real> LaneWorlds<R> {
             negated_jacobian_diagonal: zeros(n_states),
             target_velocities: zeros(mechanism.drives.len()),
             modes: StepModes::new(&mechanism, dim).map(Box::new),
-            constraints: LaneConstraints::new(models, &mechanism, dim).map(Box::new),
+            constraints: LaneConstraints::new(models, dim).map(Box::new),
             reach_target_velocities,
             mechanism,
             method,
@@ -337,15 +314,16 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    /// Writes lane `k` of a state of the mechanism to that of a world, with the present commands.
-    pub(super) fn store_lane(&self, k: usize, at: &StepStart<R>, state: &mut State<f64>) {
+    /// Writes coordinates `q`, unknowns `y` and modes of `drives` of lane `k` to the state of a world, with the present
+    /// commands.
+    pub(super) fn store_lane(&self, k: usize, [q, y, drives]: [&[R]; 3], state: &mut State<f64>) {
         let layout = self.mechanism.layout();
         let copy = |to: &mut [f64], from: &[R]| to.iter_mut().zip(from).for_each(|(to, from)| *to = from.lane(k));
-        copy(&mut state.q, &at.base);
-        copy(&mut state.v, &at.y[layout.velocities()]);
-        copy(&mut state.rotors, &at.y[layout.rotor_states()]);
+        copy(&mut state.q, q);
+        copy(&mut state.v, &y[layout.velocities()]);
+        copy(&mut state.rotors, &y[layout.rotor_states()]);
         copy(&mut state.commands, &self.mechanism.commands);
-        copy(&mut state.drives, &at.drives);
+        copy(&mut state.drives, drives);
         if let Some(constraints) = &self.constraints {
             state.contacts.clone_from(constraints.contacts(k));
         }
@@ -357,24 +335,22 @@ impl<R: Real> LaneWorlds<R> {
         self.load(worlds);
         // where forces depend on time, all that have not stopped have one clock
         let first = worlds.iter().find(|w| w.stop.is_none()).map_or(0, |w| w.state.tick);
-        let mut start = StepStart::new(&self.mechanism, self.y.len());
         self.record(worlds, settings.record_every > 0);
         for k in 0..settings.n_steps {
             self.command(worlds, k as usize);
-            start.copy_from(self);
             self.step((first + u64::from(k)) as f64 * settings.h, settings.h);
             if let Some(constraints) = &mut self.constraints {
                 constraints.note(worlds);
             }
-            self.note_stops(worlds, &start, settings.h);
+            self.note_stops(worlds, settings, k);
             self.record(worlds, settings.record_every > 0 && (k + 1) % settings.record_every == 0);
             for world in worlds.iter_mut().filter(|w| w.stop.is_none()) {
                 world.state.tick += 1;
             }
         }
-        start.copy_from(self);
+        let reached = [self.mechanism.base(), &self.y, &self.mechanism.drives];
         for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
-            self.store_lane(k, &start, &mut world.state);
+            self.store_lane(k, reached, &mut world.state);
         }
     }
 
@@ -506,10 +482,10 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    /// A lane that stopped being finite goes back to the start of its step of length `h` `[s]` and says so; the others
-    /// are not concerned.
+    /// A world whose lane stopped being finite in step `k` says so, in the state of its last instant; the others do not
+    /// notice.
     #[inline(always)]
-    fn note_stops(&self, worlds: &mut [BatchWorld], start: &StepStart<R>, h: f64) {
+    fn note_stops(&self, worlds: &mut [BatchWorld], settings: &BatchSettings, k: u32) {
         // 0·x is 0, or NaN where x is not finite: one look at the lanes instead of one an entry
         let mut probe = R::zero();
         for y in &self.y {
@@ -518,11 +494,9 @@ impl<R: Real> LaneWorlds<R> {
         if probe.is_finite() {
             return;
         }
-        for (k, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
-            if !self.y.iter().all(|y| y.lane(k).is_finite()) {
-                let t = world.state.tick as f64 * h;
-                world.stop = Some(Stop::Integration(Failure::NotFinite { t }));
-                self.store_lane(k, start, &mut world.state);
+        for (lane, world) in worlds.iter_mut().enumerate().filter(|(_, w)| w.stop.is_none()) {
+            if !self.y.iter().all(|y| y.lane(lane).is_finite()) {
+                stop_alone(world, settings, k);
             }
         }
     }
@@ -537,6 +511,19 @@ impl<R: Real> LaneWorlds<R> {
             world.record.extend(self.y[layout.velocities()].iter().map(|v| v.lane(k)));
         }
     }
+}
+
+/// Lets a world whose lane stopped being finite in step `k` make the steps up to there by itself, from the start of the
+/// run: lanes do not keep the state before a step.
+#[cold]
+fn stop_alone(world: &mut BatchWorld, settings: &BatchSettings, k: u32) {
+    let t = world.state.tick as f64 * settings.h;
+    let steps_alone = world.steps_alone;
+    // all else of the state is that of the start until the run is at its end
+    world.state.tick -= u64::from(k);
+    advance_alone(world, &BatchSettings { n_steps: k + 1, record_every: 0, ..*settings });
+    world.steps_alone = steps_alone;
+    world.stop.get_or_insert(Stop::Integration(Failure::NotFinite { t }));
 }
 
 #[inline(always)]

@@ -156,10 +156,9 @@ fn go_together(bundle: &[BatchWorld], settings: &BatchSettings) -> bool {
 /// Returns true if an input has a corner within the run, at which a step of the world alone would end. Those of
 /// semi-implicit Euler go on.
 fn has_corners(world: &BatchWorld, settings: &BatchSettings) -> bool {
-    let time = |tick: u64| tick as f64 * settings.h;
-    let tick = world.state.tick;
+    let time_after = |n_steps: u32| (world.state.tick + u64::from(n_steps)) as f64 * settings.h;
     settings.method != MethodKind::SemiImplicitEuler
-        && world.model.next_time_event(time(tick)) <= time(tick + u64::from(settings.n_steps))
+        && world.model.next_time_event(time_after(0)) <= time_after(settings.n_steps)
 }
 
 /// Returns true if the same drives of two models of one structure have limits, and their joints and surfaces the same

@@ -1,7 +1,6 @@
 //! `report.html`: verdict first, then pictures, then numbers, then settings.
 
-use std::panic::resume_unwind;
-use std::thread;
+use sincro_scene::parallel;
 
 use super::checks::check_table;
 use super::mechanism;
@@ -80,12 +79,8 @@ fn diagrams(list: &[(String, String)]) -> String {
 /// HTML of figures, drawn on two processors.
 fn figures(figures: &[Figure]) -> String {
     let all = |size: fn(&Figure) -> Size| -> Vec<String> { figures.iter().map(|f| inline_svg(f, size(f))).collect() };
-    let (wide, narrow) = thread::scope(|scope| {
-        let wide = scope.spawn(|| all(Size::wide));
-        let narrow = all(Size::narrow);
-        (wide.join().unwrap_or_else(|panic| resume_unwind(panic)), narrow)
-    });
-    wide.iter().zip(&narrow).map(|(wide, narrow)| in_two_sizes(wide, narrow)).collect::<Vec<_>>().concat()
+    let drawn = parallel::map(2, |k| if k == 0 { all(Size::wide) } else { all(Size::narrow) });
+    drawn[0].iter().zip(&drawn[1]).map(|(wide, narrow)| in_two_sizes(wide, narrow)).collect::<Vec<_>>().concat()
 }
 
 /// HTML of a figure as inline SVG in two sizes, for wide and for narrow screens, of which the style sheet of

@@ -11,14 +11,17 @@ use crate::plot::{self, escape, escape_raised};
 pub fn document(title: &str, class: &str, body: &str) -> String {
     let title = escape(title);
     let (plot_css, draw_css, page_css) = (plot::PAGE_CSS, DRAW_CSS, include_str!("style.css"));
-    let viewport = "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-    let head = ["<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n", viewport];
-    let head = head.concat() + "<meta name=\"color-scheme\" content=\"light dark\">\n";
-    let styles = [plot_css, draw_css, page_css].concat();
-    let title =
-        format!("<title>{title}</title>\n<style>\n{styles}</style>\n</head>\n<body class=\"{class}\">\n<main>\n");
+    let head = format!(
+        concat!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
+            "<meta name=\"color-scheme\" content=\"light dark\">\n",
+            "<title>{}</title>\n<style>\n{}{}{}</style>\n</head>\n<body class=\"{}\">\n<main>\n"
+        ),
+        title, plot_css, draw_css, page_css, class
+    );
     // pages are large: the length of the whole is known beforehand
-    [&head, &title, body, "</main>\n</body>\n</html>\n"].concat()
+    [&head, body, "</main>\n</body>\n</html>\n"].concat()
 }
 
 /// Outcome of a run.

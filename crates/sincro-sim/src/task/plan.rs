@@ -171,9 +171,7 @@ impl Plan {
         let left = |command: &usize| !plan.own_commands().any(|own| own == *command);
         plan.varying_commands = (0..plan.n_commands()).filter(is_varying).filter(left).collect();
         plan.recursions_refused = plan.obstacle_to_recursions();
-        let model = &loaded.scene.model;
-        let switches = model.has_limited_drives() || !model.constraints().is_empty();
-        if plan.recursions_refused.is_none() && switches {
+        if plan.recursions_refused.is_none() && plan.switches() {
             plan.start = LockStep::new(loaded, plan.method, false).state().clone();
         }
         let middle = plan.drawn(0, 0);
@@ -194,16 +192,20 @@ impl Plan {
         })
     }
 
+    /// Returns true if limited drives, friction, limits of joints or contacts may change what acts from step to step.
+    fn switches(&self) -> bool {
+        let model = &self.scene().model;
+        model.has_limited_drives() || !model.constraints().is_empty()
+    }
+
     /// Sensors that lanes cannot measure though they can others of their kind, in words.
     fn obstacle_in_sensors(&self) -> Option<String> {
         let reads_accelerations = || {
             let kinds = self.read_sensor_values().filter_map(|value| self.sensor_of(value));
             kinds.into_iter().any(|kind| matches!(kind, SensorKind::Imu { .. }))
         };
-        let model = &self.scene().model;
-        let switches = model.has_limited_drives() || !model.constraints().is_empty();
         let words = "a sensor of accelerations, which contacts, limits of joints, limited drives and friction change";
-        (switches && reads_accelerations()).then(|| words.to_owned())
+        (self.switches() && reads_accelerations()).then(|| words.to_owned())
     }
 
     /// Part of the diagram that keeps it from running in or beside lanes, in words.
