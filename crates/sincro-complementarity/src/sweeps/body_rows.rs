@@ -30,10 +30,9 @@ impl Bodies {
     }
 }
 
-/// Appends the rows `y` of a contact, one after the other, to `to`.
-pub(super) fn push_rows(y: &[f64], to: &mut Vec<[f64; 4]>) {
+/// Appends the rows `y` of a contact, one after the other, to `to`, packed.
+pub(super) fn push_packed(y: &[f64], to: &mut Vec<[f64; 4]>) {
     let len = y.len() / 3;
-    to.extend((0..len).map(|j| [y[j], y[len + j], y[2 * len + j], 0.0]));
     for row in y.chunks_exact(len) {
         to.extend(row.chunks_exact(6).map(|body| [body[0], body[1], body[2], body[3]]));
         let second = if len == 12 { [row[10], row[11]] } else { [0.0; 2] };
@@ -51,7 +50,7 @@ pub(super) struct BodyRows<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> BodyRows<'a, N> {
-    /// The rows that begin a list.
+    /// The rows that begin a list: their columns, then they are packed.
     #[inline(always)]
     pub fn first_of(list: &'a [[f64; 4]], at: [usize; N]) -> Self {
         let (columns, rest) = list.split_at(6 * N);
@@ -102,13 +101,18 @@ mod tests {
 
     use super::*;
 
+    fn columns(y: &[f64]) -> Vec<[f64; 4]> {
+        let len = y.len() / 3;
+        (0..len).map(|j| [y[j], y[len + j], y[2 * len + j], 0.0]).collect()
+    }
+
     #[test]
     fn products_by_lanes_are_those_of_the_rows() {
         let y: Vec<f64> = (0..36).map(|k| f64::from(k * k % 23) - 11.0).collect();
         let z: Vec<f64> = (0..20).map(|k| f64::from(k * 7 % 13) - 6.0).collect();
         let (b, d, places) = ([1.0, -2.0, 3.0, 0.0], [2.0, -1.0, 5.0], [13, 1]);
-        let mut list = Vec::new();
-        push_rows(&y, &mut list);
+        let mut list = columns(&y);
+        push_packed(&y, &mut list);
         let rows = BodyRows::first_of(&list, places);
         let at: Vec<usize> = (13..19).chain(1..7).collect();
         let (mut moved, mut wanted) = (z.clone(), z.clone());
@@ -121,8 +125,8 @@ mod tests {
         }
         assert_eq!(moved, wanted);
         // a single body
-        list.clear();
-        push_rows(&y[..18], &mut list);
+        let mut list = columns(&y[..18]);
+        push_packed(&y[..18], &mut list);
         let rows = BodyRows::first_of(&list, [2]);
         let (mut moved, mut wanted) = (z.clone(), z.clone());
         rows.add_to::<Lanes<4>>(d, &mut moved);

@@ -22,16 +22,19 @@ pub(crate) mod local;
 mod newton;
 pub mod rest;
 mod splitting;
+pub mod usable_distance;
+pub mod whitening;
 
 use sincro_math::{LaneVisitor, Real, lanes};
 
 use crate::solver::SolverReport;
 use anderson::Anderson;
-use body_rows::{Bodies, BodyRows, push_rows};
+use body_rows::{Bodies, BodyRows};
 use drives::Drives;
 use local::{ContactLocal, TangentialProblem};
 use newton::NewtonStep;
 use splitting::Splitting;
+use whitening::WhitenedRows;
 
 /// Residual at which an island counts as solved.
 const TOLERANCE: f64 = 1e-6;
@@ -162,7 +165,7 @@ struct Block {
     index: usize,
     len: usize,
     bodies: Bodies,
-    /// Place of the rows by four lanes, where these are free bodies.
+    /// Place of the rows by four lanes: of a contact column by column, and packed where it moves free bodies.
     rows: usize,
     /// Rates without any force, and a zero.
     b: [f64; 4],
@@ -233,8 +236,10 @@ pub struct Sweeper {
     /// Force of each block.
     lambda: Vec<[f64; 3]>,
     values: Vec<f64>,
-    /// The rows of contacts of free bodies once more, by four lanes.
+    /// The rows of contacts once more, by four lanes.
     rows: Vec<[f64; 4]>,
+    /// Those of the contact last added.
+    whitened: WhitenedRows,
     /// Places in z of the numbers of each row.
     index: Vec<u32>,
     islands: Vec<IslandRange>,
@@ -296,51 +301,6 @@ impl Sweeper {
     #[must_use]
     pub fn block_count(&self) -> usize {
         self.blocks.len()
-    }
-
-    /// Adds a block of `n` rows from `row` on, with their whitened rows one after the other in `values`.
-    #[allow(clippy::too_many_arguments)]
-    pub fn add(&mut self, law: Law, row: usize, n: usize, dofs: &[u32], values: &[f64], b: [f64; 3], lambda: [f64; 3]) {
-        let index = self.index.len();
-        for dof in dofs {
-            let place = &mut self.place[*dof as usize];
-            if *place == NONE {
-                *place = self.z.len() as u32;
-                self.z.push(0.0);
-            }
-            self.index.push(*place);
-        }
-        let fill = dofs.len() % 2;
-        self.index.extend(std::iter::repeat_n(0, fill));
-        let first = self.values.len();
-        for row in values.chunks(dofs.len().max(1)).take(n) {
-            self.values.extend_from_slice(row);
-            self.values.extend(std::iter::repeat_n(0.0, fill));
-        }
-        let len = dofs.len() + fill;
-        let y = &self.values[first..];
-        let dot = |i: usize, j: usize| dot(&y[i * len..(i + 1) * len], &y[j * len..(j + 1) * len]);
-        let trace: f64 = (0..n).map(|k| dot(k, k)).sum();
-        let local = match n {
-            _ if trace <= IMMOBILE => Local::Immobile,
-            1 => Local::Scalar { inverse: 1.0 / trace },
-            2 => {
-                let g = [dot(0, 0), dot(0, 1), dot(1, 1)];
-                Local::Tangential { trace, g, problem: TangentialProblem::new(g, trace) }
-            }
-            _ => Local::Contact(ContactLocal::new([dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)])),
-        };
-        let bodies = match local {
-            Local::Contact(_) => Bodies::at(&self.index[index..]),
-            _ => Bodies::Other,
-        };
-        let rows = self.rows.len();
-        if bodies != Bodies::Other {
-            push_rows(&self.values[first..], &mut self.rows);
-        }
-        let b = [b[0], b[1], b[2], 0.0];
-        self.blocks.push(Block { law, row, n, values: first, index, len, bodies, rows, b, local });
-        self.lambda.push(lambda);
     }
 
     /// Ends an island; where nothing in it moves and the forces to start from solve its problem within
@@ -475,8 +435,27 @@ impl Sweeper {
         match *bodies {
             Bodies::One(one) => BodyRows::first_of(&rows[*first..], [one]).rates::<V>(b, z),
             Bodies::Two(one, two) => BodyRows::first_of(&rows[*first..], [one, two]).rates::<V>(b, z),
+            Bodies::Other if blocks[k].n == 3 => self.rates_by_columns::<V>(k),
             Bodies::Other => self.rates_of_others(k),
         }
+    }
+
+    /// The same for a contact with any velocities, with the bits of [`Sweeper::rates_of_others`].
+    #[inline(always)]
+    fn rates_by_columns<V: Real>(&mut self, k: usize) -> [f64; 3] {
+        let Self { blocks, rows, index, along, z, .. } = self;
+        let Block { index: first, len, rows: column, b, .. } = blocks[k];
+        let index = &index[first..first + len];
+        let columns = &rows[column..column + len];
+        let along = &mut along[..len];
+        let mut sums = [V::zero(); 2];
+        for j in 0..len {
+            along[j] = z[index[j] as usize];
+            sums[j % 2] += V::from_row(&columns[j]) * V::splat(along[j]);
+        }
+        let mut u = [0.0; 4];
+        (V::from_row(&b) + (sums[0] + sums[1])).to_row(&mut u);
+        [u[0], u[1], u[2]]
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@ use sincro_math::{Real, dot};
 use super::row::{Row, force_at, force_rate};
 use super::{CLOSED_DISTANCE, Constraints, ModeRule, pair_of};
 use crate::contact::Pair;
-use crate::contact::candidate::{ContactCandidate, tangents};
+use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::candidate_list::SlotCandidate;
 use crate::model::Model;
 use crate::scratch::Scratch;
@@ -34,10 +34,13 @@ impl<R: Real> Constraints<R> {
             }
         }
         let candidates = core::mem::take(&mut self.candidates);
-        for SlotCandidate { slot, pair, candidate } in candidates.iter() {
+        for (k, SlotCandidate { slot, pair, candidate }) in candidates.iter().enumerate() {
             let slot = set.limits.len() + *slot as usize;
             if self.memory.is_closed(slot) {
-                self.contact(slot, candidate, &set.pairs[*pair as usize], v, scratch, within);
+                // a problem of sweeps is one at the poses and twists of the classification
+                let classified = self.kinematics.get(k).filter(|_| self.sweeps && !within).copied();
+                let at = classified.unwrap_or_else(|| candidate.kinematics(&self.motions.at(scratch)));
+                self.contact((slot, candidate), &at, &set.pairs[*pair as usize], v, within);
             }
         }
         self.candidates = candidates;
@@ -73,14 +76,12 @@ impl<R: Real> Constraints<R> {
 
     fn contact(
         &mut self,
-        slot: usize,
-        candidate: &ContactCandidate,
+        (slot, candidate): (usize, &ContactCandidate),
+        at: &ContactKinematics<R>,
         pair: &Pair,
         v: &[R],
-        scratch: &Scratch<R>,
         within: bool,
     ) {
-        let at = candidate.kinematics(&self.motions.at(scratch));
         let row = self.rows.len();
         let n = at.normal;
         // points of a face that lie in one plane do not contradict each other in friction

@@ -5,13 +5,14 @@
 //! forces zero, linear in the number of links. Prescribed degrees of freedom do not respond; the torque they need
 //! instead is added to their reaction. Source: key `featherstone2008`, section 7.3.
 
+use sincro_complementarity::sweeps::whitening::{DofFactors, LinkDofs, MassFactors};
 use sincro_math::{Real, Task};
 
 use super::row::Row;
 use crate::joint::{Link, Stage, StageVisitor, WORLD};
 use crate::model::Model;
 use crate::scratch::{DofScratch, LinkScratch, Scratch};
-use crate::spatial::{Force, Motion};
+use crate::spatial::{Force, Motion, Vec3};
 
 /// Working memory of [`InverseMass::find`]: forces and accelerations of the links, solution of each degree of freedom.
 #[derive(Clone, Debug, Default)]
@@ -123,6 +124,8 @@ pub(crate) struct Delassus<R> {
     tree: Vec<u32>,
     /// For each degree of freedom, one number a row.
     values: Vec<R>,
+    /// The factors once more, for sweeps.
+    mass: MassFactors,
 }
 
 impl<R: Real> Delassus<R> {
@@ -131,7 +134,13 @@ impl<R: Real> Delassus<R> {
         let link_of = model.links_of_dofs();
         let o = R::zero();
         let tree = model.trees();
-        Self { u: vec![Force::zero(); n], inv_d: vec![o; n], inv_root: vec![o; n], link_of, tree, values: Vec::new() }
+        let links = model
+            .links
+            .iter()
+            .map(|link| LinkDofs { dofs: [link.v_idx, link.v_idx + link.kind.n_v() as u32], parent: link.parent });
+        let mass = MassFactors { dofs: vec![DofFactors::default(); n], links: links.collect() };
+        let (zeros, values) = (vec![o; n], Vec::new());
+        Self { u: vec![Force::zero(); n], inv_d: zeros.clone(), inv_root: zeros, link_of, tree, values, mass }
     }
 
     /// Memory for `m` rows.
@@ -191,6 +200,23 @@ impl<R: Real> Delassus<R> {
                 self.inv_root[k] = dof.inv_d.sqrt();
             }
         }
+    }
+
+    /// Writes the factors last placed, with the axes of the joints, to [`Delassus::mass_factors`].
+    pub fn place_mass_factors(&mut self, columns: &[Motion<R>]) {
+        let numbers = |ang: Vec3<R>, lin: Vec3<R>| -> [f64; 6] {
+            core::array::from_fn(|i| (if i < 3 { ang[i] } else { lin[i - 3] }).lane(0))
+        };
+        for (k, dof) in self.mass.dofs.iter_mut().enumerate() {
+            let (axis, u) = (columns[k], self.u[k]);
+            let (inv_d, inv_root) = (self.inv_d[k].lane(0), self.inv_root[k].lane(0));
+            *dof = DofFactors { axis: numbers(axis.ang, axis.lin), u: numbers(u.ang, u.lin), inv_d, inv_root };
+        }
+    }
+
+    /// The factors for sweeps.
+    pub fn mass_factors(&self) -> &MassFactors {
+        &self.mass
     }
 
     /// Trees that a row acts on, by their first links; `WORLD` for none.

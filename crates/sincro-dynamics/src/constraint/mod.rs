@@ -59,7 +59,8 @@ pub use crate::model::{Anchor, ConstraintSet, GearConstraint, Limit, LoopJoint, 
 pub use active_rows::{ActiveRow, ActiveSource};
 pub use sincro_complementarity::SolverReport;
 
-use crate::contact::{Detector, Pair, candidate::ContactCandidate, candidate_list::CandidateList, pair_of_slot};
+use crate::contact::candidate::{ContactCandidate, ContactKinematics};
+use crate::contact::{Detector, Pair, candidate_list::CandidateList, pair_of_slot};
 use crate::model::Model;
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
@@ -151,6 +152,8 @@ pub(crate) struct Constraints<R> {
     /// Warm start and classification of every slot.
     pub memory: WarmStart<R>,
     pub candidates: CandidateList,
+    /// Kinematics of each at the last classification.
+    pub kinematics: Vec<ContactKinematics<R>>,
     /// Slots that are open beyond their surface or bound since the start of the sub-step.
     pub open_inside: Vec<usize>,
     pub foresight: Foresight,
@@ -231,6 +234,7 @@ impl<R: Real> Constraints<R> {
         let mut new = Self {
             memory: WarmStart::new(set.n_slots()),
             candidates: CandidateList::default(),
+            kinematics: Vec::new(),
             open_inside: Vec::with_capacity(RESERVED),
             foresight: Foresight::default(),
             later_candidates: CandidateList::default(),

@@ -572,6 +572,7 @@ impl Constraints<f64> {
             touch.has_impact |= distance <= CLOSED_DISTANCE && rate < -zero_speed;
         }
         let candidates = core::mem::take(&mut self.candidates);
+        self.kinematics.clear();
         for of_pair in candidates.by_pair() {
             let (first_slot, pair) = (set.limits.len(), &set.pairs[of_pair[0].pair as usize]);
             let slots = first_slot + pair.first..first_slot + pair.first + pair.slots;
@@ -579,6 +580,7 @@ impl Constraints<f64> {
             for SlotCandidate { slot, candidate, .. } in of_pair {
                 let slot = first_slot + *slot as usize;
                 let at = candidate.kinematics(&self.motions.at(scratch));
+                self.kinematics.push(at);
                 let rate = normal_rate(&self.motions, candidate, &at);
                 let slides = || slides(&self.motions, candidate, &at, pair, zero_speed);
                 if pair.material.stiffness.is_finite() {

@@ -56,16 +56,18 @@ impl Mechanism<f64> {
             c.detect_struck(set, poses, rule.margin(gravity));
         }
         let is_detected_anew = |link: u32| is_struck && c.foresight.twist_of(link).is_some();
-        let known_candidates = c
-            .candidates
-            .iter()
-            .filter(|SlotCandidate { candidate, .. }| !is_detected_anew(candidate.a) && !is_detected_anew(candidate.b));
-        for SlotCandidate { slot, pair, candidate } in known_candidates.chain(c.later_candidates.iter()) {
-            let slot = set.limits.len() + *slot as usize;
-            if set.pairs[*pair as usize].material.stiffness.is_finite() || slots[..known].contains(&slot) {
+        let is_known = |SlotCandidate { candidate, .. }: &SlotCandidate| {
+            !is_detected_anew(candidate.a) && !is_detected_anew(candidate.b)
+        };
+        let known_candidates = c.candidates.iter().zip(&c.kinematics).filter(|(found, _)| is_known(found));
+        let known_candidates = known_candidates.map(|(found, at)| (found, Some(at)));
+        let later_candidates = c.later_candidates.iter().map(|found| (found, None));
+        for (&SlotCandidate { slot, pair, ref candidate }, at) in known_candidates.chain(later_candidates) {
+            let slot = set.limits.len() + slot as usize;
+            if set.pairs[pair as usize].material.stiffness.is_finite() || slots[..known].contains(&slot) {
                 continue;
             }
-            let at = candidate.kinematics(&c.motions.at(&self.scratch));
+            let at = at.copied().unwrap_or_else(|| candidate.kinematics(&c.motions.at(&self.scratch)));
             let end_rate = normal_rate_of(|link| c.motions.placed_twist_of(link), candidate, &at);
             if at.distance + h * end_rate < passed
                 && !rule.closes((at.distance, normal_rate(&c.motions, candidate, &at)), gravity, c.zero_speed)

@@ -11,10 +11,8 @@
 //! own problem and Anderson acceleration. The residual of the Coulomb law is the test of convergence, and reported
 //! where it misses the tolerance.
 //!
-//! The constraint residual enters the vector b: a distance is used up within the step; a penetration beyond
-//! [`DEAD_ZONE`] is reduced by [`CORRECTION`] a step. Over the points of a face both is linear in the distance
-//! ([`UsableDistance`]), as the motion of a rigid body is: else four points would contradict each other, and the sweeps
-//! would shift load between them without end.
+//! The constraint residual enters the vector b: a distance is used up within the step, a penetration reduced, over the
+//! points of a face as the motion of a rigid body can do it ([`UsableDistance`]).
 //!
 //! Sources: keys `acary2008` (chapters 10 and 13), `jain2011` (chapter 7), `jean1999`.
 
@@ -22,11 +20,14 @@
 mod tests;
 
 use sincro_complementarity::sweeps::islands::Islands;
+use sincro_complementarity::sweeps::usable_distance::UsableDistance;
+use sincro_complementarity::sweeps::whitening::Contact;
 use sincro_complementarity::sweeps::{Law, Sweeper};
 use sincro_complementarity::{ContactMode, UnilateralConstraint};
 use sincro_math::Real;
 
 use super::assembly::restitution;
+use super::row::Row;
 use super::{Constraints, pair_of};
 use crate::joint::WORLD;
 use crate::model::Model;
@@ -36,51 +37,12 @@ use crate::spatial::Force;
 /// Number of rows above which a step at velocity level is solved here, and not by an active set.
 pub(crate) const DIRECT_ROWS: usize = 24;
 
-/// Distance from contact within which it counts as closed `[m]`: corrections of rounding would make the distances of a
-/// face contradict each other.
-const DEAD_ZONE: f64 = 1e-6;
-
-/// Share of a penetration beyond the dead zone that a step removes.
-const CORRECTION: f64 = 0.2;
-
 /// Velocity of a correction that is not made, over that which counts as none: at the arm of a meter it takes more than
 /// bodies at rest may have.
 const NO_CORRECTION: f64 = 10.0;
 
 /// Share of the friction limit beyond which a group counts as one that slips.
 const AT_LIMIT: f64 = 1.0 - 1e-9;
-
-/// Distances that the points of two surfaces may use up within a step, or have to gain: [`usable`] for the nearest and
-/// the farthest of them, and in between linear in the distance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct UsableDistance {
-    least: f64,
-    of_least: f64,
-    slope: f64,
-}
-
-impl UsableDistance {
-    /// For points at these distances; corrections below `least_correction` `[m]` are not made.
-    fn of(distances: impl Iterator<Item = f64>, least_correction: f64) -> Self {
-        let (least, most) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
-        let (of_least, of_most) = (usable(least, least_correction), usable(most, least_correction));
-        let slope = if most > least { (of_most - of_least) / (most - least) } else { 0.0 };
-        Self { least, of_least, slope }
-    }
-
-    /// Usable distance of the point at `distance` `[m]`.
-    fn at(self, distance: f64) -> f64 {
-        self.of_least + self.slope * (distance - self.least)
-    }
-}
-
-/// Distance that a single point at `distance` may use up within a step `[m]`; below zero it has to separate. One below
-/// `least_correction` is zero: bodies at rest would not move for it.
-fn usable(distance: f64, least_correction: f64) -> f64 {
-    let beyond = distance - distance.clamp(-DEAD_ZONE, DEAD_ZONE);
-    let usable = if beyond < 0.0 { CORRECTION * beyond } else { beyond };
-    if usable.abs() > least_correction { usable } else { 0.0 }
-}
 
 /// Working memory; grows to the largest problem it has seen.
 #[derive(Clone, Debug, Default)]
@@ -241,6 +203,7 @@ impl<R: Real> Constraints<R> {
         sweeper.clear(model.n_v());
         self.find_places(places);
         let columns = self.motions.columns();
+        self.delassus_factors.place_mass_factors(columns);
         for k in 0..islands.len() {
             order.clear();
             order.extend(islands.items(k).map(|item| {
@@ -282,7 +245,7 @@ impl<R: Real> Constraints<R> {
                     }
                     // the rows of a contact's sliding friction follow its normal row
                     (None, Some(group)) if group.row == block.row + 1 => {
-                        add(sweeper, Law::Coulomb { friction: group.coefficient }, block.row, 3);
+                        self.add_contact(sweeper, block.row, group.coefficient);
                         groups.next();
                     }
                     (None, _) => add(sweeper, Law::Unilateral, block.row, 1),
@@ -293,6 +256,19 @@ impl<R: Real> Constraints<R> {
             }
             sweeper.end_island(self.rest.stillness(k));
         }
+    }
+
+    /// Adds a contact, whose rows are of its two links alone.
+    fn add_contact(&self, sweeper: &mut Sweeper, row: usize, friction: f64) {
+        let rows = &self.rows[row..row + 3];
+        let wrench = core::array::from_fn(|i| {
+            let of = |row: &Row<R>| (if i < 3 { row.wa.ang[i] } else { row.wa.lin[i - 3] }).lane(0);
+            [of(&rows[0]), of(&rows[1]), of(&rows[2]), 0.0]
+        });
+        let of = |list: &[R]| -> [f64; 3] { core::array::from_fn(|k| list[row + k].lane(0)) };
+        let (b, lambda) = (of(&self.b), of(&self.lambda));
+        let mass = self.delassus_factors.mass_factors();
+        sweeper.add_contact(mass, &Contact { friction, row, links: [rows[0].a, rows[0].b], wrench, b, lambda });
     }
 
     /// Multipliers and modes of the blocks.

@@ -5,8 +5,6 @@ use crate::mechanism::constraints::ActivationRule;
 use crate::prelude::*;
 use crate::recursions::kinematics;
 
-use super::{CORRECTION, DEAD_ZONE, UsableDistance};
-
 const EDGE: f64 = 0.2;
 
 fn boxes_and_an_arm(rough: Material) -> (Model<f64>, State<f64>) {
@@ -71,28 +69,6 @@ fn products_of_whitened_rows_are_the_delassus_matrix() {
         for j in 0..m {
             let product: f64 = rows[i].iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
             assert!((product - c.a[i * m + j]).abs() < 1e-12, "{i} {j}: {product} for {}", c.a[i * m + j]);
-        }
-    }
-}
-
-#[test]
-fn points_of_a_face_use_up_their_distances_as_a_rigid_body_can() {
-    let within = 0.5 * DEAD_ZONE;
-    for [least, most] in [[-1e-3, 2e-3], [-within, within], [0.0, 1e-3], [1e-3, 2e-3], [-2e-3, -1e-3], [1e-4, 1e-4]] {
-        // four corners of a face, the last two of them on one diagonal
-        let middle = 0.3 * least + 0.7 * most;
-        let corners = [least, most, middle, least + most - middle];
-        let usable = UsableDistance::of(corners.iter().copied(), 1e-10);
-        let of = corners.map(|distance| usable.at(distance));
-        // heights over a plane add up alike along both diagonals
-        assert!((of[0] + of[1] - of[2] - of[3]).abs() < 1e-15, "{corners:?}: {of:?}");
-        for (distance, usable) in [(least, of[0]), (most, of[1])] {
-            let wanted = match distance {
-                d if d > DEAD_ZONE => d - DEAD_ZONE,
-                d if d < -DEAD_ZONE => CORRECTION * (d + DEAD_ZONE),
-                _ => 0.0,
-            };
-            assert!((usable - wanted).abs() < 1e-15, "{distance}: {usable} for {wanted}");
         }
     }
 }
