@@ -270,9 +270,12 @@ impl<R: Real> Mechanism<R> {
         self.plain_slope(at.t, at.implicit, y, slope);
     }
 
-    /// Puts the coordinates `self.q` on the manifold of the loops, and returns velocities on it.
+    /// Puts the coordinates `self.q` of a stage `y` near a singular position on the manifold of the loops, and returns
+    /// velocities on it.
+    #[cold]
     #[inline(never)]
-    pub(super) fn project_stage(&mut self, v: &[R]) -> Vec<R> {
+    pub(super) fn project_stage(&mut self, y: &[R]) -> Vec<R> {
+        let v = &y[self.layout.velocities()];
         let mut on_manifold = core::mem::take(&mut self.singular.v);
         on_manifold.clear();
         on_manifold.extend_from_slice(v);

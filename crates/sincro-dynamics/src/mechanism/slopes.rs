@@ -6,11 +6,15 @@ use super::Mechanism;
 use crate::integrate::Implicit;
 use crate::state::displace;
 
-/// Runs a stage: inlined into the steps of one world, and one compiled copy for the steps of all methods on other
-/// numbers, whose code is large.
+/// Runs a stage: one compiled copy for the steps of all methods, whose code is large.
 #[inline(always)]
 fn run_stage<R: Real, T: Task>(stage: T) -> T::Output {
-    if const { R::LANES > 1 } { R::run_hot(stage) } else { R::run_part(stage) }
+    if const { R::LANES > 1 } { R::run_hot(stage) } else { run_out_of_line(stage) }
+}
+
+#[inline(never)]
+fn run_out_of_line<T: Task>(stage: T) -> T::Output {
+    stage.run()
 }
 
 /// Slope of an explicit stage.
@@ -75,10 +79,11 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     fn find_explicit_slope(&mut self, t: f64, y: &[R], slope: &mut [R]) {
         self.place_stage(y);
-        if R::IS_SCALAR && self.singular.is_near {
-            self.find_projected_slope(t, None, y, slope);
-        } else {
-            self.find_placed_slope(t, y, &y[self.layout.velocities()], slope);
+        let projected = if R::IS_SCALAR && self.singular.is_near { Some(self.project_stage(y)) } else { None };
+        let v = if let Some(v) = &projected { v } else { &y[self.layout.velocities()] };
+        self.find_placed_slope(t, y, v, slope);
+        if let Some(v) = projected {
+            self.singular.v = v;
         }
     }
 
@@ -86,10 +91,12 @@ impl<R: Real> Mechanism<R> {
     fn find_linearly_implicit_slope(&mut self, t: f64, h: f64, implicit: Implicit, y: &[R], slope: &mut [R]) {
         self.place_stage(y);
         // a step of semi-implicit Euler is one at velocity level
-        if R::IS_SCALAR && self.singular.is_near && implicit != Implicit::Dampers {
-            self.find_projected_slope(t, Some((h, implicit)), y, slope);
-        } else {
-            self.find_placed_implicit_slope((t, h, implicit), y, &y[self.layout.velocities()], slope);
+        let is_projected = R::IS_SCALAR && self.singular.is_near && implicit != Implicit::Dampers;
+        let projected = if is_projected { Some(self.project_stage(y)) } else { None };
+        let v = if let Some(v) = &projected { v } else { &y[self.layout.velocities()] };
+        self.find_placed_implicit_slope((t, h, implicit), y, v, slope);
+        if let Some(v) = projected {
+            self.singular.v = v;
         }
     }
 
@@ -97,18 +104,6 @@ impl<R: Real> Mechanism<R> {
     #[inline(always)]
     fn place_stage(&mut self, y: &[R]) {
         displace(&self.model, &self.base, &y[self.layout.displacement()], &mut self.q);
-    }
-
-    /// Slope at the stage placed, which is near a singular position: projected onto the loops.
-    #[cold]
-    #[inline(never)]
-    fn find_projected_slope(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
-        let v = self.project_stage(&y[self.layout.velocities()]);
-        match implicit {
-            None => self.find_placed_slope(t, y, &v, slope),
-            Some((h, implicit)) => self.find_placed_implicit_slope((t, h, implicit), y, &v, slope),
-        }
-        self.singular.v = v;
     }
 
     /// Slope of an explicit stage at the coordinates placed with the velocities `v`.
