@@ -139,8 +139,13 @@ impl<R: Real> Bushing<R> {
     /// link's origin `[N·m]` and force `[N]`, in link axes. `x_wl` is the pose of that link in the world `[m]`.
     #[inline(always)]
     pub fn wrench(&self, k: usize, at: &BushingMotion<R>, force: &[R; 6], x_wl: &Pose<R>) -> Force<R> {
-        let in_link = |x: Vec3<R>| x_wl.rot.tr_mul_vec(at.axes.mul_vec(if k == 0 { -x } else { x }));
-        let (lin, torque) = (in_link(part(force, 0)), in_link(part(force, 3)));
+        // no closure on lanes: it would be compiled for every processor
+        let (mut lin, mut torque) = (part(force, 0), part(force, 3));
+        if k == 0 {
+            (lin, torque) = (-lin, -torque);
+        }
+        let lin = x_wl.rot.tr_mul_vec(at.axes.mul_vec(lin));
+        let torque = x_wl.rot.tr_mul_vec(at.axes.mul_vec(torque));
         Force { ang: torque + x_wl.rot.tr_mul_vec(at.point - x_wl.pos).cross(lin), lin }
     }
 

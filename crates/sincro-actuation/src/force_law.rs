@@ -74,7 +74,7 @@ pub struct FreeRange {
 impl FreeRange {
     /// Force at deflection `x` and rate `v`: −k (x − high) − c v above, −k (x − low) − c v below, as far as it points
     /// back into the range.
-    #[inline]
+    #[inline(always)]
     fn force<R: Real>(&self, x: R, v: R) -> R {
         let (zero, k, c) = (R::zero(), R::splat(self.stiffness), R::splat(self.damping));
         let (low, high) = (R::splat(self.low), R::splat(self.high));
@@ -113,11 +113,18 @@ impl NonlinearLaw {
     }
 
     /// Force N(x, ẋ) `[N]` or torque `[N·m]` at deflection `x` `[m]` or `[rad]` and rate `v` `[m/s]` or `[rad/s]`.
-    #[inline]
+    #[inline(always)]
     pub fn force<R: Real>(&self, x: R, v: R) -> R {
         match self {
             Self::Table(table) => x.map(|x| table.value(x)),
-            Self::Ranges(ranges) => ranges.iter().fold(R::zero(), |sum, range| sum + range.force(x, v)),
+            Self::Ranges(ranges) => {
+                // no closure on lanes: it would be compiled for every processor
+                let mut sum = R::zero();
+                for range in ranges {
+                    sum += range.force(x, v);
+                }
+                sum
+            }
             Self::Formula(formula) => formula.eval_in(&[x, v], &mut [R::zero(); MAX_STACK]),
         }
     }

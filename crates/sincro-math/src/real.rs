@@ -57,6 +57,13 @@ pub trait Real:
     /// bundles panic for a `k` beyond the last lane.
     fn lane(self, k: usize) -> f64;
 
+    /// The same number with the value `x` in lane `k`, 0 to `LANES` − 1, without derivatives; panics for a `k` beyond
+    /// the last lane of a bundle.
+    #[inline(always)]
+    fn with_lane(self, k: usize, x: f64) -> Self {
+        Self::from_lanes(|l| if l == k || Self::IS_SCALAR { x } else { self.lane(l) })
+    }
+
     /// Bundle of the first [`LANES`](Self::LANES) numbers of `row`; panics if there are fewer.
     #[inline(always)]
     fn from_row(row: &[f64]) -> Self {

@@ -68,6 +68,7 @@ impl PrintedScript {
 /// relative to the air, in world axes; `rotation` turns body axes to world axes. NaN where the script divides by zero
 /// (Ω = 0) or takes the root of a negative number.
 #[must_use]
+#[inline(always)]
 pub fn evaluate<R: Real>(
     rotor: &RotorSpec,
     density: f64,
@@ -105,6 +106,7 @@ pub fn evaluate<R: Real>(
 }
 
 /// The quartic x⁴ + 2A₁x³ + A₂x² + 2A₃x + A₄ = 0, as the script solves it.
+#[inline(always)]
 fn inflow_ratio<R: Real>(mu: R, nu: R, ratio: R, k1: R, k2: R) -> R {
     let c = R::splat;
     let (mu2, k2k2) = (mu * mu, k2 * k2);

@@ -431,7 +431,7 @@ impl<R: Real> LaneRunner<R> {
 #[inline(always)]
 fn put<R: Real>(lane: usize, to: &mut [R], from: &[f64]) {
     for (to, x) in to.iter_mut().zip(from) {
-        *to = R::from_lanes(|k| if k == lane { *x } else { to.lane(k) });
+        *to = to.with_lane(lane, *x);
     }
 }
 

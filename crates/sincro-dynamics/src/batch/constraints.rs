@@ -185,7 +185,7 @@ impl<R: Real> LaneWorlds<R> {
         }
         // whoever looks sees that it cannot go on
         for v in &mut self.y[self.mechanism.layout().velocities()] {
-            *v = R::from_lanes(|l| if l == k { f64::NAN } else { v.lane(l) });
+            *v = v.with_lane(k, f64::NAN);
         }
     }
 
@@ -200,7 +200,7 @@ impl<R: Real> LaneWorlds<R> {
     /// Sets coordinates, velocities, rotor states and modes of drives of lane `k`.
     fn set_numbers(&mut self, k: usize, state: &State<f64>) {
         let layout = self.mechanism.layout();
-        let with = |old: &mut R, new: f64| *old = R::from_lanes(|l| if l == k { new } else { old.lane(l) });
+        let with = |old: &mut R, new: f64| *old = old.with_lane(k, new);
         self.mechanism.base_mut().iter_mut().zip(&state.q).for_each(|(old, new)| with(old, *new));
         self.mechanism.drives.iter_mut().zip(&state.drives).for_each(|(old, new)| with(old, *new));
         self.y[layout.displacement()].iter_mut().for_each(|old| with(old, 0.0));

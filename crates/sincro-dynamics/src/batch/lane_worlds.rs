@@ -81,9 +81,11 @@ impl<R: Real> FixedMethod<R> {
     }
 }
 
-/// One step from time `t` `[s]` of length `h` `[s]`.
+/// One step from time `t` `[s]` of length `h` `[s]`, together with a coupled system if there is one. Drives keep their
+/// laws. No closures within: these would be compiled for every processor.
 struct Step<'a, R> {
     worlds: &'a mut LaneWorlds<R>,
+    system: Option<&'a mut dyn CoupledSystem<R>>,
     t: f64,
     h: f64,
 }
@@ -93,35 +95,37 @@ impl<R: Real> Task for Step<'_, R> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { worlds, t, h } = self;
-        worlds.step_driven(h, |worlds| {
-            let LaneWorlds { mechanism, y, method, .. } = worlds;
-            method.step(mechanism, t, h, y);
-        });
-    }
-}
-
-/// One step together with a coupled system.
-struct StepWith<'a, R> {
-    worlds: &'a mut LaneWorlds<R>,
-    system: &'a mut dyn CoupledSystem<R>,
-    t: f64,
-    h: f64,
-}
-
-impl<R: Real> Task for StepWith<'_, R> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { worlds, system, t, h } = self;
-        let own = worlds.mechanism.dim();
-        worlds.y[own..].copy_from_slice(system.states());
-        worlds.step_driven(h, |worlds| {
+        let Self { worlds, mut system, t, h } = self;
+        let has_drives = !worlds.mechanism.drives.is_empty();
+        if has_drives {
+            worlds.latch_target_velocities();
+        }
+        let mut modes = worlds.begin_modes();
+        if has_drives && modes.is_none() {
+            worlds.drive(h);
+        }
+        // at one place: the code of all methods is large
+        loop {
+            if let Some(modes) = &modes {
+                worlds.prescribe(modes, h);
+            }
             let LaneWorlds { mechanism, y, method, negated_jacobian_diagonal, .. } = worlds;
-            method.step(&mut Coupled { mechanism, system: &mut *system, negated_jacobian_diagonal }, t, h, y);
-        });
-        system.states().copy_from_slice(&worlds.y[own..]);
+            match &mut system {
+                None => method.step(mechanism, t, h, y),
+                Some(system) => {
+                    let system = &mut **system;
+                    method.step(&mut Coupled { mechanism, system, negated_jacobian_diagonal }, t, h, y);
+                }
+            }
+            let Some(modes) = &mut modes else { break };
+            if worlds.have_decided(modes) {
+                break;
+            }
+        }
+        worlds.modes = modes;
+        if has_drives && worlds.is_euler() {
+            worlds.set_driven_velocities();
+        }
     }
 }
 
@@ -363,9 +367,9 @@ impl<R: Real> LaneWorlds<R> {
             return;
         }
         if self.constraints.is_some() {
-            self.step_beside_constraints(t, h, |worlds| R::run_hot(Step { worlds, t, h }));
+            self.step_beside_constraints(t, h, |worlds| R::run_hot(Step { worlds, system: None, t, h }));
         } else if !self.compiled_step() {
-            R::run_hot(Step { worlds: self, t, h });
+            R::run_hot(Step { worlds: self, system: None, t, h });
         }
     }
 
@@ -379,9 +383,13 @@ impl<R: Real> LaneWorlds<R> {
     /// contacts.
     pub fn step_with(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<R>) {
         assert!(self.constraints.is_none(), "a coupled system acts on lanes all together");
-        if !R::IS_SCALAR {
-            R::run_hot(StepWith { worlds: self, system, t, h });
+        if R::IS_SCALAR {
+            return;
         }
+        let own = self.mechanism.dim();
+        self.y[own..].copy_from_slice(system.states());
+        R::run_hot(Step { worlds: self, system: Some(&mut *system), t, h });
+        system.states().copy_from_slice(&self.y[own..]);
     }
 
     /// Makes a step by the compiled program; false if there is none, or it does not know this state.
@@ -443,24 +451,6 @@ impl<R: Real> LaneWorlds<R> {
         }
         self.set_driven_velocities();
         self.mechanism.mark_locked();
-    }
-
-    /// Makes a step of length `h` `[s]` of the method, `step`, in which the drives keep their laws.
-    #[inline(always)]
-    fn step_driven(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
-        if self.mechanism.drives.is_empty() {
-            return step(self);
-        }
-        self.latch_target_velocities();
-        if self.modes.is_some() {
-            self.step_in_modes(h, step);
-        } else {
-            self.drive(h);
-            step(self);
-        }
-        if self.is_euler() {
-            self.set_driven_velocities();
-        }
     }
 
     /// Latches the target velocities of the drives for a step.

@@ -22,6 +22,8 @@ pub(super) struct StepModes<R> {
     /// freedom and target.
     limits: Vec<R>,
     lanes: Vec<Decision>,
+    /// True if each lane looks at its modes by itself in the present step.
+    are_collected: bool,
     y: Vec<R>,
     base: Vec<R>,
 }
@@ -52,7 +54,7 @@ impl<R: Real> StepModes<R> {
         let zeros = |n: usize| vec![R::zero(); n];
         let (lanes, base) = (vec![decision; R::LANES], zeros(model.n_q()));
         let limits = zeros(drives.len());
-        Some(Self { is_limited, pairs, limits, lanes, y: zeros(dim), base })
+        Some(Self { is_limited, pairs, limits, lanes, are_collected: false, y: zeros(dim), base })
     }
 
     /// Begins a step from the present state. Returns true if each lane can try its present modes: the drives of a
@@ -164,43 +166,45 @@ fn of_saturated<R: Real>(mechanism: &Mechanism<R>, y: &[R], i: usize) -> Option<
 }
 
 impl<R: Real> LaneWorlds<R> {
-    /// Makes a step of length `h` `[s]`, which `step` tries from the present state, in the modes in which the laws of
-    /// the limited drives hold over it. The target velocities are known.
+    /// Begins the decision of the modes in which the laws of the limited drives hold over a step from the present
+    /// state; `None` if there are no such drives. The target velocities are known.
     #[inline(always)]
-    pub(super) fn step_in_modes(&mut self, h: f64, mut step: impl FnMut(&mut Self)) {
-        let Some(mut modes) = self.modes.take() else { return };
-        let mut are_collected = !modes.begin(&self.mechanism, &self.y, &self.target_velocities);
-        if are_collected {
+    pub(super) fn begin_modes(&mut self) -> Option<Box<StepModes<R>>> {
+        let mut modes = self.modes.take()?;
+        modes.are_collected = !modes.begin(&self.mechanism, &self.y, &self.target_velocities);
+        if modes.are_collected {
             modes.collect(&mut self.mechanism, &self.target_velocities);
         }
-        loop {
-            self.prescribe(&modes.y, h);
-            step(self);
-            if !are_collected {
-                if modes.stand(&self.mechanism, &self.y, &self.target_velocities) {
-                    break;
-                }
-                modes.collect(&mut self.mechanism, &self.target_velocities);
-                are_collected = true;
-            }
-            if modes.decide(&mut self.mechanism, &self.y) {
-                break;
-            }
-            self.y.copy_from_slice(&modes.y);
-            self.mechanism.set_base(&modes.base);
-        }
-        self.modes = Some(modes);
+        Some(modes)
     }
 
-    /// Prescribes the accelerations by which locked drives reach their target velocities within `h` `[s]` from the
-    /// state `y`.
+    /// Returns true if the modes of the step last tried stand; else it goes back to the state before, in other modes.
     #[inline(always)]
-    fn prescribe(&mut self, y: &[R], h: f64) {
+    pub(super) fn have_decided(&mut self, modes: &mut StepModes<R>) -> bool {
+        if !modes.are_collected {
+            if modes.stand(&self.mechanism, &self.y, &self.target_velocities) {
+                return true;
+            }
+            modes.collect(&mut self.mechanism, &self.target_velocities);
+            modes.are_collected = true;
+        }
+        if modes.decide(&mut self.mechanism, &self.y) {
+            return true;
+        }
+        self.y.copy_from_slice(&modes.y);
+        self.mechanism.set_base(&modes.base);
+        false
+    }
+
+    /// Prescribes the accelerations by which drives locked in the next try of a step of length `h` `[s]` reach their
+    /// target velocities within it.
+    #[inline(always)]
+    pub(super) fn prescribe(&mut self, modes: &StepModes<R>, h: f64) {
         let (layout, half) = (self.mechanism.layout(), R::splat(0.5));
         self.mechanism.mark_locked();
         for i in 0..self.target_velocities.len() {
             let dof = self.mechanism.model.params.drives[i].dof;
-            let needed = (self.target_velocities[i] - y[layout.velocity(dof)]) / R::splat(h);
+            let needed = (self.target_velocities[i] - modes.y[layout.velocity(dof)]) / R::splat(h);
             let old = self.mechanism.prescribed_acceleration[dof];
             self.mechanism.prescribed_acceleration[dof] = self.mechanism.drives[i].abs().if_less(half, needed, old);
         }

@@ -110,6 +110,22 @@ impl<R: Real> Task for Run<'_, R> {
     }
 }
 
+/// The same on a stack of given length.
+pub(super) struct RunIn<'a, R> {
+    pub program: &'a [Op],
+    pub values: &'a [R],
+    pub stack: &'a mut [R],
+}
+
+impl<R: Real> Task for RunIn<'_, R> {
+    type Output = R;
+
+    #[inline(always)]
+    fn run(self) -> R {
+        run_in(self.program, self.values, self.stack)
+    }
+}
+
 /// Runs a program. `stack` is emptied first; it does not grow if its capacity is the depth of the program.
 #[inline(always)]
 pub(super) fn run<R: Real>(program: &[Op], values: &[R], stack: &mut Vec<R>) -> R {
@@ -124,6 +140,7 @@ pub(super) fn run<R: Real>(program: &[Op], values: &[R], stack: &mut Vec<R>) -> 
 }
 
 /// Runs a program on a stack of given length.
+#[inline(always)]
 pub(super) fn run_in<R: Real>(program: &[Op], values: &[R], stack: &mut [R]) -> R {
     let mut top = 0;
     for op in program {
@@ -145,38 +162,38 @@ pub(super) fn stack_depth(program: &[Op]) -> usize {
 }
 
 /// 1 where a condition holds, else 0: `value`, but NaN where `a` or `b` is. No derivatives.
-#[inline]
+#[inline(always)]
 fn logical<R: Real>(a: R, b: R, value: R) -> R {
     unless_nan(a, unless_nan(b, value, R::splat(f64::NAN)), R::splat(f64::NAN))
 }
 
 /// `value` where `x` is a number, else `otherwise`.
-#[inline]
+#[inline(always)]
 fn unless_nan<R: Real>(x: R, value: R, otherwise: R) -> R {
     // every number is below 1 or above ½
     x.if_less(R::one(), value, R::splat(0.5).if_less(x, value, otherwise))
 }
 
 /// 1 where a is less than b, else 0.
-#[inline]
+#[inline(always)]
 fn less<R: Real>(a: R, b: R) -> R {
     a.if_less(b, R::one(), R::zero())
 }
 
 /// 1 where a is neither less nor more than b, else 0.
-#[inline]
+#[inline(always)]
 fn equal<R: Real>(a: R, b: R) -> R {
     a.if_less(b, R::zero(), b.if_less(a, R::zero(), R::one()))
 }
 
 /// 1 where a condition, 1 or 0, does not hold, else 0.
-#[inline]
+#[inline(always)]
 fn not<R: Real>(condition: R) -> R {
     R::one() - condition
 }
 
 /// `then` where the condition is not zero, else `otherwise`, lane by lane; NaN where the condition is.
-#[inline]
+#[inline(always)]
 pub(super) fn choose<R: Real>(condition: R, then: R, otherwise: R) -> R {
     let is_false = logical(condition, R::zero(), equal(condition, R::zero()));
     // 0 or NaN: taking it away changes no bit of a number

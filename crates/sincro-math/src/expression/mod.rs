@@ -144,7 +144,10 @@ impl Expression {
     /// If there are fewer values than names, or the stack is shorter than [`Expression::stack_depth`].
     pub fn eval_in<R: Real>(&self, values: &[R], stack: &mut [R]) -> R {
         assert!(values.len() >= self.n_names, "{} values for {} names", values.len(), self.n_names);
-        eval::run_in(&self.program, values, stack)
+        if R::IS_SCALAR {
+            return eval::run_in(&self.program, values, stack);
+        }
+        R::run_hot(eval::RunIn { program: &self.program, values, stack })
     }
 
     /// Empty stack for [`Expression::eval`], with memory for [`Expression::stack_depth`] values.

@@ -119,6 +119,12 @@ impl<const N: usize> Real for Lanes<N> {
     }
 
     #[inline(always)]
+    fn with_lane(mut self, k: usize, x: f64) -> Self {
+        self.0[k] = x;
+        self
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }

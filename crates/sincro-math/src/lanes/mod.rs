@@ -172,6 +172,27 @@ mod tests {
     }
 
     #[test]
+    fn one_lane_changes_alone() {
+        struct Change;
+        impl LaneVisitor for Change {
+            type Output = ();
+            #[inline(always)]
+            fn visit<R: Real>(self) {
+                let numbers = R::from_lanes(|k| k as f64);
+                for k in 0..R::LANES {
+                    let changed = numbers.with_lane(k, -1.0);
+                    (0..R::LANES).for_each(|l| assert_eq!(changed.lane(l), if l == k { -1.0 } else { l as f64 }));
+                }
+            }
+        }
+        dispatch_lanes(Change);
+        dispatch_four_lanes(Change);
+        four_lanes_baseline(Change);
+        Change.visit::<f64>();
+        assert_eq!(2.0.with_lane(3, 5.0), 5.0);
+    }
+
+    #[test]
     fn rows_of_sines_have_the_bits_of_single_ones() {
         let angles: Vec<f64> = (0..2 * width()).map(|k| 0.7 * k as f64 - 3.0).chain(vec![1e7; width()]).collect();
         let mut to = vec![0.0; 2 * angles.len()];

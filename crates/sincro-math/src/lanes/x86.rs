@@ -187,6 +187,13 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn with_lane(self, k: usize, x: f64) -> Self {
+                let mut row = self.array();
+                row[k] = x;
+                Self::from_row(&row)
+            }
+
+            #[inline(always)]
             fn from_row(row: &[f64]) -> Self {
                 // SAFETY: the slice has as many numbers
                 Self(unsafe { $load(row[..$n].as_ptr()) })
