@@ -139,7 +139,7 @@ impl<R: Real> Bushing<R> {
     /// link's origin `[N·m]` and force `[N]`, in link axes. `x_wl` is the pose of that link in the world `[m]`.
     #[inline(always)]
     pub fn wrench(&self, k: usize, at: &BushingMotion<R>, force: &[R; 6], x_wl: &Pose<R>) -> Force<R> {
-        // no closure on lanes: it would be compiled for every processor
+        // no large closure on lanes: it would be compiled for the baseline instruction set
         let (mut lin, mut torque) = (part(force, 0), part(force, 3));
         if k == 0 {
             (lin, torque) = (-lin, -torque);

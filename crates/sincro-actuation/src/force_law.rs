@@ -118,7 +118,7 @@ impl NonlinearLaw {
         match self {
             Self::Table(table) => x.map(|x| table.value(x)),
             Self::Ranges(ranges) => {
-                // no closure on lanes: it would be compiled for every processor
+                // no closure on lanes: it would be compiled for the baseline instruction set
                 let mut sum = R::zero();
                 for range in ranges {
                     sum += range.force(x, v);

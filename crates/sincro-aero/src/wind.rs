@@ -339,8 +339,10 @@ impl Turbulence {
     }
 
     /// In world axes at time `t`.
+    #[inline(always)]
     fn velocity<R: Real>(&self, t: R) -> Vec3<R> {
-        let [u, v, w] = [0, 1, 2].map(|k| self.components[k].value(t));
+        let [u, v, w] = &self.components;
+        let (u, v, w) = (u.value(t), v.value(t), w.value(t));
         let (cos, sin) = (R::splat(self.along.0), R::splat(self.along.1));
         Vec3([cos * u - sin * v, sin * u + cos * v, w])
     }

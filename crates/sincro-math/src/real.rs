@@ -57,8 +57,8 @@ pub trait Real:
     /// bundles panic for a `k` beyond the last lane.
     fn lane(self, k: usize) -> f64;
 
-    /// The same number with the value `x` in lane `k`, 0 to `LANES` − 1, without derivatives; panics for a `k` beyond
-    /// the last lane of a bundle.
+    /// The same number with the value `x` in lane `k`, 0 to `LANES` − 1, without derivatives; bundles may panic for a
+    /// `k` beyond the last lane.
     #[inline(always)]
     fn with_lane(self, k: usize, x: f64) -> Self {
         Self::from_lanes(|l| if l == k || Self::IS_SCALAR { x } else { self.lane(l) })
@@ -188,7 +188,8 @@ pub trait Real:
 }
 
 /// Computation to be run by [`Real::run_hot`], such as a pass over the links of a model, or by [`Real::run_part`]. Its
-/// `run` must be `#[inline(always)]`, and so must everything that it calls.
+/// `run` must be `#[inline(always)]`, and so must everything that it calls. What is not inlined has the baseline
+/// instruction set, such as a closure of some size: each operation on lanes is a call there.
 pub trait Task {
     /// Result of the computation.
     type Output;

@@ -1,6 +1,6 @@
 //! Distances of a step at velocity level that contacts may use up, and penetrations that it reduces.
 //!
-//! A distance is used up within the step; a penetration beyond [`DEAD_ZONE`] is reduced by [`CORRECTION`] a step. Over
+//! A distance is used up within the step; a penetration beyond `DEAD_ZONE` is reduced by `CORRECTION` a step. Over
 //! the points of a face both is linear in the distance, as the motion of a rigid body is: else four points would
 //! contradict each other, and the sweeps would shift load between them without end.
 
@@ -11,7 +11,7 @@ const DEAD_ZONE: f64 = 1e-6;
 /// Share of a penetration beyond the dead zone that a step removes.
 const CORRECTION: f64 = 0.2;
 
-/// Distances that the points of two surfaces may use up within a step, or have to gain: [`usable`] for the nearest and
+/// Distances that the points of two surfaces may use up within a step, or have to gain: `usable` for the nearest and
 /// the farthest of them, and in between linear in the distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UsableDistance {

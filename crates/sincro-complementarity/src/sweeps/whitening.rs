@@ -132,10 +132,10 @@ fn dot<V: Real>(motion: &[f64; 6], force: &[V; 6]) -> V {
 }
 
 /// Addition of a contact to the problem.
-pub(super) struct AddContact<'a> {
-    pub sweeper: &'a mut Sweeper,
-    pub factors: &'a MassFactors,
-    pub contact: &'a Contact,
+struct AddContact<'a> {
+    sweeper: &'a mut Sweeper,
+    factors: &'a MassFactors,
+    contact: &'a Contact,
 }
 
 impl LaneVisitor for AddContact<'_> {
@@ -290,7 +290,7 @@ mod tests {
         factors
     }
 
-    /// Numbers of one row by degree of freedom: each way by itself, joined where they meet.
+    /// Numbers of one row by degree of freedom, each with the operations of the lanes, link by link from the last one.
     fn row(factors: &MassFactors, links: [u32; 2], wrench: [f64; 6]) -> Vec<f64> {
         let mut forces = vec![[0.0; 6]; factors.links.len()];
         for (link, sign) in links.into_iter().zip([1.0, -1.0]).filter(|(link, _)| *link != FIXED) {
@@ -300,9 +300,9 @@ mod tests {
         for (k, link) in factors.links.iter().enumerate().rev() {
             for dof in (link.dofs[0]..link.dofs[1]).rev() {
                 let of = &factors.dofs[dof as usize];
-                let along: f64 = of.axis.iter().zip(&forces[k]).map(|(x, f)| x * f).sum();
+                let along = dot(&of.axis, &forces[k]);
                 numbers[dof as usize] = along * of.inv_root;
-                (0..6).for_each(|i| forces[k][i] -= of.u[i] * along * of.inv_d);
+                (0..6).for_each(|i| forces[k][i] -= of.u[i] * (along * of.inv_d));
             }
             if link.parent != FIXED {
                 (0..6).for_each(|i| forces[link.parent as usize][i] += forces[k][i]);
@@ -331,9 +331,7 @@ mod tests {
                 for j in 0..found.len {
                     dense[found.dofs[j] as usize] = found.columns[j][c];
                 }
-                for (x, wanted) in dense.iter().zip(&wanted) {
-                    assert!((x - wanted).abs() < 1e-12, "{links:?}: {dense:?} for {wanted:?}");
-                }
+                assert_eq!(dense, wanted, "{links:?}");
             }
         }
     }
@@ -354,8 +352,11 @@ mod tests {
             let (dofs, columns) = (&found.dofs[..found.len], &found.columns[..found.len]);
             let values: Vec<f64> = (0..3).flat_map(|c| columns.iter().map(move |column| column[c])).collect();
             other.add(Law::Coulomb { friction: 0.5 }, 0, 3, dofs, &values, contact.b, contact.lambda);
-            let all = |s: &Sweeper| format!("{:?} {:?} {:?} {:?} {:?}", s.blocks, s.values, s.rows, s.index, s.lambda);
-            assert_eq!(all(&one), all(&other), "{links:?}");
+            let all = |s: &Sweeper| format!("{:?} {:?} {:?} {:?}", s.blocks, s.values, s.index, s.lambda);
+            assert_eq!((all(&one), &one.rows), (all(&other), &other.rows), "{links:?}");
+            one.resize_buffers();
+            one.z.iter_mut().for_each(|z| *z = number(&mut seed));
+            assert_eq!(one.rates_by_columns::<Lanes<4>>(0), one.rates_of_others(0), "{links:?}");
         }
     }
 }

@@ -189,10 +189,13 @@ impl<R: Real> LaneWorlds<R> {
         }
     }
 
-    /// Puts lane `k` into a state; its commands stay.
+    /// Puts lane `k` into a state; its commands stay. Nothing for a `k` beyond the last lane.
     pub(super) fn set_lane(&mut self, k: usize, state: &State<f64>) {
+        if k >= R::LANES {
+            return;
+        }
         self.set_numbers(k, state);
-        if let (Some(constraints), true) = (&mut self.constraints, k < R::LANES) {
+        if let Some(constraints) = &mut self.constraints {
             constraints.put(k, state);
         }
     }

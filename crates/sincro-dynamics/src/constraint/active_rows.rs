@@ -42,6 +42,7 @@ impl<R: Real> Constraints<R> {
     pub fn take_modes(&mut self, other: &Constraints<f64>) {
         self.memory.take_modes(&other.memory);
         self.candidates.clone_from(&other.candidates);
+        self.kinematics.clear();
         self.is_independent.clone_from(&other.is_independent);
         self.row_sizes.clone_from(&other.row_sizes);
         self.row_squares.clone_from(&other.row_squares);

@@ -37,7 +37,7 @@ impl<R: Real> Constraints<R> {
         for (k, SlotCandidate { slot, pair, candidate }) in candidates.iter().enumerate() {
             let slot = set.limits.len() + *slot as usize;
             if self.memory.is_closed(slot) {
-                // a problem of sweeps is one at the poses and twists of the classification
+                // a problem of sweeps is at velocity level: that of the instant of the classification
                 let classified = self.kinematics.get(k).filter(|_| self.sweeps && !within).copied();
                 let at = classified.unwrap_or_else(|| candidate.kinematics(&self.motions.at(scratch)));
                 self.contact((slot, candidate), &at, &set.pairs[*pair as usize], v, within);

@@ -59,6 +59,7 @@ impl Mechanism<f64> {
         let is_known = |SlotCandidate { candidate, .. }: &SlotCandidate| {
             !is_detected_anew(candidate.a) && !is_detected_anew(candidate.b)
         };
+        debug_assert_eq!(c.candidates.iter().count(), c.kinematics.len(), "each candidate has been classified");
         let known_candidates = c.candidates.iter().zip(&c.kinematics).filter(|(found, _)| is_known(found));
         let known_candidates = known_candidates.map(|(found, at)| (found, Some(at)));
         let later_candidates = c.later_candidates.iter().map(|found| (found, None));

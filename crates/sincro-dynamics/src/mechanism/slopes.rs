@@ -54,8 +54,7 @@ impl<R: Real> Task for LinearlyImplicitStage<'_, R> {
 }
 
 impl<R: Real> Mechanism<R> {
-    /// Slope at a stage; at a singular position of loops those rows are left out that vanish. Not for hot paths: it is
-    /// one copy of both kinds of stages for all that look at singular positions.
+    /// Slope at a stage of either kind; at a singular position of loops those rows are left out that vanish.
     #[inline(never)]
     pub(super) fn plain_slope(&mut self, t: f64, implicit: Option<(f64, Implicit)>, y: &[R], slope: &mut [R]) {
         match implicit {

@@ -215,7 +215,7 @@ pub(super) fn sign<R: Real>(x: R) -> R {
 }
 
 /// `x^exponent` by squaring; a negative exponent divides 1 by it.
-#[inline]
+#[inline(always)]
 fn whole_power<R: Real>(x: R, exponent: i8) -> R {
     let mut remaining = exponent.unsigned_abs();
     let mut square = x;
