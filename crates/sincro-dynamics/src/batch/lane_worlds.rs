@@ -82,8 +82,7 @@ impl<R: Real> FixedMethod<R> {
 }
 
 /// One step from time `t` `[s]` of length `h` `[s]`, together with a coupled system if there is one. Drives keep their
-/// laws. No closures within: these would be
-/// compiled for the baseline instruction set.
+/// laws. No closures within: these would be compiled for the baseline instruction set.
 struct Step<'a, R> {
     worlds: &'a mut LaneWorlds<R>,
     system: Option<&'a mut dyn CoupledSystem<R>>,
