@@ -11,12 +11,14 @@
 //! | [`kink`] | none: which limited drives are locked and which saturated | | |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
 //! | [`bushing`] | a force and torque between two frames | ½ Σ kᵢ xᵢ² | Σ cᵢ ẋᵢ² |
+//! | [`gravity_field`] | m g(p) on a body at its centre of mass | m U(p) | |
 //! | [`elastic_gear`] | −k p − c ẋ between two joints, outside of the backlash | ½ k p² | c ẋ² |
 
 pub mod activation;
 pub mod bushing;
 pub mod elastic_gear;
 pub mod force_law;
+pub mod gravity_field;
 pub mod kink;
 pub mod motor;
 pub mod spring_damper;
@@ -27,6 +29,7 @@ pub use activation::{Activation, ActivationDynamics};
 pub use bushing::Bushing;
 pub use elastic_gear::ElasticGear;
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
+pub use gravity_field::GravityField;
 pub use kink::{Kink, Kinks, Pivoting};
 pub use motor::{Motor, MotorMode};
 pub use spring_damper::SpringDamper;

@@ -13,6 +13,7 @@
 //! | `elliptic`, [`triangulation`] | hulls of solids with elliptic sections, triangle meshes of surfaces |
 //! | `support` | support mappings of the convex surfaces |
 //! | `gjk` | distance of two convex sets |
+//! | [`weld`] | triangle meshes from lists of triangles |
 //! | `bvh` | bounding volume hierarchy of triangles |
 //! | `sat` | separating axes and face clipping of convex polytopes |
 //! | `distance` | closest points of two surfaces, or of a surface and a point |
@@ -44,6 +45,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 pub mod triangulation;
+pub mod weld;
 
 use parry3d_f64::query::Ray as LibraryRay;
 

@@ -22,13 +22,12 @@ pub mod applied;
 pub(crate) mod damper;
 pub mod drive;
 pub(crate) mod friction;
-pub mod gravity_field;
 pub mod spring;
 
 pub use applied::{AppliedTorque, AppliedWrench, ExternalForce};
 pub use drive::{Drive, DriveKind};
-pub use gravity_field::GravityField;
 pub use sincro_actuation::{
-    Activation, ActivationDynamics, Bushing, ElasticGear, ForceLaw, ForceTable, Motor, MotorMode, NonlinearLaw,
-    SpringDamper, Winding, activation, bushing, elastic_gear, force_law, motor, spring_damper, winding,
+    Activation, ActivationDynamics, Bushing, ElasticGear, ForceLaw, ForceTable, GravityField, Motor, MotorMode,
+    NonlinearLaw, SpringDamper, Winding, activation, bushing, elastic_gear, force_law, gravity_field, motor,
+    spring_damper, winding,
 };

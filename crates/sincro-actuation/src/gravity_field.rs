@@ -7,7 +7,7 @@ use sincro_math::Real;
 use sincro_math::dual::Dual;
 use sincro_math::scalar_field::ScalarField;
 
-use crate::spatial::Vec3;
+use sincro_geometry::spatial::Vec3;
 
 /// Tolerance of −∇U against g, relative to the larger of the two: formulas are written with some digits.
 const POTENTIAL_TOLERANCE: f64 = 1e-6;
