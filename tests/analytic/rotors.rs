@@ -64,7 +64,7 @@ fn the_table_of_states_is_reproduced() {
         assert!(close(load.torque, torque), "torque {} at {row:?}", load.torque);
         assert!(close(load.inflow, inflow), "inflow {} at {row:?}", load.inflow);
         assert!(close(load.power, -torque * speed), "power {} at {row:?}", load.power);
-        let validity = rotor.validity(speed, velocity, &load);
+        let validity = rotor.validity(speed, velocity, &load, 0);
         assert_eq!(validity == Validity::Valid, flag == 0.0, "{validity:?} at {row:?}");
     }
 }

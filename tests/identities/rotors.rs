@@ -61,7 +61,7 @@ fn climb_costs_thrust_and_dual_numbers_know_how_much() {
         let rotor = Rotor::new(spec).unwrap();
         let (speed, velocity) = working_state(&mut r, &spec);
         let load = rotor.evaluate(DENSITY, speed, velocity);
-        if rotor.validity(speed, velocity, &load) != Validity::Valid {
+        if rotor.validity(speed, velocity, &load, 0) != Validity::Valid {
             continue;
         }
         n_valid += 1;
@@ -155,7 +155,7 @@ fn a_rotor_that_turns_backwards_is_its_mirror_image() {
         let (there, here) = (Vec3([x, y, z]), Vec3([x, y, -z]));
         let (a, b) = (rotor.evaluate(DENSITY, speed, there), rotor.evaluate(DENSITY, -speed, here));
         assert_eq!((a.thrust, a.torque, a.inflow, a.power), (-b.thrust, -b.torque, -b.inflow, b.power));
-        assert_eq!(rotor.validity(speed, there, &a), rotor.validity(-speed, here, &b));
+        assert_eq!(rotor.validity(speed, there, &a, 0), rotor.validity(-speed, here, &b, 0));
     }
 }
 
@@ -207,7 +207,7 @@ fn every_state_has_a_finite_load() {
         let velocity = Vec3([any_number(&mut r, 20.0), any_number(&mut r, 20.0), any_number(&mut r, 20.0)]);
         let load = rotor.evaluate(DENSITY, speed, velocity);
         assert!(parts(&load).iter().all(|x| x.is_finite()), "{rotor:?} {speed} {velocity:?}: {load:?}");
-        let validity = rotor.validity(speed, velocity, &load);
+        let validity = rotor.validity(speed, velocity, &load, 0);
         assert!(speed != 0.0 || validity == Validity::Standing);
         let dual = |x: f64, k: usize| Dual::<4>::variable(x, k);
         let [x, y, z] = velocity.0;

@@ -132,7 +132,11 @@ impl<R: Real> Bushing<R> {
     #[inline(always)]
     pub fn potential(&self, at: &BushingMotion<R>) -> R {
         let squares = scaled(at.deflection, at.deflection);
-        scaled(self.stiffness, squares).into_iter().fold(R::zero(), |sum, x| sum + x) * R::splat(0.5)
+        let mut sum = R::zero();
+        for x in scaled(self.stiffness, squares) {
+            sum += x;
+        }
+        sum * R::splat(0.5)
     }
 
     /// Wrench of a `force` on B (axes of A, `[N]`, `[N·m]`) on the link of end `k` (0: A, 1: B): moment about the

@@ -231,6 +231,7 @@ impl<R: Real> ForceLaw<R> {
     }
 
     /// Potential energy U(x) `[J]` at deflection `x` `[m]` or `[rad]`, zero at x = 0.
+    #[inline(always)]
     pub fn potential(&self, x: R) -> R {
         let linear = (R::splat(0.5) * self.stiffness * x - self.preload) * x;
         match &self.nonlinear {

@@ -204,15 +204,17 @@ impl<R: Real> SpringDamper<R> {
 
     /// Length of the path and its rate at the coordinates `q` (n_q) and velocities `v` (n_v). `at` gives, for the index
     /// of a link, its twist about its origin in link axes (`[rad/s]`, `[m/s]`) and its pose in the world `[m]`.
+    #[inline(always)]
     pub fn length(&self, q: &[R], v: &[R], at: impl Fn(usize) -> (Motion<R>, Pose<R>)) -> PathLength<R> {
         match &self.path {
             Path::Joints(shares) => PathLength::of_joints(shares, q, v),
             Path::Lines(segments) => {
-                let first = PathLength::of_lines(&[segments[0].line(&at)]);
-                segments[1..].iter().fold(first, |sum, segment| {
+                let mut sum = PathLength::of_lines(&[segments[0].line(&at)]);
+                for segment in &segments[1..] {
                     let line = segment.line(&at);
-                    PathLength { length: sum.length + line.length, rate: sum.rate + line.rate }
-                })
+                    sum = PathLength { length: sum.length + line.length, rate: sum.rate + line.rate };
+                }
+                sum
             }
         }
     }
@@ -238,6 +240,7 @@ impl<R: Real> SpringDamper<R> {
     }
 
     /// Potential energy `[J]` at a `length` of the path `[m]`, zero at the free length.
+    #[inline(always)]
     pub fn potential(&self, length: R) -> R {
         let x = length - self.free_length;
         if !self.tension_only {

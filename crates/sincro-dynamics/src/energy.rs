@@ -1,6 +1,6 @@
 //! Energies and momentum of all bodies.
 
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use crate::actuation::{GravityField, spring};
 use crate::model::Model;
@@ -36,12 +36,14 @@ pub struct Energy<R> {
 
 impl<R: Real> Energy<R> {
     /// Sum of kinetic and potential energy `[J]`.
+    #[inline(always)]
     pub fn total(&self) -> R {
         self.kinetic + self.potential
     }
 
     /// This energy with `stored` `[J]` of other elements added to the potential energy.
     #[must_use]
+    #[inline(always)]
     pub fn with_stored(self, stored: R) -> Self {
         Self { potential: self.potential + stored, ..self }
     }
@@ -50,41 +52,59 @@ impl<R: Real> Energy<R> {
 /// Energy `[J]` at the coordinates `q` (n_q) and velocities `v` (n_v); `scratch` must hold [`kinematics::motions`] of
 /// the same state.
 pub fn energy<R: Real>(model: &Model<R>, q: &[R], v: &[R], scratch: &Scratch<R>) -> Energy<R> {
-    let half = R::splat(0.5);
-    let mut e = Energy { kinetic: R::zero(), potential: R::zero() };
-    for (i, inertia) in model.params.inertias.iter().enumerate() {
-        let twist = &scratch.links[i].v;
-        e.kinetic += half * twist.dot(&inertia.mul(twist));
-        e.potential += gravity_energy(model.params.gravity, inertia, &scratch.poses[i]);
-    }
-    if let Some(field) = &model.gravity_field {
-        e.potential += field_energy(model, field, &scratch.poses);
-    }
-    for (k, dof) in model.dofs.iter().enumerate() {
-        e.kinetic += half * dof.armature * v[k] * v[k];
-        if model.has_scalar_coordinate(k) {
-            e.potential += spring::energy(dof, q[dof.q_idx as usize]);
+    R::run_lanes(FindEnergy { model, q, v, scratch })
+}
+
+/// Task of [`energy`].
+struct FindEnergy<'a, R> {
+    model: &'a Model<R>,
+    q: &'a [R],
+    v: &'a [R],
+    scratch: &'a Scratch<R>,
+}
+
+impl<R: Real> Task for FindEnergy<'_, R> {
+    type Output = Energy<R>;
+
+    #[inline(always)]
+    fn run(self) -> Energy<R> {
+        let Self { model, q, v, scratch } = self;
+        let half = R::splat(0.5);
+        let mut e = Energy { kinetic: R::zero(), potential: R::zero() };
+        for (i, inertia) in model.params.inertias.iter().enumerate() {
+            let twist = &scratch.links[i].v;
+            e.kinetic += half * twist.dot(&inertia.mul(twist));
+            e.potential += gravity_energy(model.params.gravity, inertia, &scratch.poses[i]);
         }
+        if let Some(field) = &model.gravity_field {
+            e.potential += field_energy(model, field, &scratch.poses);
+        }
+        for (k, dof) in model.dofs.iter().enumerate() {
+            e.kinetic += half * dof.armature * v[k] * v[k];
+            if model.has_scalar_coordinate(k) {
+                e.potential += spring::energy(dof, q[dof.q_idx as usize]);
+            }
+        }
+        for spring in &model.nonlinear_springs {
+            let dof = &model.dofs[spring.dof];
+            e.potential += spring.law.potential(q[dof.q_idx as usize] - dof.rest);
+        }
+        for gear in &model.elastic_gears {
+            e.potential += gear.energy(gear.error(q, v).0);
+        }
+        for element in &model.spring_dampers {
+            let at = element.length(q, v, |link| (scratch.links[link].v, scratch.poses[link]));
+            e.potential += element.potential(at.length);
+        }
+        for bushing in &model.bushings {
+            e.potential += bushing.potential(&bushing.motion(|link| (scratch.links[link].v, scratch.poses[link])));
+        }
+        for &link in &model.sprung {
+            let link = &model.links[link];
+            e.potential += spring::stored_energy(link, &model.dofs[link.v_idx as usize..], q);
+        }
+        e
     }
-    for spring in &model.nonlinear_springs {
-        let dof = &model.dofs[spring.dof];
-        e.potential += spring.law.potential(q[dof.q_idx as usize] - dof.rest);
-    }
-    for gear in &model.elastic_gears {
-        e.potential += gear.energy(gear.error(q, v).0);
-    }
-    for element in &model.spring_dampers {
-        let at = element.length(q, v, |link| (scratch.links[link].v, scratch.poses[link]));
-        e.potential += element.potential(at.length);
-    }
-    for bushing in &model.bushings {
-        e.potential += bushing.potential(&bushing.motion(|link| (scratch.links[link].v, scratch.poses[link])));
-    }
-    for &link in &model.sprung {
-        let link = &model.links[link];
-        e.potential += spring::stored_energy(link, &model.dofs[link.v_idx as usize..], q);
-    }
-    e
 }
 
 /// Potential energy −m g·c `[J]` of a link whose frame stands at `pose` in the world; zero at the world's origin.
@@ -95,14 +115,19 @@ fn gravity_energy<R: Real>(gravity: Vec3<R>, inertia: &RigidInertia<R>, pose: &P
 }
 
 /// Potential energy m U(p) `[J]` of all bodies in a gravity field, after kinematics; zero without a potential.
+#[inline(always)]
 fn field_energy<R: Real>(model: &Model<R>, field: &GravityField, poses: &[Pose<R>]) -> R {
     let Some(potential) = &field.potential else { return R::zero() };
-    let energy = |(mass, link, center): (R, usize, Vec3<R>)| mass * potential.at(poses[link].point(center).0);
-    model.centers_of_mass().fold(R::zero(), |sum, body| sum + energy(body))
+    let mut sum = R::zero();
+    for (mass, link, center) in model.centers_of_mass() {
+        sum += mass * potential.at(poses[link].point(center).0);
+    }
+    sum
 }
 
 /// Momentum of all bodies about the world's origin, in world axes: angular `[kg·m²/s]`, linear `[kg·m/s]`; armature
 /// left out. `scratch` must hold [`kinematics::motions`].
+#[inline(always)]
 pub fn momentum<R: Real>(model: &Model<R>, scratch: &Scratch<R>) -> Force<R> {
     let mut sum = Force::zero();
     for (i, inertia) in model.params.inertias.iter().enumerate() {

@@ -142,6 +142,12 @@ pub trait Real:
         task.run()
     }
 
+    /// Runs a `task` of lanes as [`Real::run_hot`] does, with their instruction set; other numbers run it inline.
+    #[inline(always)]
+    fn run_lanes<T: Task>(task: T) -> T::Output {
+        if Self::LANES > 1 { Self::run_hot(task) } else { task.run() }
+    }
+
     /// Runs a part of a task, such as one kind of joint in a pass over the links, and returns its result: inlined into
     /// the task, but for numbers whose operations are so many instructions that the task would become one function too
     /// large to be compiled fast.

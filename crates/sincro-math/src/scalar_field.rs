@@ -47,7 +47,7 @@ impl ScalarField {
     }
 
     /// Value at a position `[m]`, in the unit of the formula.
-    #[inline]
+    #[inline(always)]
     pub fn at<R: Real>(&self, position: [R; 3]) -> R {
         self.0.eval_in(&position, &mut [R::zero(); MAX_STACK])
     }

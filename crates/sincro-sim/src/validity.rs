@@ -61,7 +61,7 @@ impl Register {
                 let x_wl = &seen.scratch.link_poses()[rotor.link];
                 let hub = rotor.hub(&seen.scratch.twist(rotor.link), x_wl, air.as_ref());
                 let speed = rotor.speed.value(seen.v, seen.commands, seen.rotors);
-                let validity = rotor.validity(speed, &hub, &rotor.load(speed, seen.rotors, &hub));
+                let validity = rotor.validity(speed, &hub, &rotor.load(speed, seen.rotors, &hub), 0);
                 if let Some(k) = Validity::REASONS.iter().position(|reason| *reason == validity) {
                     let (n, first, last) = &mut counts[k];
                     *first = if *n == 0 { t } else { *first };

@@ -255,13 +255,13 @@ impl Rotor {
     }
 
     /// Validity of `load`, which [`Rotor::evaluate`] returned for the same `speed` `[rad/s]` and `velocity` `[m/s]`
-    /// (hub relative to the air, rotor axes). Of SIMD lanes only the first is examined.
+    /// (hub relative to the air, rotor axes). Of lanes, that of number `lane` is examined.
     #[must_use]
-    pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>, load: &Load<R>) -> Validity {
-        let flow = self.flow(speed.lane(0), Vec3(velocity.0.map(|x| x.lane(0))));
+    pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>, load: &Load<R>, lane: usize) -> Validity {
+        let flow = self.flow(speed.lane(lane), Vec3(velocity.0.map(|x| x.lane(lane))));
         let Flow { mirror, tip, balance } = flow;
         // T/(2ρA), the square of the induced velocity in hover
-        let thrust = balance.supply - balance.relief * (mirror * load.inflow.lane(0));
+        let thrust = balance.supply - balance.relief * (mirror * load.inflow.lane(lane));
         let induced = thrust.max(0.0).sqrt();
         let in_plane = balance.in_plane_squared.sqrt();
         if tip == 0.0 {

@@ -108,14 +108,14 @@ impl CoefficientTable {
 
     /// Validity at a rotor `speed` `[rad/s]` and a `velocity` of the hub relative to the air `[m/s]`, in rotor axes (z
     /// along the thrust): [`Validity::OutsideTable`] where the advance ratio was not measured, [`Validity::Standing`]
-    /// at no speed. Of SIMD lanes only the first is examined.
+    /// at no speed. Of lanes, that of number `lane` is examined.
     #[must_use]
-    pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>) -> Validity {
-        let by_turn = speed.lane(0) * (self.diameter / TAU);
+    pub fn validity<R: Real>(&self, speed: R, velocity: Vec3<R>, lane: usize) -> Validity {
+        let by_turn = speed.lane(lane) * (self.diameter / TAU);
         if by_turn.abs() < STANDING {
             return Validity::Standing;
         }
-        let advance = velocity[2].lane(0) / by_turn;
+        let advance = velocity[2].lane(lane) / by_turn;
         let is_inside = advance >= self.rows[0].advance && advance <= self.rows[self.rows.len() - 1].advance;
         if is_inside { Validity::Valid } else { Validity::OutsideTable }
     }

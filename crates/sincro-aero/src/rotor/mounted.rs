@@ -303,13 +303,13 @@ impl<R: Real> MountedRotor<R> {
     /// Validity of the rotor's theory for a `load` that [`MountedRotor::load`] returned for the same `speed` and `hub`.
     ///
     /// Constant coefficients and V-REP's particles are always valid; the published script unless its load is not
-    /// finite. Of SIMD lanes only the first is examined.
+    /// finite. Of lanes, that of number `lane` is examined.
     #[must_use]
-    pub fn validity(&self, speed: R, hub: &Hub<'_, R>, load: &Load<R>) -> Validity {
+    pub fn validity(&self, speed: R, hub: &Hub<'_, R>, load: &Load<R>, lane: usize) -> Validity {
         match &self.law {
-            RotorLaw::Blade(rotor) => rotor.validity(speed, hub.velocity, load),
-            RotorLaw::Table(law) => law.validity(speed, hub.velocity),
-            RotorLaw::Printed(_) if !load.thrust.lane(0).is_finite() || !load.torque.lane(0).is_finite() => {
+            RotorLaw::Blade(rotor) => rotor.validity(speed, hub.velocity, load, lane),
+            RotorLaw::Table(law) => law.validity(speed, hub.velocity, lane),
+            RotorLaw::Printed(_) if !load.thrust.lane(lane).is_finite() || !load.torque.lane(lane).is_finite() => {
                 Validity::NotANumber
             }
             RotorLaw::Constant(_) | RotorLaw::Stock(_) | RotorLaw::Printed(_) => Validity::Valid,

@@ -72,14 +72,17 @@ impl<R: Real> Deflection<R> {
         let is_free = link.kind == StageKind::Free;
         let orientation = Quat::from_slice(if is_free { &q[k + 3..] } else { &q[k..] });
         let rotation = rest.conjugate().mul(&orientation).log();
-        let translation = is_free.then(|| {
+        // no closure on lanes: it would be compiled for the baseline instruction set
+        let mut translation = None;
+        if is_free {
             let from_rest = Vec3([q[k] - dofs[3].rest, q[k + 1] - dofs[4].rest, q[k + 2] - dofs[5].rest]);
-            (from_rest, orientation)
-        });
+            translation = Some((from_rest, orientation));
+        }
         Self { rotation, translation }
     }
 }
 
+#[inline(always)]
 fn stiffness<R: Real>(dofs: &[Dof<R>], first: usize, x: Vec3<R>) -> Vec3<R> {
     Vec3([dofs[first].stiffness * x[0], dofs[first + 1].stiffness * x[1], dofs[first + 2].stiffness * x[2]])
 }
@@ -108,9 +111,13 @@ pub(crate) fn add_torques<R: Real>(link: &Link<R>, dofs: &[Dof<R>], (q, v): (&[R
 }
 
 /// Energy stored in the springs of a ball or free joint `[J]`; `dofs` begins with its first degree of freedom.
+#[inline(always)]
 pub(crate) fn stored_energy<R: Real>(link: &Link<R>, dofs: &[Dof<R>], q: &[R]) -> R {
     let Deflection { rotation, translation } = Deflection::new(link, dofs, q);
     let of_rotation = rotation.dot(stiffness(dofs, 0, rotation));
-    let of_translation = translation.map_or(R::zero(), |(x, _)| x.dot(stiffness(dofs, 3, x)));
+    let mut of_translation = R::zero();
+    if let Some((x, _)) = translation {
+        of_translation = x.dot(stiffness(dofs, 3, x));
+    }
     R::splat(0.5) * (of_rotation + of_translation)
 }

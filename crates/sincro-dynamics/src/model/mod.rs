@@ -230,8 +230,13 @@ impl<R: Real> Model<R> {
     /// Energy of the magnetic fields of all windings `[J]` for the states of elements
     /// ([`crate::state::State::rotors`]).
     #[must_use]
+    #[inline(always)]
     pub fn magnetic_energy(&self, states: &[R]) -> R {
-        self.windings.iter().fold(R::zero(), |sum, w| sum + w.energy(w.state_in(states)))
+        let mut sum = R::zero();
+        for winding in &self.windings {
+            sum += winding.energy(winding.state_in(states));
+        }
+        sum
     }
 
     /// Rotors, in the order of their ids.
@@ -440,11 +445,14 @@ impl<R: Real> Model<R> {
     /// Torque `[N·m]` or force `[N]` of the springs on degree of freedom `dof` (0 to n_v − 1) at coordinates `q` (n_q);
     /// in child axes for ball and free joints.
     #[must_use]
+    #[inline(always)]
     pub fn spring_torque(&self, dof: usize, q: &[R]) -> R {
         if let Some(coordinate) = self.dofs[dof].coordinate() {
-            let linear = spring::torque(&self.dofs[dof], q[coordinate]);
-            let laws = self.nonlinear_springs.iter().filter(|spring| spring.dof == dof);
-            return laws.fold(linear, |sum, s| sum + s.torques(&self.dofs[dof], q[coordinate], R::zero()).0);
+            let mut sum = spring::torque(&self.dofs[dof], q[coordinate]);
+            for law in self.nonlinear_springs.iter().filter(|spring| spring.dof == dof) {
+                sum += law.torques(&self.dofs[dof], q[coordinate], R::zero()).0;
+            }
+            return sum;
         }
         let (zero, mut all) = ([R::zero(); 6], [R::zero(); 6]);
         for link in self.sprung.iter().map(|&link| &self.links[link]) {
@@ -460,10 +468,13 @@ impl<R: Real> Model<R> {
     /// Torque `[N·m]` or force `[N]` of the dampers on degree of freedom `dof` (0 to n_v − 1) at coordinates `q` (n_q)
     /// and velocities `v` (n_v), with the rate-dependent part of nonlinear springs.
     #[must_use]
+    #[inline(always)]
     pub fn damping_torque(&self, dof: usize, q: &[R], v: &[R]) -> R {
-        let linear = damper::torque(&self.dofs[dof], v[dof]);
-        let laws = self.nonlinear_springs.iter().filter(|spring| spring.dof == dof);
-        laws.fold(linear, |sum, s| sum + s.torques(&self.dofs[dof], q[self.dofs[dof].q_idx as usize], v[dof]).1)
+        let mut sum = damper::torque(&self.dofs[dof], v[dof]);
+        for law in self.nonlinear_springs.iter().filter(|spring| spring.dof == dof) {
+            sum += law.torques(&self.dofs[dof], q[self.dofs[dof].q_idx as usize], v[dof]).1;
+        }
+        sum
     }
 
     /// Nonlinear springs and dampers of joints, in the order of their degrees of freedom.
@@ -476,8 +487,11 @@ impl<R: Real> Model<R> {
     /// applied.
     #[must_use]
     pub fn applied_torque(&self, dof: usize, t: f64) -> R {
-        let signals = self.applied.iter().filter(|a| a.dof == dof).map(|a| a.torque::<R>(t));
-        self.dofs[dof].torque + signals.fold(R::zero(), |sum, torque| sum + torque)
+        let mut sum = R::zero();
+        for applied in self.applied.iter().filter(|applied| applied.dof == dof) {
+            sum += applied.torque::<R>(t);
+        }
+        self.dofs[dof].torque + sum
     }
 }
 

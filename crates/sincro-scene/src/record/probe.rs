@@ -12,7 +12,7 @@ use sincro_dynamics::scratch::Scratch;
 use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_dynamics::state::State;
 use sincro_dynamics::world::Observation;
-use sincro_math::Real;
+use sincro_math::{Real, Task};
 
 use super::{
     BushingQuantity, EnergyQuantity, FrameQuantity, GearQuantity, LineQuantity, Probe, RotorQuantity, WindingQuantity,
@@ -74,39 +74,81 @@ pub fn needs_kinematics(probe: Probe) -> bool {
 ///
 /// If an index of the probe does not exist in the model.
 pub fn of_state<R: Real>(at: &View<'_, R>, probe: Probe) -> Option<R> {
-    let model = at.model;
-    Some(match probe {
-        Probe::Coordinate(i) => at.q[i],
-        Probe::Rate(k) => at.v[k],
-        Probe::SpringTorque(k) => model.spring_torque(k, at.q),
-        Probe::DampingTorque(k) => model.damping_torque(k, at.q, at.v),
-        Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
-        Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),
-        Probe::Energy(EnergyQuantity::Kinetic) => stored(at).kinetic,
-        Probe::Energy(EnergyQuantity::Potential) => stored(at).potential,
-        Probe::Energy(EnergyQuantity::Total) => stored(at).total(),
-        Probe::Momentum(k) if k < 3 => momentum(model, at.scratch).ang[k],
-        Probe::Momentum(k) => momentum(model, at.scratch).lin[k - 3],
-        Probe::Rotor(quantity, k) if !depends_on_command(model, quantity, k) => of_rotor(at, quantity, k),
-        Probe::Drag(k, component) => drag(at, k)[component],
-        Probe::SpringDamper(quantity, k) if !has_actuated_force(model, quantity, k) => of_line(at, quantity, k),
-        Probe::Bushing(quantity, k, component) => of_bushing(at, quantity, k, component),
-        Probe::ElasticGear(quantity, k) => {
-            let gear = &model.elastic_gears()[k];
-            let (x, rate) = gear.error(at.q, at.v);
-            if quantity == GearQuantity::MeshError { x } else { gear.torque(x, rate) }
+    R::run_lanes(OfState { at, probe })
+}
+
+/// Task of [`of_state`].
+struct OfState<'a, 'b, R> {
+    at: &'a View<'b, R>,
+    probe: Probe,
+}
+
+impl<R: Real> Task for OfState<'_, '_, R> {
+    type Output = Option<R>;
+
+    #[inline(always)]
+    fn run(self) -> Option<R> {
+        let Self { at, probe } = self;
+        let model = at.model;
+        Some(match probe {
+            Probe::Coordinate(i) => at.q[i],
+            Probe::Rate(k) => at.v[k],
+            Probe::SpringTorque(k) => model.spring_torque(k, at.q),
+            Probe::DampingTorque(k) => model.damping_torque(k, at.q, at.v),
+            Probe::AppliedTorque(k) => model.applied_torque(k, at.t),
+            Probe::Frame(quantity, frame, component) => of_frame(at, quantity, frame, component),
+            Probe::Energy(EnergyQuantity::Kinetic) => stored(at).kinetic,
+            Probe::Energy(EnergyQuantity::Potential) => stored(at).potential,
+            Probe::Energy(EnergyQuantity::Total) => stored(at).total(),
+            Probe::Momentum(k) => {
+                let momentum = momentum(model, at.scratch);
+                if k < 3 { momentum.ang[k] } else { momentum.lin[k - 3] }
+            }
+            Probe::Rotor(quantity, k) if depends_on_command(model, quantity, k) => return None,
+            Probe::SpringDamper(quantity, k) if has_actuated_force(model, quantity, k) => return None,
+            Probe::Winding(quantity, k) if has_commanded_circuit(model, quantity, k) => return None,
+            Probe::Rotor(..) | Probe::Drag(..) | Probe::SpringDamper(..) | Probe::Bushing(..) | Probe::Winding(..) => {
+                R::run_part(OfElement { at, probe })
+            }
+            Probe::ElasticGear(quantity, k) => {
+                let gear = &model.elastic_gears()[k];
+                let (x, rate) = gear.error(at.q, at.v);
+                if quantity == GearQuantity::MeshError { x } else { gear.torque(x, rate) }
+            }
+            Probe::Activation(k) => {
+                let activation = &model.activations()[k];
+                activation.saturated(at.rotors[activation.state])
+            }
+            Probe::Wind(k) => {
+                let wind = model.wind()?;
+                wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
+            }
+            _ => return None,
+        })
+    }
+}
+
+/// Measurement of an element: rotor, drag, spring and damper, bushing or winding.
+struct OfElement<'a, 'b, R> {
+    at: &'a View<'b, R>,
+    probe: Probe,
+}
+
+impl<R: Real> Task for OfElement<'_, '_, R> {
+    type Output = R;
+
+    #[inline(always)]
+    fn run(self) -> R {
+        let Self { at, probe } = self;
+        match probe {
+            Probe::Rotor(quantity, k) => of_rotor(at, quantity, k),
+            Probe::Drag(k, component) => drag(at, k)[component],
+            Probe::SpringDamper(quantity, k) => of_line(at, quantity, k),
+            Probe::Bushing(quantity, k, component) => of_bushing(at, quantity, k, component),
+            Probe::Winding(quantity, k) => of_winding(at, quantity, k),
+            _ => unreachable!("no element"),
         }
-        Probe::Winding(quantity, k) if !has_commanded_circuit(model, quantity, k) => of_winding(at, quantity, k),
-        Probe::Activation(k) => {
-            let activation = &model.activations()[k];
-            activation.saturated(at.rotors[activation.state])
-        }
-        Probe::Wind(k) => {
-            let wind = model.wind()?;
-            wind.velocity(at.t, R::splat(wind.reference_height().unwrap_or(0.0)))[k]
-        }
-        _ => return None,
-    })
+    }
 }
 
 /// Returns the value, in SI units, of a measurement that depends on accelerations or commands; `None` for others.
@@ -119,9 +161,7 @@ pub fn of_response<R: Real>(at: &View<'_, R>, response: MechanismResponse<'_, R>
     Some(match probe {
         Probe::Acceleration(k) => response.accelerations[k],
         Probe::MotorTorqueNow(m) => response.motor_torque[m],
-        Probe::Rotor(quantity, k) => of_rotor(at, quantity, k),
-        Probe::SpringDamper(quantity, k) => of_line(at, quantity, k),
-        Probe::Winding(quantity, k) => of_winding(at, quantity, k),
+        Probe::Rotor(..) | Probe::SpringDamper(..) | Probe::Winding(..) => R::run_part(OfElement { at, probe }),
         Probe::Frame(FrameQuantity::Acceleration, frame, k) => {
             kinematics::frame_acceleration(at.scratch, &attached(at.model, frame)).lin[k]
         }
@@ -140,6 +180,7 @@ pub(crate) fn depends_on_command<R: Real>(model: &Model<R>, quantity: RotorQuant
 /// # Panics
 ///
 /// If `k` is not below the number of the model's rotors.
+#[inline(always)]
 pub fn rotor<'a, R: Real>(at: &View<'a, R>, k: usize) -> (R, Load<R>, Hub<'a, R>) {
     let rotor = &at.model.rotors()[k];
     let speed = rotor.speed.value(at.v, at.commands, at.rotors);
@@ -148,6 +189,7 @@ pub fn rotor<'a, R: Real>(at: &View<'a, R>, k: usize) -> (R, Load<R>, Hub<'a, R>
     (speed, rotor.load(speed, at.rotors, &hub), hub)
 }
 
+#[inline(always)]
 fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
     if quantity == RotorQuantity::Speed {
         return at.model.rotors()[k].speed.value(at.v, at.commands, at.rotors);
@@ -159,8 +201,10 @@ fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
         RotorQuantity::Torque => load.torque,
         RotorQuantity::Inflow => load.inflow,
         RotorQuantity::Power => load.power,
-        RotorQuantity::Valid if at.model.rotors()[k].validity(speed, &hub, &load) == Validity::Valid => R::one(),
-        RotorQuantity::Valid => R::zero(),
+        RotorQuantity::Valid => {
+            let rotor = &at.model.rotors()[k];
+            R::from_lanes(|lane| f64::from(rotor.validity(speed, &hub, &load, lane) == Validity::Valid))
+        }
     }
 }
 
@@ -169,6 +213,7 @@ fn of_rotor<R: Real>(at: &View<'_, R>, quantity: RotorQuantity, k: usize) -> R {
 /// # Panics
 ///
 /// If `k` is not below the number of the model's drag elements.
+#[inline(always)]
 pub fn drag<R: Real>(at: &View<'_, R>, k: usize) -> Vec3<R> {
     let drag = &at.model.drags()[k];
     let x_wl = &at.scratch.link_poses()[drag.link];
@@ -197,6 +242,7 @@ pub(crate) fn has_commanded_circuit<R: Real>(model: &Model<R>, quantity: Winding
     }
 }
 
+#[inline(always)]
 fn of_winding<R: Real>(at: &View<'_, R>, quantity: WindingQuantity, k: usize) -> R {
     let winding = &at.model.windings()[k];
     let v = at.v[winding.dof];
@@ -217,10 +263,12 @@ fn of_winding<R: Real>(at: &View<'_, R>, quantity: WindingQuantity, k: usize) ->
 }
 
 /// Energy of the mechanism and its windings.
+#[inline(always)]
 fn stored<R: Real>(at: &View<'_, R>) -> Energy<R> {
     energy(at.model, at.q, at.v, at.scratch).with_stored(at.model.magnetic_energy(at.rotors))
 }
 
+#[inline(always)]
 fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
     let element = &at.model.spring_dampers()[k];
     let path = element.length(at.q, at.v, |link| (at.scratch.twist(link), at.scratch.link_poses()[link]));
@@ -234,6 +282,7 @@ fn of_line<R: Real>(at: &View<'_, R>, quantity: LineQuantity, k: usize) -> R {
     }
 }
 
+#[inline(always)]
 fn of_bushing<R: Real>(at: &View<'_, R>, quantity: BushingQuantity, k: usize, component: usize) -> R {
     let element = &at.model.bushings()[k];
     let motion = element.motion(|link| (at.scratch.twist(link), at.scratch.link_poses()[link]));
@@ -257,25 +306,30 @@ pub fn attached<R: Real>(model: &Model<R>, frame: usize) -> Attached<R> {
     Attached { link: info.link, pose: Pose { rot: Mat3::splat(info.pose.rot.0), pos: Vec3::splat(info.pose.pos.0) } }
 }
 
+#[inline(always)]
 fn of_frame<R: Real>(at: &View<'_, R>, quantity: FrameQuantity, frame: usize, component: usize) -> R {
     let fixed = attached(at.model, frame);
-    let pose = || kinematics::frame_pose(at.scratch, &fixed);
+    let of_motion =
+        matches!(quantity, FrameQuantity::Velocity | FrameQuantity::AngularVelocity | FrameQuantity::Acceleration);
+    // no closure on lanes: it would be compiled for the baseline instruction set
+    let pose = if of_motion { Pose::identity() } else { kinematics::frame_pose(at.scratch, &fixed) };
     match quantity {
-        FrameQuantity::Position => pose().pos[component],
+        FrameQuantity::Position => pose.pos[component],
         FrameQuantity::Quaternion => {
-            let q = Quat::from_matrix(&pose().rot);
+            let q = Quat::from_matrix(&pose.rot);
             [q.w, q.xyz[0], q.xyz[1], q.xyz[2]][component]
         }
-        FrameQuantity::Angles => kinematics::roll_pitch_yaw(&pose().rot)[component],
+        FrameQuantity::Angles => kinematics::roll_pitch_yaw(&pose.rot)[component],
         FrameQuantity::Velocity => kinematics::frame_velocity(at.scratch, &fixed).lin[component],
         FrameQuantity::AngularVelocity => kinematics::frame_velocity(at.scratch, &fixed).ang[component],
         FrameQuantity::Acceleration => kinematics::frame_acceleration(at.scratch, &fixed).lin[component],
         FrameQuantity::Wind => {
-            at.model.wind().map_or(R::zero(), |wind| wind.at(at.t).velocity_at(pose().pos)[component])
+            let Some(wind) = at.model.wind() else { return R::zero() };
+            wind.at(at.t).velocity_at(pose.pos)[component]
         }
         FrameQuantity::CenterOfMass => {
             let com = at.model.mass_properties(BodyId::new(frame)).map_or([0.0; 3], |mass| mass.center_of_mass);
-            pose().point(Vec3(com.map(R::splat)))[component]
+            pose.point(Vec3(com.map(R::splat)))[component]
         }
     }
 }
