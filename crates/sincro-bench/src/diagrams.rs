@@ -91,6 +91,7 @@ fn step(diagram: Option<Diagram>, method: MethodKind) -> Subject {
         warnings: Vec::new(),
         sources: Vec::new(),
         folder: std::sync::Arc::default(),
+        overrides: Vec::new(),
         extensions: extensions(),
         controllers: Vec::new(),
         trials: std::sync::Arc::default(),

@@ -266,6 +266,13 @@ pub(crate) fn resolve_signals(document: &mut Document, known: &[String], blocks:
         let is_path = resolver.document.text(&format!("/plot/{k}/kind")) == Some("path");
         resolver.list(&format!("/plot/{k}/signals"), !is_path);
     }
+    resolver.values("/task/signals");
+    for k in 0..resolver.length("/task/random") {
+        resolver.one(&format!("/task/random/{k}/signal"));
+    }
+    for k in 0..resolver.length("/task/action") {
+        resolver.one(&format!("/task/action/{k}/command"));
+    }
     resolver.diagnostics
 }
 
@@ -284,12 +291,16 @@ impl Resolver<'_> {
     fn checks(&mut self, list: &str) {
         for k in 0..self.length(list) {
             self.one(&format!("{list}/{k}/signal"));
-            let signals = format!("{list}/{k}/signals");
-            let table = self.document.get(&signals).and_then(Value::as_object);
-            let keys: Vec<String> = table.into_iter().flatten().map(|(key, _)| key.clone()).collect();
-            for key in keys {
-                self.one(&format!("{signals}/{}", crate::document::escape(&key)));
-            }
+            self.values(&format!("{list}/{k}/signals"));
+        }
+    }
+
+    /// A table whose values are names.
+    fn values(&mut self, table: &str) {
+        let found = self.document.get(table).and_then(Value::as_object);
+        let keys: Vec<String> = found.into_iter().flatten().map(|(key, _)| key.clone()).collect();
+        for key in keys {
+            self.one(&format!("{table}/{}", crate::document::escape(&key)));
         }
     }
 

@@ -13,7 +13,7 @@ use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::Experiment;
 use sincro_scene::fmu::{FmuLoader, Loaders};
 use sincro_scene::folder::Folder;
-use sincro_scene::open::{Opened, open, open_in};
+use sincro_scene::open::{Opened, open, open_in, settings_with};
 use sincro_scene::overrides::Override;
 use sincro_scene::scene::Scene;
 use sincro_scene::script::ScriptParser;
@@ -47,6 +47,8 @@ pub struct Loaded {
     pub sources: Vec<Arc<SourceText>>,
     /// Cache of the folder's files.
     pub folder: Arc<Folder>,
+    /// Settings that it was loaded with, which win over the files.
+    pub overrides: Vec<Override>,
     /// Extensions that it was loaded with; variants and sweeps are loaded with the same.
     pub extensions: Extensions,
     /// Factories of the program's own controllers, which are attached to each run of the scene after those of its
@@ -203,14 +205,18 @@ fn with(
     with_others: bool,
 ) -> Result<Loaded, Diagnostics> {
     let opened = open(folder, overrides, extensions.loaders(), false)?;
-    if with_others { with_trials(opened, overrides, extensions) } else { Ok(Loaded::new(opened, extensions)) }
+    if with_others {
+        with_trials(opened, overrides, extensions)
+    } else {
+        Ok(Loaded::new(opened, overrides, extensions))
+    }
 }
 
 /// Opens on trial, on all processors, what will run with an experiment that was opened with the settings `overrides`.
 fn with_trials(opened: Opened, overrides: &[Override], extensions: Extensions) -> Result<Loaded, Diagnostics> {
     let settings = opened.trials(overrides);
     if settings.is_empty() {
-        return Ok(Loaded::new(opened, extensions));
+        return Ok(Loaded::new(opened, overrides, extensions));
     }
     let folder = opened.folder.clone();
     let open_trial = |k: usize| open_in(&folder, &settings[k], extensions.loaders(), false);
@@ -218,15 +224,25 @@ fn with_trials(opened: Opened, overrides: &[Override], extensions: Extensions) -
     let (opened, trials) = opened.with_trials(tried)?;
     // those that have trials of their own are opened again, with these
     let known = settings.into_iter().zip(trials).filter(|(settings, trial)| trial.trials(settings).is_empty());
-    Ok(Loaded { trials: known.collect(), ..Loaded::new(opened, extensions) })
+    Ok(Loaded { trials: known.collect(), ..Loaded::new(opened, overrides, extensions) })
 }
 
 impl Loaded {
-    fn new(opened: Opened, extensions: Extensions) -> Self {
+    fn new(opened: Opened, overrides: &[Override], extensions: Extensions) -> Self {
         let Opened { experiment, scene, controller, warnings, sources, folder } = opened;
-        let scene = Arc::new(scene);
+        let (scene, overrides) = (Arc::new(scene), overrides.to_vec());
         let (controllers, trials) = (Vec::new(), Arc::default());
-        Self { experiment, scene, controller, warnings, sources, folder, extensions, controllers, trials }
+        Self { experiment, scene, controller, warnings, sources, folder, overrides, extensions, controllers, trials }
+    }
+
+    /// Loads the same experiment with the settings that it was loaded with and `more` behind them, which win, without
+    /// opening variants and sweep.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`].
+    pub fn with_more_overrides(&self, more: &[Override]) -> Result<Self, Diagnostics> {
+        self.with_overrides_without_variants(&settings_with(&self.overrides, more))
     }
 
     /// As [`Loaded::with_overrides`], without opening variants and sweep.
@@ -236,11 +252,11 @@ impl Loaded {
     /// As [`load`].
     pub fn with_overrides_without_variants(&self, overrides: &[Override]) -> Result<Self, Diagnostics> {
         let opened = open_in(&self.folder, overrides, self.extensions.loaders(), false)?;
-        Ok(Self { controllers: self.controllers.clone(), ..Self::new(opened, self.extensions) })
+        Ok(Self { controllers: self.controllers.clone(), ..Self::new(opened, overrides, self.extensions) })
     }
 
     /// Loads the same experiment with other settings from the cached files. `overrides` replace those that it was
-    /// loaded with; for a variant they are those of [`settings_with`](sincro_scene::open::settings_with).
+    /// loaded with; for a variant they are those of [`settings_with`].
     ///
     /// # Errors
     ///
@@ -253,7 +269,7 @@ impl Loaded {
         {
             Some((_, trial)) => {
                 let opened = Opened { sources: self.folder.sources(), ..trial.clone() };
-                Self::new(opened, self.extensions)
+                Self::new(opened, overrides, self.extensions)
             }
             None => {
                 let opened = open_in(&self.folder, overrides, self.extensions.loaders(), false)?;

@@ -465,6 +465,126 @@ fn worlds_with_noisy_sensors_run_in_lanes_as_one_by_one() {
     }
 }
 
+/// A rotor that follows its command on the pole, a drag element, and a spring and damper to the world.
+const ELEMENTS: &str = r#"
+[[rotor]]
+name = "prop"
+parent = "/rail/cart/hinge/pole"
+position = [0.0, 0.0, 0.5]
+spin = "ccw"
+blade = { radius = 0.05, chord = 0.01, n_blades = 2, lift_slope = 5.7, collective_pitch = 0.14, cd0 = 0.0087, k_cd = 0.4 }
+speed = 0.0
+lag = { time_constant = 0.1, initial = 60.0 }
+
+[[drag]]
+name = "sail"
+parent = "/rail/cart/hinge/pole"
+position = [0.0, 0.0, 0.8]
+area = [0.01, 0.01, 0.01]
+
+[[frame]]
+name = "hook"
+position = [0.3, 0.0, 1.2]
+
+[[frame]]
+name = "eye"
+parent = "/rail/cart/hinge/pole"
+position = [0.0, 0.0, 0.9]
+
+[[spring_damper]]
+name = "line"
+between = ["/hook", "/rail/cart/hinge/pole/eye"]
+stiffness = 3.0
+damping = 0.1
+free_length = 0.2
+"#;
+
+/// A task that observes measurements of every kind that the state decides.
+const MEASURED_TASK: &str = r#"
+title = "Measured"
+duration = 1.0
+step = 0.01
+integrator = "rk4"
+record = ["/rail.position"]
+
+[task]
+period = 0.05
+time_limit = 0.6
+observations = ["valid", "speed", "thrust", "torque", "power", "drag", "kinetic", "total", "px", "ly", "qw", "yaw", "wx", "length", "rate", "force"]
+reward = "valid"
+terminated = "abs(q) > 1.5"
+
+[task.signals]
+valid = "prop.valid"
+speed = "prop.speed"
+thrust = "prop.thrust"
+torque = "prop.torque"
+power = "prop.power"
+drag = "sail.force.x"
+kinetic = "energy.kinetic"
+total = "energy.total"
+px = "momentum.linear.x"
+ly = "momentum.angular.y"
+qw = "pole.quaternion.w"
+yaw = "pole.pitch"
+wx = "pole.angular_velocity.y"
+length = "line.length"
+rate = "line.rate"
+force = "line.force"
+q = "hinge.position"
+
+[task.commands]
+"/rail" = "2*push"
+"/rail/cart/hinge/pole/prop" = "60 + 8*push"
+
+[[task.action]]
+name = "push"
+range = [-4.0, 5.0]
+
+[[task.random]]
+signal = "hinge.position"
+range = [-0.5, 0.5]
+"#;
+
+#[test]
+fn measurements_in_lanes_are_those_of_each_world() {
+    let n = 32 + 3;
+    let scene = |text: String| text + ELEMENTS;
+    let lanes = OwnTask::with_scene("measured", MEASURED_TASK, "", scene);
+    let alone = OwnTask::with_scene("measured-alone", &(MEASURED_TASK.to_owned() + ONE_BY_ONE), "", scene);
+    let [lanes, alone] =
+        [&lanes, &alone].map(|own| load(&own.0, &[], Extensions::default()).unwrap_or_else(|found| panic!("{found}")));
+    let expected = episodes(&mut TaskWorlds::new(&alone, n, 1).unwrap(), Autoreset::SameStep, 60);
+    let mut worlds = TaskWorlds::new(&lanes, n, 1).unwrap();
+    if sincro_math::lanes::width() > 1 {
+        assert_eq!(worlds.plan().lanes_refused(), None);
+    }
+    let found = episodes(&mut worlds, Autoreset::SameStep, 60);
+    for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        let differs = found.iter().zip(expected).position(|(a, b)| a != b);
+        let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
+        assert_eq!(differs.map(of), None, "world {world}");
+    }
+    // what is observed first, and the reward, is 1 where the theory of the rotor holds: not in all worlds at once
+    let n_valid = |world: usize| expected[world].iter().filter(|x| **x == 1.0_f64.to_bits()).count();
+    assert!((1..n).any(|world| n_valid(world) != n_valid(0)), "all rotors are valid at the same instants");
+}
+
+/// Settings of the experiment hold in episodes for which numbers of the scene are drawn.
+#[test]
+fn drawn_numbers_stand_beside_the_settings_of_the_experiment() {
+    let set = [Override::new("/rail/cart.mass", "3.0"), Override::new("step", "0.005")];
+    let scene = |text: String| noisy_scene(&text, false, "torque");
+    let plain = OwnTask::with_scene("set", NOISY_TASK, "", scene);
+    let drawn = OwnTask::with_scene("set-drawn", &(NOISY_TASK.to_owned() + ONE_BY_ONE), "", scene);
+    let of = |own: &OwnTask, set: &[Override]| {
+        let loaded = load(&own.0, set, Extensions::default()).unwrap();
+        episodes(&mut TaskWorlds::new(&loaded, 5, 1).unwrap(), Autoreset::SameStep, 20)
+    };
+    assert_eq!(of(&drawn, &set), of(&plain, &set));
+    assert_ne!(of(&plain, &set), of(&plain, &[]));
+}
+
 #[test]
 fn noise_of_sensors_differs_from_world_to_world_and_from_episode_to_episode() {
     let own = OwnTask::with_scene("noise", NOISY_TASK, "", |text| noisy_scene(&text, false, "torque"));

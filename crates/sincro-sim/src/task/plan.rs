@@ -176,7 +176,7 @@ impl Plan {
         }
         let middle = plan.drawn(0, 0);
         if !middle.overrides.is_empty() {
-            loaded.with_overrides_without_variants(&middle.overrides)?;
+            loaded.with_more_overrides(&middle.overrides)?;
         }
         Ok(plan)
     }

@@ -55,7 +55,7 @@ impl SingleWorld {
         let varied: Option<Loaded> = match drawn.overrides.is_empty() {
             true => None,
             // what the files refuse for this draw ends the episode at once, as any world that cannot go on
-            false => match plan.loaded.with_overrides_without_variants(&drawn.overrides) {
+            false => match plan.loaded.with_more_overrides(&drawn.overrides) {
                 Ok(loaded) => Some(loaded),
                 Err(_) => {
                     self.is_good = false;
