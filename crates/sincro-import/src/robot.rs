@@ -7,6 +7,8 @@ use sincro_dynamics::spatial::{Mat3, Pose, Quat, Vec3};
 use sincro_math::elementary::sin_cos;
 use sincro_scene::diagnostic::Location;
 
+use crate::Options;
+
 /// A rotation as the source gives it, so that round figures stay round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Rotation {
@@ -648,6 +650,32 @@ impl Joint {
 }
 
 impl Robot {
+    /// Returns true if the source lets a robot move freely in the world.
+    pub fn has_free_root(&self) -> bool {
+        self.joints.iter().any(|joint| joint.parent.is_none() && joint.kind == JointKind::Free)
+    }
+
+    /// For each link, true if it belongs to a tree whose base moves freely, with shapes that touch.
+    pub fn floating(&self, options: &Options) -> Vec<bool> {
+        let mut carriers = vec![None; self.links.len()];
+        for joint in &self.joints {
+            carriers[joint.child] = Some(joint);
+        }
+        let root_of = |mut k: usize| {
+            while let Some(parent) = carriers[k].and_then(|joint: &Joint| joint.parent) {
+                k = parent;
+            }
+            k
+        };
+        let roots: Vec<usize> = (0..self.links.len()).map(root_of).collect();
+        let mut touches = vec![false; self.links.len()];
+        for (link, root) in self.links.iter().zip(&roots) {
+            touches[*root] |= !link.collisions.is_empty();
+        }
+        let is_free = |root: usize| carriers[root].map_or(options.free_base, |joint| joint.kind == JointKind::Free);
+        roots.into_iter().map(|root| touches[root] && is_free(root)).collect()
+    }
+
     /// Pose of a link in the world (none: the world itself); `starts` has the coordinates of the joints with one degree
     /// of freedom, zero where it is too short.
     pub fn link_pose(&self, link: Option<usize>, starts: &[f64]) -> Pose<f64> {

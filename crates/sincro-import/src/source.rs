@@ -12,6 +12,8 @@ use std::sync::Arc;
 use roxmltree::{Document, Node, NodeType, ParsingOptions};
 use sincro_scene::diagnostic::{Diagnostic, Location, SourceText};
 
+use crate::findings::Findings;
+
 /// Largest robot file that is read [bytes].
 pub(crate) const MAX_BYTES: u64 = 64 << 20;
 /// Most elements, attributes and texts of a document.
@@ -417,6 +419,12 @@ impl<'d> Element<'d> {
     /// Notes that it is in the scene in another form.
     pub fn change(&self, words: &str) {
         self.ledger.judge_place(self.key(), ElementStatus::Changed, words);
+    }
+
+    /// As [`Element::change`], with a warning, too: the source is probably wrong.
+    pub fn change_with_warning(&self, words: &str, findings: &mut Findings) {
+        self.change(words);
+        findings.warn(self.error(words));
     }
 
     /// Notes that it is not in the scene.

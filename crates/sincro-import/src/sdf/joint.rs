@@ -21,7 +21,7 @@ pub(super) struct Settings {
 pub(super) fn joints(robot: &mut Robot, raw: &Raw<'_>, places: &Places, settings: &Settings, findings: &mut Findings) {
     let mut gearboxes = Vec::new();
     for (element, prefix, model) in &raw.joints {
-        let made = joint(*element, prefix, model, robot, raw, places, settings);
+        let made = joint(*element, (prefix, model), robot, raw, places, settings, findings);
         let Some(made) = findings.take(made) else { continue };
         match made {
             Made::Tree(joint, pose) => {
@@ -70,12 +70,12 @@ fn find(element: Element<'_>, which: &str, prefix: &str, raw: &Raw<'_>) -> Resul
 
 fn joint(
     element: Element<'_>,
-    prefix: &str,
-    model: &str,
+    (prefix, model): (&str, &str),
     robot: &Robot,
     raw: &Raw<'_>,
     places: &Places,
     settings: &Settings,
+    findings: &mut Findings,
 ) -> Result<Made, Diagnostic> {
     let name = element.attribute("name").ok_or_else(|| element.error("a joint without `name`"))?;
     let word = element.attribute("type").ok_or_else(|| element.error(format!("joint `{name}` has no `type`")))?;
@@ -106,7 +106,7 @@ fn joint(
         ..Joint::new(name, element.id(), kind, parent, child)
     };
     if kind.dofs() > 0 {
-        axes(element, &mut made, (prefix, model), &x_wj.rot, places, settings)?;
+        axes(element, &mut made, (prefix, model), &x_wj.rot, places, settings, findings)?;
     }
     let taken = robot.joint_of(child).is_some() || reaches(robot, child, parent);
     if !taken {
@@ -171,6 +171,7 @@ fn axes(
     rot: &sincro_dynamics::spatial::Mat3<f64>,
     places: &Places,
     settings: &Settings,
+    findings: &mut Findings,
 ) -> Result<(), Diagnostic> {
     let name = joint.name.clone();
     let direction = |axis: Element<'_>| -> Result<[f64; 3], Diagnostic> {
@@ -205,8 +206,11 @@ fn axes(
                 let Some(child) = dynamics.child(name) else { return Ok(0.0) };
                 Ok(child.text_numbers()?.first().copied().unwrap_or(0.0))
             };
-            damping.push(get("damping")?.max(0.0));
-            let friction = get("friction")?;
+            let (damping_now, friction) = (get("damping")?, get("friction")?);
+            if damping_now < 0.0 || friction < 0.0 {
+                dynamics.change_with_warning("negative damping or friction is left out: it would add energy", findings);
+            }
+            damping.push(damping_now.max(0.0));
             if friction > 0.0 && one {
                 joint.friction = vec![friction];
             }
@@ -216,7 +220,7 @@ fn axes(
             }
         }
         if let Some(limit) = axis.child("limit") {
-            limits(limit, joint, one)?;
+            limits(limit, joint, one, findings)?;
         }
     }
     if damping.iter().any(|d| *d > 0.0) {
@@ -229,7 +233,7 @@ fn axes(
     Ok(())
 }
 
-fn limits(limit: Element<'_>, joint: &mut Joint, one: bool) -> Result<(), Diagnostic> {
+fn limits(limit: Element<'_>, joint: &mut Joint, one: bool, findings: &mut Findings) -> Result<(), Diagnostic> {
     let get = |name: &str, none: f64| -> Result<f64, Diagnostic> {
         let Some(child) = limit.child(name) else { return Ok(none) };
         let text = child.text();
@@ -245,7 +249,8 @@ fn limits(limit: Element<'_>, joint: &mut Joint, one: bool) -> Result<(), Diagno
     joint.effort = Some(effort).filter(|x| x.is_finite() && *x > 0.0);
     joint.speed = Some(velocity).filter(|x| x.is_finite() && *x > 0.0);
     if lower.is_nan() || upper.is_nan() || (lower >= upper) {
-        limit.change(&format!("limits from {lower} to {upper} leave no room: the joint moves without them"));
+        let words = format!("limits from {lower} to {upper} leave no room: the joint moves without them");
+        limit.change_with_warning(&words, findings);
     } else if lower.is_finite() || upper.is_finite() {
         joint.limits = Some([lower, upper]);
     }

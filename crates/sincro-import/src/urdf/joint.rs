@@ -18,7 +18,8 @@ pub(super) fn joints(root: Element<'_>, links: &BTreeMap<&str, usize>, robot: &m
     let mut names = BTreeMap::new();
     let mut mimics = Vec::new();
     for element in root.children("joint") {
-        let Some(joint) = findings.take(joint(element, links, robot)) else { continue };
+        let read = joint(element, links, robot, findings);
+        let Some(joint) = findings.take(read) else { continue };
         if let Some(other) = robot.joint_of(joint.child) {
             let (child, other) = (&robot.links[joint.child].name, &robot.joints[other].name);
             let message = format!("link `{child}` is the child of joint `{other}` too");
@@ -40,7 +41,12 @@ pub(super) fn joints(root: Element<'_>, links: &BTreeMap<&str, usize>, robot: &m
     }
 }
 
-fn joint(element: Element<'_>, links: &BTreeMap<&str, usize>, robot: &mut Robot) -> Result<Joint, Diagnostic> {
+fn joint(
+    element: Element<'_>,
+    links: &BTreeMap<&str, usize>,
+    robot: &mut Robot,
+    findings: &mut Findings,
+) -> Result<Joint, Diagnostic> {
     let name = element.attribute("name").ok_or_else(|| element.error("a joint without `name`"))?;
     let word = element.attribute("type").ok_or_else(|| element.error(format!("joint `{name}` has no `type`")))?;
     let end = |which: &str| -> Result<usize, Diagnostic> {
@@ -73,8 +79,8 @@ fn joint(element: Element<'_>, links: &BTreeMap<&str, usize>, robot: &mut Robot)
     if kind == JointKind::Planar {
         lay_plane(&mut joint, robot);
     }
-    dynamics(element, &mut joint)?;
-    limits(element, word, &mut joint)?;
+    dynamics(element, &mut joint, findings)?;
+    limits(element, word, &mut joint, findings)?;
     Ok(joint)
 }
 
@@ -109,7 +115,7 @@ fn lay_plane(joint: &mut Joint, robot: &mut Robot) {
     robot.links[joint.child].pose = Placement::of_pose(&turn.inverse());
 }
 
-fn dynamics(element: Element<'_>, joint: &mut Joint) -> Result<(), Diagnostic> {
+fn dynamics(element: Element<'_>, joint: &mut Joint, findings: &mut Findings) -> Result<(), Diagnostic> {
     let Some(given) = element.child("dynamics") else { return Ok(()) };
     let (damping, friction) = (given.number("damping")?, given.number("friction")?);
     let armature = given.number("armature")?;
@@ -121,7 +127,7 @@ fn dynamics(element: Element<'_>, joint: &mut Joint) -> Result<(), Diagnostic> {
     ] {
         match value {
             Some(value) if value < 0.0 => {
-                given.change(&format!("negative {key} {value} is left out: it would add energy"))
+                given.change_with_warning(&format!("negative {key} {value} is left out: it would add energy"), findings)
             }
             Some(value) if value > 0.0 && n == 1 => *list = vec![value],
             Some(value) if value > 0.0 => {
@@ -133,7 +139,7 @@ fn dynamics(element: Element<'_>, joint: &mut Joint) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-fn limits(element: Element<'_>, word: &str, joint: &mut Joint) -> Result<(), Diagnostic> {
+fn limits(element: Element<'_>, word: &str, joint: &mut Joint, findings: &mut Findings) -> Result<(), Diagnostic> {
     let Some(given) = element.child("limit") else { return Ok(()) };
     let (lower, upper) = (given.number_or_infinite("lower")?, given.number_or_infinite("upper")?);
     joint.effort = given.number_or_infinite("effort")?.filter(|x| x.is_finite());
@@ -161,7 +167,8 @@ fn limits(element: Element<'_>, word: &str, joint: &mut Joint) -> Result<(), Dia
             } else if lower < upper {
                 joint.limits = Some([lower, upper]);
             } else {
-                given.change(&format!("limits from {lower} to {upper} leave no room: the joint moves without them"));
+                let words = format!("limits from {lower} to {upper} leave no room: the joint moves without them");
+                given.change_with_warning(&words, findings);
             }
         }
     }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use sincro_scene::diagnostic::Diagnostic;
 
 use crate::findings::Findings;
-use crate::robot::{Inertial, Link, Placement, Robot, Sensor, SensorKind, turned_inertia};
+use crate::robot::{Inertial, Link, Placement, Robot, Sensor, SensorKind, SurfaceLaw, turned_inertia};
 use crate::source::Element;
 
 /// Reason why an element or attribute is not read.
@@ -64,10 +64,39 @@ pub(crate) fn read(root: Element<'_>, findings: &mut Findings) -> Robot {
         sensor(element, &index, &mut robot);
     }
     for element in root.children("gazebo") {
-        element.drop("extension for Gazebo: plugins and materials of another simulator");
+        friction_of_gazebo(element, &index, &mut robot, findings);
     }
     check_tree(&robot, findings);
     robot
+}
+
+/// Friction that an extension for Gazebo gives the surfaces of a link: the coefficient along its first direction.
+fn friction_of_gazebo(element: Element<'_>, index: &BTreeMap<&str, usize>, robot: &mut Robot, findings: &mut Findings) {
+    let link = element.attribute("reference").and_then(|name| index.get(name.trim()));
+    let given = ["mu1", "mu"].into_iter().find_map(|name| element.child(name));
+    let (Some(link), Some(given)) = (link, given) else {
+        element.drop("extension for Gazebo: plugins and materials of another simulator");
+        return;
+    };
+    // older files have it as an attribute
+    let text = |element: Element<'_>| element.attribute("value").unwrap_or_else(|| element.text()).trim().to_owned();
+    let number = |element: Element<'_>| text(element).parse::<f64>().ok().filter(|x| *x >= 0.0 && x.is_finite());
+    let Some(friction) = number(given) else {
+        let message = format!("`{}` is no coefficient of friction: it is left out", text(given));
+        findings.warn(given.error(message).with_help("give a number of at least 0"));
+        given.drop("no coefficient of friction");
+        return;
+    };
+    if robot.links[*link].collisions.is_empty() {
+        return element.drop("an extension for Gazebo on a link without shapes that touch");
+    }
+    element.change("an extension for Gazebo, of which the friction of the link's surfaces is taken");
+    if let Some(other) = element.child("mu2").filter(|other| number(*other) != Some(friction)) {
+        other.change("friction is the same in all directions here: that along the first one");
+    }
+    for collision in &mut robot.links[*link].collisions {
+        collision.surface = Some(SurfaceLaw { friction, spinning_friction: 0.0, rolling_friction: 0.0 });
+    }
 }
 
 fn link(element: Element<'_>, name: &str, colors: &geometry::Colors, findings: &mut Findings) -> Link {

@@ -9,6 +9,15 @@ use crate::source::ElementStatus;
 /// Velocity a unit of error of the motors that hold [1/s].
 const HOLDING_GAIN: f64 = 10.0;
 
+/// Deflection at which motors that hold as springs reach their largest torque [rad]: a smaller one is stiffer.
+const YIELD_ANGLE: f64 = 0.1;
+
+/// Deflection at which those of prismatic joints reach their largest force [m].
+const YIELD_LENGTH: f64 = 0.01;
+
+/// Damping of these motors over their stiffness [s]: what swings faster than once in 2π of it is held back by it.
+const DAMPING_TIME: f64 = 0.02;
+
 /// Coordinates at the start: zero where the limits allow it, else the middle of the range; gears as they are coupled.
 pub(super) fn starts(robot: &mut Robot, context: &Context<'_>) -> Vec<f64> {
     let one = |joint: &Joint| joint.kind.dofs() == 1;
@@ -179,6 +188,17 @@ impl Writer<'_> {
             Motors::None => {}
             Motors::Torque => self.line(&format!("motor = {{ mode = \"torque\"{effort} }}")),
             Motors::Hold => {
+                // ideal motors that give way share a load with rigid contacts in more than one way
+                let limit = joint.effort.filter(|x| *x > 0.0 && self.floating[joint.child]);
+                if let Some(limit) = limit {
+                    let deflection = if joint.kind == JointKind::Prismatic { YIELD_LENGTH } else { YIELD_ANGLE };
+                    let stiffness = limit / deflection;
+                    let (command, damping) = (number(self.starts[k]), number(stiffness * DAMPING_TIME));
+                    let stiffness = number(stiffness);
+                    return self.line(&format!(
+                        "motor = {{ mode = \"spring\", command = {command}, stiffness = {stiffness}, damping = {damping}{effort} }}"
+                    ));
+                }
                 let speed = joint.speed.map_or_else(String::new, |x| format!(", max_velocity = {}", number(x)));
                 let (command, gain) = (number(self.starts[k]), number(HOLDING_GAIN));
                 self.line(&format!(

@@ -18,7 +18,7 @@ use crate::mesh::{Content, Meshes};
 use crate::number::{degrees, list, name, number, quoted};
 use crate::policy;
 use crate::resolve::Resolver;
-use crate::robot::{JointKind, Optics, Placement, Robot, Rotation, SensorKind};
+use crate::robot::{JointKind, Link, Optics, Placement, Robot, Rotation, SensorKind, Shape};
 use crate::source::{ElementStatus, Ledger};
 use crate::{Motors, Options};
 
@@ -63,6 +63,7 @@ pub(crate) fn write(robot: &mut Robot, context: &Context<'_>) -> Written {
         context,
         text: String::new(),
         meshes,
+        floating: robot.floating(context.options),
         groups: groups(robot, &fixed),
         starts,
         link_paths: vec![None; robot.links.len()],
@@ -92,6 +93,8 @@ struct Writer<'a> {
     robot: &'a Robot,
     text: String,
     meshes: Meshes,
+    /// For each link, true if it belongs to what moves freely and touches ([`Robot::floating`]).
+    floating: Vec<bool>,
     /// Contact group of each link: that of its tree, 0 for what is fixed in the world.
     groups: Vec<usize>,
     /// Coordinates at the start of the joints with one degree of freedom.
@@ -153,14 +156,26 @@ impl Writer<'_> {
         if has_root && self.context.format != "MJCF" {
             choices.push(if self.context.options.free_base {
                 "the base moves freely (--base free)".to_owned()
+            } else if robot.has_free_root() {
+                "the base moves freely, as the source says; links without a joint stand in the world".to_owned()
             } else {
                 "the base is fixed in the world (--base free lets it move)".to_owned()
             });
+        }
+        let any_floats = self.floating.contains(&true);
+        let planes = |link: &Link| link.collisions.iter().any(|c| matches!(c.shape, Shape::Plane));
+        if any_floats && !robot.links.iter().any(planes) {
+            choices
+                .push("there is no floor: give one as a body with `shape = [{ plane = {} }]` and `contact`".to_owned());
         }
         let moves = robot.joints.iter().any(|j| j.kind.dofs() == 1);
         if !robot.has_own_motors && moves {
             choices.push(
                 match self.context.options.motors {
+                    Motors::Hold if any_floats => {
+                        "motors hold the joints where they start; of what moves freely those with an effort are springs that \
+                         reach it at 0.1 rad or 0.01 m, without a limit of speed (--motors torque or none instead)"
+                    }
                     Motors::Hold => {
                         "position motors hold the joints where they start (--motors torque or none instead)"
                     }

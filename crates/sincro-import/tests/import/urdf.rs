@@ -224,3 +224,63 @@ fn merged_links_leave_the_dynamics_as_it_is() {
         assert!(!entry(&plain, "joint[j6]").words.contains("merged"));
     }
 }
+
+const CART: &str = r#"<robot name="cart">
+  <link name="base"><inertial><mass value="3"/><inertia ixx="0.02" iyy="0.02" izz="0.02"/></inertial>
+    <collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+  <link name="wheel"><inertial><mass value="0.4"/><inertia ixx="0.001" iyy="0.001" izz="0.001"/></inertial>
+    <collision><geometry><cylinder radius="0.1" length="0.03"/></geometry></collision></link>
+  <link name="fork"><inertial><mass value="0.4"/><inertia ixx="0.001" iyy="0.001" izz="0.001"/></inertial></link>
+  <joint name="axle" type="continuous"><parent link="base"/><child link="wheel"/><axis xyz="0 1 0"/><limit effort="5" velocity="9"/></joint>
+  <joint name="lift" type="prismatic"><parent link="base"/><child link="fork"/><axis xyz="0 0 1"/>
+    <limit lower="0.4" upper="0" effort="80" velocity="1"/><dynamics damping="-2"/></joint>
+  <gazebo reference="base"><mu1>0</mu1><mu2>0.5</mu2><kp>1e6</kp></gazebo>
+</robot>"#;
+
+#[test]
+fn friction_of_gazebo_counts() {
+    let folder = Folder::new();
+    let imported = folder.import("cart.urdf", CART).unwrap_or_else(|found| panic!("{found}"));
+    let scene = imported.scene();
+    let contacts: Vec<&str> = scene.lines().filter(|line| line.starts_with("contact")).collect();
+    assert!(
+        contacts.len() == 2 && contacts[0].contains("friction = 0.0") && contacts[1].contains("friction = 1.0"),
+        "{scene}"
+    );
+    assert_eq!(dropped(&imported), ["robot/gazebo/kp"]);
+    assert!(entry(&imported, "mu2").words.contains("the same in all directions"));
+    let old = folder.import("cart.urdf", &CART.replace("<mu1>0</mu1>", "<mu1 value=\"0\"/>")).unwrap();
+    assert_eq!(old.scene(), scene);
+    let wrong = folder.import("cart.urdf", &CART.replace("<mu1>0</mu1>", "<mu1>-1</mu1>")).unwrap();
+    let told = wrong.warnings.iter().map(ToString::to_string).find(|told| told.contains("`-1` is no coefficient"));
+    assert!(told.is_some_and(|told| told.contains("cart.urdf:10")), "{:?}", wrong.warnings);
+}
+
+#[test]
+fn limits_without_room_and_negative_damping_are_warned_of() {
+    let folder = Folder::new();
+    let imported = folder.import("cart.urdf", CART).unwrap_or_else(|found| panic!("{found}"));
+    for words in ["limits from 0.4 to 0 leave no room", "negative damping -2 is left out"] {
+        let told = imported.warnings.iter().map(ToString::to_string).find(|told| told.contains(words));
+        assert!(told.is_some_and(|told| told.contains("cart.urdf:9")), "{words}: {:?}", imported.warnings);
+    }
+}
+
+#[test]
+fn motors_of_a_robot_that_moves_freely_and_touches_give_way_as_springs() {
+    let folder = Folder::new();
+    let fixed = folder.import("cart.urdf", CART).unwrap_or_else(|found| panic!("{found}"));
+    assert!(!fixed.scene().contains("mode = \"spring\""), "{}", fixed.scene());
+    let options = Options { free_base: true, ..Options::default() };
+    let free = folder.import_with("cart.urdf", CART, &options).unwrap_or_else(|found| panic!("{found}"));
+    let motors: Vec<&str> = free.scene().lines().filter(|line| line.starts_with("motor")).collect();
+    // at 0.1 rad and at 0.01 m the effort is reached
+    assert_eq!(
+        motors,
+        [
+            "motor = { mode = \"spring\", command = 0.0, stiffness = 50.0, damping = 1.0, max_torque = 5.0 }",
+            "motor = { mode = \"spring\", command = 0.0, stiffness = 8000.0, damping = 160.0, max_torque = 80.0 }",
+        ]
+    );
+    folder.open(&free);
+}

@@ -353,7 +353,7 @@ fn about_constraints(world: &World) -> Vec<String> {
             n => format!("in {n} steps, the first"),
         };
         warnings.push(format!(
-            "{words} at t = {:.6} s motors, friction and contacts changed their modes more than 20 times: each change hangs on the last, and error bars may be too small from there on; surfaces with a `stiffness`, or motors with a `max_torque` that they do not reach, end it",
+            "{words} at t = {:.6} s motors, friction and contacts changed their modes more than 20 times: each change hangs on the last, and error bars may be too small from there on; surfaces with a `stiffness`, motors in mode `spring`, or with a `max_torque` that they do not reach, end it",
             chatter.first
         ));
     }
