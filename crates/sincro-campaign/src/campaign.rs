@@ -5,9 +5,11 @@ use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
+use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::experiment::check::{Check, Expected, Measure, Sense};
 use sincro_scene::open::settings_with;
 use sincro_scene::overrides::Override;
+use sincro_scene::record::Recorder;
 use sincro_scene::suggest;
 use sincro_sim::Loaded;
 use sincro_sim::campaign::audit;
@@ -181,15 +183,19 @@ impl Campaign {
     /// Refuses parameters whose path reaches nothing and signals that are not there, before anything runs.
     fn try_paths(&self) -> Result<(), Diagnostics> {
         for variant_idx in 0..self.variants.len() {
-            let point = self.plan.point(variant_idx as u64);
             // a drawn value may be refused, and that is a result; but then other values are not
-            if let Err(first) = self.loaded_at(&point)
-                && (1..16_u64).all(|k| {
-                    let k = k * self.variants.len() as u64 + variant_idx as u64;
-                    k >= self.plan.n_runs() || self.loaded_at(&self.plan.point(k)).is_err()
-                })
-            {
-                return Err(first);
+            let runs = (0..16_u64).map(|k| k * self.variants.len() as u64 + variant_idx as u64);
+            let mut first = None;
+            let found = runs
+                .filter(|k| *k == variant_idx as u64 || *k < self.plan.n_runs())
+                .find_map(|k| self.loaded_at(&self.plan.point(k)).map_err(|refused| first.get_or_insert(refused)).ok());
+            match (found, first) {
+                (Some(Loaded { experiment, scene, controller, .. }), _) => {
+                    let entries = controller.as_ref().map(ControlDiagram::entries).unwrap_or_default();
+                    Recorder::new(&experiment.record, &scene.model, &entries)?;
+                }
+                (None, Some(first)) => return Err(first),
+                (None, None) => {}
             }
         }
         Ok(())

@@ -24,6 +24,16 @@ fn campaign(folder: &SceneFolder) -> Campaign {
     Campaign::new(plan, |path, settings| load(path, settings, Extensions::default())).unwrap()
 }
 
+#[test]
+fn a_campaign_with_a_measure_of_no_signal_does_not_begin() {
+    let wrong = EXPERIMENT.replace("name = \"last\"\nsignal = \"/j", "name = \"last\"\nsignal = \"/k");
+    assert_ne!(wrong, EXPERIMENT);
+    let folder = SceneFolder::of(SCENE, &wrong);
+    let plan = Plan::open(&folder).unwrap();
+    let found = Campaign::new(plan, |path, settings| load(path, settings, Extensions::default())).unwrap_err();
+    assert!(found.to_string().contains("there is no signal `/k.position`"), "{found}");
+}
+
 fn make(campaign: &Campaign, out: &Path, n_shards: u64) {
     let store = Store::open(out, campaign, "experiment.toml").unwrap();
     for index in 1..=n_shards {
