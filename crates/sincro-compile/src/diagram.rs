@@ -86,16 +86,14 @@ const SAMPLES: [u64; 8] = [0, 1, 2, 3, 10, 1_237, 100_003, 7_654_321];
 ///
 /// [`Obstacle`] that names the block, if one is continuous, branches, or depends on time.
 pub fn compile(diagram: &Arc<Diagram>) -> Result<CompiledDiagram, Obstacle> {
+    acts_at_ticks_alone(diagram)?;
     let start = Runner::<f64>::new(Arc::clone(diagram));
     let mut blocks = Vec::new();
     for (k, step) in diagram.steps.iter().enumerate() {
-        let why = |reason: String| Obstacle::new(format!("block `{}` ({}): {reason}", step.path, kind(step)));
-        match step.rate {
-            Rate::Constant => continue,
-            Rate::Continuous if step.is_minor => return Err(why("it acts between the steps".to_owned())),
-            _ if !step.states.is_empty() => return Err(why("it has continuous states".to_owned())),
-            // what nothing needs between the steps is evaluated at each of them
-            Rate::Continuous | Rate::Sampled(_) => {}
+        let why = |reason: String| Obstacle::new(format!("block {}: {reason}", named(step)));
+        // what nothing needs between the steps is evaluated at each of them
+        if step.rate == Rate::Constant {
+            continue;
         }
         let is_source = step.ports.is_empty();
         let output = if is_source {
@@ -109,6 +107,28 @@ pub fn compile(diagram: &Arc<Diagram>) -> Result<CompiledDiagram, Obstacle> {
     }
     let state = start.state;
     Ok(CompiledDiagram { blocks, signals: state.signals, memory: state.memory })
+}
+
+/// Refuses a diagram that acts between the steps, with the blocks because of which it does.
+fn acts_at_ticks_alone(diagram: &Diagram) -> Result<(), Obstacle> {
+    let list = |found: Vec<&Step>| found.into_iter().map(named).collect::<Vec<_>>().join(", ");
+    let with_states: Vec<&Step> = diagram.steps.iter().filter(|step| !step.states.is_empty()).collect();
+    if !with_states.is_empty() {
+        let reason = "continuous states: take discrete blocks in their place, and a `sample_time` for the others";
+        return Err(Obstacle::new(format!("of the diagram {} have {reason}", list(with_states))));
+    }
+    let is_minor = |step: &&Step| step.rate == Rate::Continuous && step.is_minor;
+    let minor: Vec<&Step> = diagram.steps.iter().filter(is_minor).collect();
+    if !minor.is_empty() {
+        let reason = "act between the steps: with a `sample_time`, their own or the diagram's, they are sampled";
+        return Err(Obstacle::new(format!("of the diagram {} {reason}", list(minor))));
+    }
+    Ok(())
+}
+
+/// Path and kind of a block.
+fn named(step: &Step) -> String {
+    format!("`{}` ({})", step.path, kind(step))
 }
 
 /// Measurements of a diagram at ticks: the index of each among the signals, and its probe.
