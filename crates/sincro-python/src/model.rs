@@ -357,7 +357,10 @@ impl Model {
     /// them by name; they win over the scene's signals and the diagram, and are held until they are set again or
     /// released.
     #[pyo3(signature = (u=None, steps=1))]
-    fn step(&self, py: Python<'_>, u: Option<&Bound<'_, PyAny>>, steps: u64) -> PyResult<()> {
+    fn step(&self, py: Python<'_>, u: Option<&Bound<'_, PyAny>>, steps: i64) -> PyResult<()> {
+        if steps < 0 {
+            return Err(errors::argument(py, &format!("`steps` is {steps}: worlds do not go back; `restore` does")));
+        }
         let set = match u {
             Some(u) => self.inputs_of(py, u)?,
             None => Vec::new(),
@@ -371,7 +374,7 @@ impl Model {
                 return live.step();
             }
             let mut looked = Instant::now();
-            for k in 0..steps {
+            for k in 0..steps as u64 {
                 live.step()?;
                 if k % STEPS_PER_LOOK == STEPS_PER_LOOK - 1 && looked.elapsed() > LOOK_EVERY {
                     Python::attach(|py| py.check_signals()).map_err(LiveError::Signal)?;

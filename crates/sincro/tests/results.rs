@@ -146,6 +146,7 @@ fn runs_are_listed_compared_and_pruned() {
     assert_eq!(status, 0);
     let row = table.lines().find(|line| line.contains("/hinge.initial.position")).unwrap();
     assert!(row.contains("0.1") && row.contains("0.3") && table.contains("it falls"), "{table}");
+    assert!(table.lines().any(|line| line.contains("it falls") && line.contains("(at most 0.3)")), "{table}");
     fs::write(folder.join("results/pendulum/0001/notes.txt"), "mine").unwrap();
     let (said, _, _) = SINCRO.call_in(&folder, &["runs", "prune", "--keep", "1", "--dry-run"]);
     assert!(said.contains("1 run would be removed") && folder.join("results/pendulum/0002").is_dir(), "{said}");

@@ -89,6 +89,12 @@ class Result:
         signals = self._signals()
         if name in signals:
             return signals[name]
+        ends = self._ending(name)
+        if len(ends) == 1:
+            return signals[ends[0]]
+        if ends:
+            several = ", ".join(f"`{end}`" for end in ends)
+            raise UnknownNameError(f"`{name}` may mean {several}\n  help: write the whole path")
         import difflib
 
         near = difflib.get_close_matches(str(name), signals, 1)
@@ -96,7 +102,12 @@ class Result:
         raise UnknownNameError(f"`{name}` was not recorded\n  help: {help}")
 
     def __contains__(self, name):
-        return name in self._signals()
+        return name in self._signals() or len(self._ending(name)) == 1
+
+    def _ending(self, name) -> list:
+        """Names of the signals that end so: ``hinge.position``."""
+        tail = "/" + str(name).removeprefix("/")
+        return [known for known in self._signals() if known.endswith(tail)]
 
     def __iter__(self):
         return iter(self._signals())

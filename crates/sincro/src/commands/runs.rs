@@ -7,9 +7,10 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use clap::{Args, Subcommand};
 use sincro::scene_name;
 use sincro_figures::plot::number::significant;
+use sincro_scene::experiment::check::Sense;
 use sincro_sim::file::FileError;
 use sincro_sim::result_folder::{find_result, folders_in, foreign_entry, is_result, numbers};
-use sincro_sim::results::{RunReport, Status};
+use sincro_sim::results::{RunReport, Status, VerdictReport};
 
 use super::console::{short, verdict_line};
 use super::whole_number;
@@ -241,11 +242,15 @@ fn rows(runs: &[Finished]) -> Vec<(String, Vec<String>)> {
     for name in names {
         let of = |r: &RunReport| {
             let Some(check) = r.checks.iter().find(|c| c.name == name) else { return "–".into() };
-            let value = check.deviation.map_or_else(|| "not made".into(), |d| significant(d, 3));
-            format!(
-                "{} {value}",
-                if check.verdict == sincro_sim::results::VerdictReport::Holds { "ok  " } else { "FAIL" }
-            )
+            // how far a value is beyond its limit is zero for all that keep it: the values themselves are compared
+            let limit = |words: &str, x: f64, most: f64| format!("{} ({words} {})", significant(x, 4), short(most));
+            let value = match (check.sense, check.measured, check.expected, check.deviation) {
+                (Sense::AtMost, Some(x), Some(most), _) => limit("at most", x, most),
+                (Sense::AtLeast, Some(x), Some(least), _) => limit("at least", x, least),
+                (_, _, _, Some(deviation)) => format!("off by {}", significant(deviation, 3)),
+                _ => "not made".into(),
+            };
+            format!("{} {value}", if check.verdict == VerdictReport::Holds { "ok  " } else { "FAIL" })
         };
         rows.push((name.to_owned(), all(&of)));
     }
