@@ -66,6 +66,17 @@ fn episodes(worlds: &mut TaskWorlds, autoreset: Autoreset, n_steps: u64) -> Vec<
     seen
 }
 
+/// Asserts that all worlds gave the same bits.
+fn assert_same(found: &[Vec<u64>], expected: &[Vec<u64>], context: &str) {
+    assert_eq!(found.len(), expected.len());
+    for (world, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let differs = found.iter().zip(expected).position(|(a, b)| a != b);
+        let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
+        assert_eq!(differs.map(of), None, "{context}, world {world}");
+        assert_eq!(found.len(), expected.len(), "{context}, world {world}");
+    }
+}
+
 const TASKS: [&str; 5] = ["cart-pole-balance", "cart-pole-swing-up", "acrobot", "reacher-springs", "quadrotor-hover"];
 
 #[test]
@@ -215,11 +226,7 @@ fn compiled_actions_have_the_bits_of_other_steps() {
             n_compiled += usize::from(matches!(compiled.steps_by(), StepsBy::Compiled { .. }));
             let expected = episodes(&mut worlds(Compile::Never), autoreset, 150);
             let found = episodes(&mut compiled, autoreset, 150);
-            for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                let differs = found.iter().zip(expected).position(|(a, b)| a != b);
-                let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
-                assert_eq!(differs.map(of), None, "{}, {autoreset:?}, world {world}", path.display());
-            }
+            assert_same(&found, &expected, &format!("{}, {autoreset:?}", path.display()));
             if !TASKS.iter().any(|name| path.ends_with(name)) {
                 let n = expected.iter().flatten().filter(|x| **x == STOPPED).count();
                 assert!(n > 5, "worlds that cannot go on in {}: {n}", path.display());
@@ -452,12 +459,7 @@ fn worlds_with_noisy_sensors_run_in_lanes_as_one_by_one() {
                     assert_eq!(worlds.plan().lanes_refused(), None, "{name}");
                 }
                 let found = episodes(&mut worlds, autoreset, 60);
-                for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                    let differs = found.iter().zip(expected).position(|(a, b)| a != b);
-                    let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
-                    assert_eq!(differs.map(of), None, "{name}, {autoreset:?}, {threads} threads, world {world}");
-                    assert_eq!(found.len(), expected.len());
-                }
+                assert_same(&found, &expected, &format!("{name}, {autoreset:?}, {threads} threads"));
             }
             let n_stopped = expected.iter().flatten().filter(|x| **x == STOPPED).count();
             assert!(n_stopped > 5, "{name}: worlds that cannot go on: {n_stopped}");
@@ -560,11 +562,7 @@ fn measurements_in_lanes_are_those_of_each_world() {
         assert_eq!(worlds.plan().lanes_refused(), None);
     }
     let found = episodes(&mut worlds, Autoreset::SameStep, 60);
-    for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
-        let differs = found.iter().zip(expected).position(|(a, b)| a != b);
-        let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
-        assert_eq!(differs.map(of), None, "world {world}");
-    }
+    assert_same(&found, &expected, "measured");
     // what is observed first, and the reward, is 1 where the theory of the rotor holds: not in all worlds at once
     let n_valid = |world: usize| expected[world].iter().filter(|x| **x == 1.0_f64.to_bits()).count();
     assert!((1..n).any(|world| n_valid(world) != n_valid(0)), "all rotors are valid at the same instants");
@@ -708,12 +706,7 @@ fn continuous_diagrams_run_in_lanes_as_one_by_one() {
                 assert_eq!(worlds.plan().lanes_refused(), None, "{name}");
             }
             let found = episodes(&mut worlds, autoreset, 60);
-            for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                let differs = found.iter().zip(expected).position(|(a, b)| a != b);
-                let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
-                assert_eq!(differs.map(of), None, "{name}, {autoreset:?}, world {world}");
-                assert_eq!(found.len(), expected.len());
-            }
+            assert_same(&found, &expected, &format!("{name}, {autoreset:?}"));
             let n_stopped = expected.iter().flatten().filter(|x| **x == STOPPED).count();
             assert!(n_stopped > 5, "{name}: worlds that cannot go on: {n_stopped}");
         }
@@ -838,12 +831,7 @@ fn worlds_with_limits_and_friction_run_in_lanes_as_one_by_one() {
                     let is_constrained = has_ranges || has_post;
                     assert_eq!(worlds.steps_alone() > 1000, is_constrained, "{}", worlds.steps_alone());
                 }
-                for (world, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                    let differs = found.iter().zip(expected).position(|(a, b)| a != b);
-                    let of = |k: usize| (k, f64::from_bits(found[k]), f64::from_bits(expected[k]));
-                    assert_eq!(differs.map(of), None, "{name}, {autoreset:?}, {threads} threads, world {world}");
-                    assert_eq!(found.len(), expected.len());
-                }
+                assert_same(&found, &expected, &format!("{name}, {autoreset:?}, {threads} threads"));
             }
         }
     }

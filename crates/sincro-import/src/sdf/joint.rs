@@ -206,11 +206,11 @@ fn axes(
                 let Some(child) = dynamics.child(name) else { return Ok(0.0) };
                 Ok(child.text_numbers()?.first().copied().unwrap_or(0.0))
             };
-            let (damping_now, friction) = (get("damping")?, get("friction")?);
-            if damping_now < 0.0 || friction < 0.0 {
+            let (of_axis, friction) = (get("damping")?, get("friction")?);
+            if of_axis < 0.0 || friction < 0.0 {
                 dynamics.change_with_warning("negative damping or friction is left out: it would add energy", findings);
             }
-            damping.push(damping_now.max(0.0));
+            damping.push(of_axis.max(0.0));
             if friction > 0.0 && one {
                 joint.friction = vec![friction];
             }
