@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use sincro_dynamics::actuation::force_law::FreeRange;
 use sincro_dynamics::actuation::{ForceLaw, ForceTable, NonlinearLaw};
 use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
 use sincro_dynamics::constraint::LoopJointKind;
@@ -20,6 +21,7 @@ use sincro_dynamics::state::State;
 use sincro_dynamics::stiffness::{StiffElement, stiffest};
 use sincro_dynamics::world::{MethodKind, World};
 use sincro_math::expression::Expression;
+use sincro_math::random::SplitMix64;
 
 use crate::mechanisms::{ALL, run};
 
@@ -346,6 +348,37 @@ fn every_kind_of_line_is_accounted_for() {
             assert!(imbalance.abs() < tolerance, "{kind:?} {law:?} {imbalance:e}");
             let damped = model.spring_dampers()[0].forces(1.3, 1.0, &x.commands).damping != 0.0;
             assert_eq!(world.state.totals[1] > 0.01, damped, "{law:?}");
+        }
+    }
+}
+
+#[test]
+fn the_stiff_method_sees_a_jump_behind_its_last_stage() {
+    // what flies freely is exact in long steps, at whose ends no stage is
+    let range = FreeRange { low: -0.6, high: 0.1, stiffness: 200.0, damping: 5.0 };
+    let ranges = ForceLaw { nonlinear: Some(Arc::new(NonlinearLaw::Ranges(vec![range]))), ..linear(0.0, 0.0) };
+    let laws = [
+        (linear(200.0, 5.0), true),
+        (formula("if(x > 0.05, -200*x - 5*v, 0)"), false),
+        (formula("-200*max(x, 0) - 3*sign(max(x, 0))*v"), false),
+        (ranges, false),
+    ];
+    let mut random = SplitMix64::new(7);
+    let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
+    for (law, tension_only) in laws {
+        let model = carts(law, tension_only, None);
+        for _ in 0..10 {
+            let mut x = State::new(&model);
+            (x.q[0], x.v[0], x.v[1]) = (between(-0.3, 0.0), between(-1.0, 0.0), between(0.5, 2.0));
+            let end = |kind, accuracy| {
+                let mut world = World::new(model.clone(), x.clone(), kind, accuracy, 1e-3);
+                run(&mut world, 0.01, 60);
+                world.state.v
+            };
+            let (exact, found) = (end(MethodKind::DormandPrince8, 1e-13), end(MethodKind::Stiff, 1e-10));
+            let error = found.iter().zip(&exact).fold(0.0, |e: f64, (a, b)| e.max((a - b).abs()));
+            let law = &model.spring_dampers()[0].law;
+            assert!(error < 2e-8, "{law:?} {x:?} {error:e}");
         }
     }
 }

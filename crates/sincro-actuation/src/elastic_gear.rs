@@ -6,9 +6,9 @@
 //! the first joint has −r τ. Without backlash the teeth always touch. Source: key `nordin2002`, dead-zone model.
 //!
 //! Where the teeth meet and part the law has a corner (with damping a jump), which is not located as an event: explicit
-//! methods with error control pass it with small steps, linearly implicit ones see it at their next step.
+//! methods with error control pass it with small steps, implicit ones too, which look at the branches of their laws.
 
-use sincro_math::Real;
+use sincro_math::{Branches, Real};
 
 /// Elastic gear of a model; from an `ElasticGearSpec`. Units are those of a revolute
 /// second joint.
@@ -61,6 +61,18 @@ impl<R: Real> ElasticGear<R> {
         // teeth push: on either side away from it
         let pushing = zero.if_less(p, both.min(zero), p.if_less(zero, both.max(zero), zero));
         zero.if_less(self.backlash, pushing, both)
+    }
+
+    /// Returns true if its law is in pieces: with backlash.
+    #[must_use]
+    pub fn has_branches(&self) -> bool {
+        self.backlash.lane(0) > 0.0
+    }
+
+    /// Notes the branch that the law takes at the mesh error `x` and its rate, of lane 0: the side that touches.
+    pub fn note_branch(&self, x: R, rate: R, branches: &mut Branches) {
+        let side = if self.has_branches() { self.torque(x, rate).lane(0) } else { 0.0 };
+        branches.note_side(side, 0.0);
     }
 
     /// Stiffness and damping that a linearly implicit step takes at the new state; zero where the torque is.

@@ -12,10 +12,10 @@
 use std::sync::Arc;
 
 use sincro_integrate::quadrature;
-use sincro_math::Real;
 use sincro_math::dual::Dual;
 use sincro_math::error::InvalidParameters;
 use sincro_math::expression::Expression;
+use sincro_math::{Branches, Real};
 
 /// Names in the formula of a [`NonlinearLaw`], in the order that [`Expression::parse`] takes: `x`, the deflection `[m]`
 /// or `[rad]`, and `v`, its rate `[m/s]` or `[rad/s]`.
@@ -126,6 +126,16 @@ impl NonlinearLaw {
                 sum
             }
             Self::Formula(formula) => formula.eval_in(&[x, v], &mut [R::zero(); MAX_STACK]),
+        }
+    }
+
+    /// Notes the branches that the law takes at deflection `x` and rate `v`, units as of [`NonlinearLaw::force`]: where
+    /// they stay the same it is smooth.
+    pub fn note_branches(&self, x: f64, v: f64, branches: &mut Branches) {
+        match self {
+            Self::Table(table) => branches.note(table.interval(x).0 as u64),
+            Self::Ranges(ranges) => ranges.iter().for_each(|range| branches.note_side(range.force(x, v), 0.0)),
+            Self::Formula(formula) => formula.note_branches(&[x, v], &mut [0.0; MAX_STACK], branches),
         }
     }
 

@@ -8,6 +8,7 @@
 //! | [`winding`] | N k_t i | ½ L i² | R i² |
 //! | [`activation`] | none: what acts in the place of a command | | |
 //! | [`velocity_band`] | none: where the velocity of a drive counts as its target | | |
+//! | [`friction`] | at rest: any within the limit; in motion: ∓ limit(q̇) | | limit(q̇)·\|q̇\| |
 //! | [`kink`] | none: which limited drives are locked and which saturated | | |
 //! | [`spring_damper`] | a force along the line between two points | −∫ F(x, 0) dx | (F(x, 0) − F(x, ẋ)) ẋ |
 //! | [`bushing`] | a force and torque between two frames | ½ Σ kᵢ xᵢ² | Σ cᵢ ẋᵢ² |
@@ -18,6 +19,7 @@ pub mod activation;
 pub mod bushing;
 pub mod elastic_gear;
 pub mod force_law;
+pub mod friction;
 pub mod gravity_field;
 pub mod kink;
 pub mod motor;
@@ -29,6 +31,7 @@ pub use activation::{Activation, ActivationDynamics};
 pub use bushing::Bushing;
 pub use elastic_gear::ElasticGear;
 pub use force_law::{ForceLaw, ForceTable, NonlinearLaw};
+pub use friction::Friction;
 pub use gravity_field::GravityField;
 pub use kink::{Kink, Kinks, Pivoting};
 pub use motor::{Motor, MotorMode};

@@ -15,7 +15,7 @@
 //! | ℓ, ℓ̇ | Σ over the lines of distance and its rate n·(v₂ − v₁), or Σ cᵢ qᵢ and Σ cᵢ q̇ᵢ | |
 
 use sincro_integrate::quadrature;
-use sincro_math::Real;
+use sincro_math::{Branches, Real};
 
 use crate::force_law::ForceLaw;
 use sincro_geometry::spatial::{Force, Motion, Pose, Vec3};
@@ -216,6 +216,23 @@ impl<R: Real> SpringDamper<R> {
                 }
                 sum
             }
+        }
+    }
+
+    /// Returns true if its law is in pieces: that of a rope, or a nonlinear part.
+    #[must_use]
+    pub fn has_branches(&self) -> bool {
+        self.tension_only || self.law.nonlinear.is_some()
+    }
+
+    /// Notes the branches that its law takes at a `length` of the path `[m]` and its `rate` `[m/s]`, of lane 0.
+    pub fn note_branches(&self, length: R, rate: R, branches: &mut Branches) {
+        let x = length - self.free_length;
+        if self.tension_only {
+            branches.note_side(R::zero().if_less(x, self.law.force(x, rate), R::zero()).lane(0), 0.0);
+        }
+        if let Some(law) = &self.law.nonlinear {
+            law.note_branches(x.lane(0), rate.lane(0), branches);
         }
     }
 

@@ -5,7 +5,7 @@
 //! instant, then, with the accelerations that follow, for the derivatives of its own states. The joint state vector is
 //! y = (mechanism's y, z).
 
-use sincro_math::{Dual, Real};
+use sincro_math::{Branches, Dual, Real};
 
 use crate::integrate::{Implicit, SingularStages, System};
 use crate::mechanism::Mechanism;
@@ -279,6 +279,10 @@ impl<R: Real, A: CoupledSystem<R> + ?Sized> System<R> for Coupled<'_, R, A> {
 
     fn singular_stages(&self) -> SingularStages {
         self.mechanism.singular_stages()
+    }
+
+    fn branches(&mut self, y: &[R]) -> Option<Branches> {
+        self.mechanism.branches(&y[..self.mechanism.dim()])
     }
 
     fn project_error(&mut self, y: &[R], error: &mut [R]) {

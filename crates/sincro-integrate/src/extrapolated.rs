@@ -9,11 +9,15 @@
 //!
 //! Source: key `hairer1996`, section IV.9 (linearly implicit Euler extrapolation, SEULEX), table 9.1; order and step
 //! size after section II.9 of key `hairer1993`, simplified: a step is accepted at the first row that meets the
-//! tolerance.
+//! tolerance. A step over the border of a law in pieces ([`System::branches`]) must be so short that the jump there is
+//! below the tolerance.
 
 use sincro_math::Real;
 
 use crate::{Control, Failure, FixedStep, Implicit, System, power, too_small};
+
+/// Least factor from a rejected step to the next trial.
+const LEAST_REJECTED: f64 = 0.05;
 
 /// Maximum number of rows of the tableau.
 const MAX_ROWS: usize = 8;
@@ -116,7 +120,7 @@ impl<R: Real> Extrapolated<R> {
                 return Ok(h);
             }
             let factor = if share.is_finite() { 0.8 * power(0.5 / share, 1.0 / rows as f64) } else { 0.1 };
-            self.control.h = h * factor.clamp(0.05, 0.7);
+            self.control.h = h * factor.clamp(LEAST_REJECTED, 0.7);
             if too_small(t, self.control.h) {
                 let h = self.control.h;
                 return Err(if share.is_finite() { Failure::StepTooSmall { t, h } } else { Failure::NotFinite { t } });
@@ -126,7 +130,7 @@ impl<R: Real> Extrapolated<R> {
 
     /// Adds rows until the error is below the tolerance; returns the rows made and the error's share of the tolerance.
     fn attempt<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &[R]) -> (usize, f64) {
-        let mut share = f64::INFINITY;
+        let (mut share, at_start) = (f64::INFINITY, system.branches(y));
         for j in 0..MAX_ROWS {
             self.row(system, t, h, y, j);
             if j == 0 {
@@ -139,11 +143,33 @@ impl<R: Real> Extrapolated<R> {
             let before = share;
             share = self.control.share(system, &self.tableau[j], &self.error);
             // rows that no longer help mean a step far too long
+            if share <= 1.0 && at_start.is_some() && system.branches(&self.tableau[j]) != at_start {
+                let jump = self.jump_share(system, t, h, y, j);
+                // it goes as the length of the step
+                return if jump > 1.0 { (1, jump) } else { (j + 1, share.max(jump)) };
+            }
             if share <= 1.0 || (j >= 3 && share > 0.9 * before) || !share.is_finite() {
                 return (j + 1, share);
             }
         }
         (MAX_ROWS, share)
+    }
+
+    /// Bound on the error of a step over the border between two branches of a law, as a share of the tolerance, after
+    /// row `j`: the change of the slope, smooth or not, over the whole step. No stage is at the end of a step, so that
+    /// the rows may agree and all have missed a jump there.
+    #[cold]
+    fn jump_share<S: System<R>>(&mut self, system: &mut S, t: f64, h: f64, y: &[R], j: usize) -> f64 {
+        if too_small(t, LEAST_REJECTED * h) {
+            return 0.0;
+        }
+        system.implicit_slope(t, h, Implicit::SpringsAndDampers, y, &mut self.error);
+        system.implicit_slope(t + h, h, Implicit::SpringsAndDampers, &self.tableau[j], &mut self.slope);
+        for (error, slope) in self.error.iter_mut().zip(&self.slope) {
+            *error = R::splat(h) * (*slope - *error);
+        }
+        system.project_error(&self.tableau[j], &mut self.error);
+        self.control.share(system, &self.tableau[j], &self.error)
     }
 
     /// Next step: the step that would meet the tolerance with a middling number of rows.

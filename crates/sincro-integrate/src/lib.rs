@@ -38,7 +38,7 @@ pub use hermite::{Hermite, dip, distance_dip};
 pub use quadrature::quadrature;
 pub use rk4::Rk4;
 
-use sincro_math::Real;
+use sincro_math::{Branches, Real};
 
 /// System of ordinary differential equations dy/dt = f(t, y) for an integrator, in local coordinates (a chart that is
 /// laid anew after every step); implemented by the
@@ -66,6 +66,12 @@ pub trait System<R: Real> {
     /// Stages since [`System::begin_step`] that were at a singular point, where slopes have no digits; by default none.
     fn singular_stages(&self) -> SingularStages {
         SingularStages::None
+    }
+
+    /// Branches that laws in pieces take in the state `y` ([`System::dim`] entries); `None`, the default, if no law is.
+    /// Methods whose stages say little of the end of a step look at them there.
+    fn branches(&mut self, _y: &[R]) -> Option<Branches> {
+        None
     }
 
     /// Removes from an error estimate, in the units of `y`, the part across the manifold of the system at `y`, which

@@ -2,6 +2,7 @@
 // a loop over lanes reads one index in several arrays
 #![allow(clippy::needless_range_loop)]
 
+mod branches;
 pub mod compiled;
 pub mod dual;
 pub mod elementary;
@@ -19,6 +20,7 @@ pub mod scalar_field;
 pub mod series;
 pub mod signal;
 
+pub use branches::Branches;
 pub use dual::Dual;
 pub use lanes::{LaneVisitor, Lanes};
 pub use real::{Real, Task, dot};

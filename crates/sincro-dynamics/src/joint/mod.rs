@@ -12,7 +12,6 @@
 mod ball;
 mod dof;
 mod free;
-mod friction;
 mod link;
 mod prismatic;
 mod revolute;
@@ -26,12 +25,12 @@ pub(crate) use crate::contact::WORLD;
 pub(crate) use ball::Ball;
 pub use dof::Dof;
 pub(crate) use free::Free;
-pub use friction::Friction;
 pub use link::Link;
 pub(crate) use link::Shift;
 pub(crate) use prismatic::Prismatic;
 pub(crate) use revolute::Revolute;
 pub(crate) use screw::Screw;
+pub use sincro_actuation::Friction;
 
 use crate::spatial::{ArticulatedInertia, Force, Mat3, Motion, RigidInertia, Vec3};
 

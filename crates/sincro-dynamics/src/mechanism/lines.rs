@@ -1,12 +1,15 @@
 //! Springs and dampers along paths, elastic gears and bushings: their forces on links, at one instant or at the end of
 //! a linearly implicit step, and their power. Torques of those on joints are in [`torques`](super::torques).
 
-use sincro_math::{Real, dot};
+use sincro_math::{Branches, Real, dot};
+
+use super::Mechanism;
 
 use crate::actuation::bushing::BushingMotion;
 use crate::actuation::spring_damper::{Line, Path, PathLength};
 use crate::constraint::implicit_forces::ImplicitForces;
 use crate::model::Model;
+use crate::recursions::kinematics;
 use crate::scratch::Scratch;
 use crate::spatial::Force;
 
@@ -24,6 +27,31 @@ pub(super) struct Lines<R> {
     /// Power of the forces that were added to the external wrenches `[W]`.
     power: R,
     implicit: Option<Box<ImplicitForces<R>>>,
+}
+
+impl<R: Real> Mechanism<R> {
+    /// Branches that force laws in pieces take in the state `y`: of ropes and nonlinear springs along paths and of
+    /// joints, of gears with backlash.
+    pub(super) fn branches_of_laws(&mut self, y: &[R]) -> Branches {
+        self.set_coordinates(y);
+        let (v, mut branches) = (&y[self.layout.velocities()], Branches::default());
+        kinematics::motions(&self.model, &self.q, v, v, &mut self.scratch);
+        let (model, q) = (&self.model, &self.q);
+        for element in &model.spring_dampers {
+            let at = element.length(q, v, |link| (self.scratch.links[link].v, self.scratch.poses[link]));
+            element.note_branches(at.length, at.rate, &mut branches);
+        }
+        for gear in &model.elastic_gears {
+            let (x, rate) = gear.error(q, v);
+            gear.note_branch(x, rate, &mut branches);
+        }
+        for spring in &model.nonlinear_springs {
+            let dof = &model.dofs[spring.dof];
+            let x = (q[dof.q_idx as usize] - dof.rest).lane(0);
+            spring.law.note_branches(x, v[spring.dof].lane(0), &mut branches);
+        }
+        branches
+    }
 }
 
 impl<R: Real> Lines<R> {

@@ -27,10 +27,12 @@ mod singular;
 mod slopes;
 mod torques;
 
-use sincro_math::Real;
 use sincro_math::compiled::CompiledEvaluation;
+use sincro_math::{Branches, Real};
 
-use crate::actuation::{Drive, DriveKind, ExternalForce, Motor, MotorMode, damper, friction};
+use crate::actuation::{
+    Drive, DriveKind, ElasticGear, ExternalForce, Motor, MotorMode, SpringDamper, damper, friction,
+};
 use crate::aero::rotor::{RotorLaw, SpeedSource};
 use crate::constraint::{Constraints, Level};
 use crate::ids::{MotorId, RotorId};
@@ -783,6 +785,13 @@ impl<R: Real> System<R> for Mechanism<R> {
 
     fn singular_stages(&self) -> SingularStages {
         self.singular.stages()
+    }
+
+    fn branches(&mut self, y: &[R]) -> Option<Branches> {
+        let has_laws = self.model.spring_dampers.iter().any(SpringDamper::has_branches)
+            || self.model.elastic_gears.iter().any(ElasticGear::has_branches)
+            || !self.model.nonlinear_springs.is_empty();
+        has_laws.then(|| self.branches_of_laws(y))
     }
 
     fn project_error(&mut self, y: &[R], error: &mut [R]) {

@@ -5,7 +5,7 @@
 //! or an `if` decided by a NaN is NaN, so that a failure reaches the caller instead of becoming a plausible branch.
 
 use super::function::Function;
-use crate::{Real, Task, elementary};
+use crate::{Branches, Real, Task, elementary};
 
 /// One step of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +74,11 @@ impl Op {
 }
 
 impl Binary {
+    /// Returns true if its result is 1 or 0.
+    fn is_logical(self) -> bool {
+        !matches!(self, Self::Add | Self::Sub | Self::Mul | Self::Div | Self::Pow)
+    }
+
     #[inline(always)]
     fn apply<R: Real>(self, a: R, b: R) -> R {
         match self {
@@ -149,6 +154,24 @@ pub(super) fn run_in<R: Real>(program: &[Op], values: &[R], stack: &mut [R]) -> 
         top = base + 1;
     }
     stack[0]
+}
+
+/// Runs a program on a stack of given length and notes the branches that it takes.
+pub(super) fn note_branches(program: &[Op], values: &[f64], stack: &mut [f64], branches: &mut Branches) {
+    let mut top = 0;
+    for op in program {
+        let base = top - op.takes();
+        let operands = &stack[base..top];
+        let result = op.apply(operands, values);
+        match op {
+            Op::Call(function, _) => function.note_branch(operands, result, branches),
+            Op::Not => branches.note(result.to_bits()),
+            Op::Binary(binary) if binary.is_logical() => branches.note(result.to_bits()),
+            _ => {}
+        }
+        stack[base] = result;
+        top = base + 1;
+    }
 }
 
 /// Largest number of values on the stack of a program.

@@ -1,8 +1,8 @@
 //! The functions that formulas know: name, number of arguments, value.
 
 use super::eval::{choose, sign, smaller};
-use crate::Real;
 use crate::elementary::{Binary, Unary};
+use crate::{Branches, Real};
 
 /// A function of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +129,24 @@ impl Function {
             Self::Clamp => smaller(-smaller(-x[0], -x[1]), x[2]),
             Self::Hypot => x[0].binary(Binary::Hypot, x[1]),
             Self::If => choose(x[0], x[1], x[2]),
+        }
+    }
+}
+
+impl Function {
+    /// Notes the branch taken at `x` for the value `y`; nothing for a function without branches.
+    pub(super) fn note_branch(self, x: &[f64], y: f64, branches: &mut Branches) {
+        match self {
+            Self::Abs | Self::Sign => branches.note_side(x[0], 0.0),
+            // both zeros are one
+            Self::Floor | Self::Ceil => branches.note((y + 0.0).to_bits()),
+            Self::Mod => branches.note(((x[0] / x[1]).unary(Unary::Floor) + 0.0).to_bits()),
+            Self::Atan2 => branches.note(u64::from(x[0] < 0.0 && x[1] < 0.0)),
+            Self::Min | Self::Max | Self::Clamp => {
+                branches.note(x.iter().position(|x| *x == y).map_or(u64::MAX, |k| k as u64));
+            }
+            Self::If => branches.note(u64::from(x[0] != 0.0)),
+            _ => {}
         }
     }
 }

@@ -45,7 +45,7 @@ mod unit;
 
 use core::fmt;
 
-use crate::Real;
+use crate::{Branches, Real};
 use eval::Op;
 use parse::Names;
 
@@ -148,6 +148,32 @@ impl Expression {
             return eval::run_in(&self.program, values, stack);
         }
         R::run_hot(eval::RunIn { program: &self.program, values, stack })
+    }
+
+    /// Notes the branches that the formula takes at `values`: results of comparisons and logic, signs of `abs` and
+    /// `sign`, steps of `floor`, `ceil` and `mod`, the argument that `min`, `max` and `clamp` give. Where they stay the
+    /// same the formula is smooth. `stack` as for [`Expression::eval_in`].
+    ///
+    /// ```
+    /// use sincro_math::Branches;
+    /// use sincro_math::expression::Expression;
+    ///
+    /// let rope = Expression::parse("if(x > 0, -40*x, 0)", &["x"])?;
+    /// let branches_at = |x: f64| {
+    ///     let mut branches = Branches::default();
+    ///     rope.note_branches(&[x], &mut vec![0.0; rope.stack_depth()], &mut branches);
+    ///     branches
+    /// };
+    /// assert!(branches_at(-1.0) == branches_at(-2.0) && branches_at(-1.0) != branches_at(1.0));
+    /// # Ok::<(), sincro_math::expression::ParseError>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer values than names, or the stack is shorter than [`Expression::stack_depth`].
+    pub fn note_branches(&self, values: &[f64], stack: &mut [f64], branches: &mut Branches) {
+        assert!(values.len() >= self.n_names, "{} values for {} names", values.len(), self.n_names);
+        eval::note_branches(&self.program, values, stack, branches);
     }
 
     /// Empty stack for [`Expression::eval`], with memory for [`Expression::stack_depth`] values.

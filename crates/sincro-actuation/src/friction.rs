@@ -48,7 +48,8 @@ impl<R: Real> Friction<R> {
 
     /// Friction with the limits that it has while its bearing transmits the force `load` `[N]`.
     #[inline(always)]
-    pub(crate) fn under(&self, load: R) -> Self {
+    #[must_use]
+    pub fn under(&self, load: R) -> Self {
         let more = self.load_coefficient * load;
         Self { sliding: self.sliding + more, at_rest: self.at_rest + more, ..*self }
     }
