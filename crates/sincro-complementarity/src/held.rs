@@ -16,6 +16,9 @@ use super::solver::{MAX_TURNS, RANK, SLACK, Solver, Tolerances, norm, pair, turn
 /// Least change of a rate that is an observable one, relative to the largest rate.
 const OBSERVABLE: f64 = 0.1 * SLACK;
 
+/// Size of a turn that has only let the direction of a compliant contact turn, without changing it.
+const RELEASED: f64 = f64::from_bits(1);
+
 /// Number of turns after which redundant constraints share the load in each of them.
 const UNSHARED_TURNS: usize = 4;
 
@@ -173,11 +176,13 @@ impl<R: Real> Solver<R> {
                 is_shared = true;
                 turned = self.turn_slip(problem, blocks, lambda);
             }
-            if turned > 0.0 {
+            if turned > RELEASED {
                 if n_turns >= patience && !converges(turned, last[0], MAX_TURNS - n_turns) {
                     return false;
                 }
                 last = [last[1], turned];
+            }
+            if turned > 0.0 {
                 continue;
             }
             self.refine(problem, blocks, lambda);
@@ -323,23 +328,51 @@ fn converges(turned: f64, before: f64, n: usize) -> bool {
     turned * of_two_turns.powi(n.div_ceil(2) as i32) <= SLACK
 }
 
-/// Turns friction that slips against its velocity or rate; returns the largest change of a direction, zero if all were
-/// turned so. A rate that counts as none for sticking friction gives impending slip no direction.
+/// Moves on in the search for the direction of an impending slip that seems to go along its friction: the direction is
+/// that of an instant before and has not been free to turn yet, or the iterate is beyond the limit. Returns false where
+/// neither is so: it sticks then.
+fn seek_direction<R: Real>(
+    group: &mut FrictionGroup<R>,
+    normal: f64,
+    small: Tolerances,
+    rates: &[R],
+    lambda: &[R],
+) -> bool {
+    let (limit, force) = (group.coefficient * normal, pair(group, lambda));
+    let (size, compliance) = (norm(force), norm(pair(group, rates)) / limit);
+    if group.dim != 2 || !compliance.is_finite() || compliance <= 0.0 {
+        return false;
+    }
+    if group.compliance.is_none() {
+        group.compliance = Some(R::splat(compliance));
+        return true;
+    }
+    let is_beyond = size > limit + small.force * group.slack;
+    if is_beyond {
+        group.slip(force.map(|x| R::splat(x / size)), None);
+    }
+    is_beyond
+}
+
+/// Turns friction that slips against its velocity or rate, and of compliant contacts seeks directions that go along it;
+/// returns the largest change of a direction, zero if all were turned so. A rate that counts as none for sticking
+/// friction gives impending slip no direction.
 fn turn<R: Real>(mut small: Tolerances, rates: &[R], blocks: &mut [UnilateralConstraint<R>], lambda: &[R]) -> f64 {
     small.slip = small.stick;
     let mut turned = 0.0_f64;
     for block in blocks.iter_mut().filter(|block| !block.open) {
-        let normal = lambda[block.row].lane(0);
+        let (normal, seeks) = (lambda[block.row].lane(0), block.is_compliant);
         for group in block.groups.iter_mut().flatten() {
             let before = group.direction;
             let is_turned = match group.mode {
                 ContactMode::Slip if group.is_sliding => turn_slow_friction(group, normal, rates, lambda),
-                ContactMode::Slip => turn_impending_slip(group, normal.max(0.0), small, rates, lambda) == Some(true),
+                ContactMode::Slip => turn_impending_slip(group, normal.max(0.0), small, rates, lambda)
+                    .unwrap_or_else(|| seeks && seek_direction(group, normal, small, rates, lambda)),
                 ContactMode::Stick => false,
             };
             if is_turned {
                 let change = [0, 1].map(|k| (group.direction[k] - before[k]).lane(0));
-                turned = turned.max(norm(change).max(f64::MIN_POSITIVE));
+                turned = turned.max(norm(change).max(if seeks { RELEASED } else { f64::MIN_POSITIVE }));
             }
         }
     }

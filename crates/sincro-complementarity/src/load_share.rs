@@ -2,7 +2,8 @@
 //!
 //! Where rows depend on each other, multipliers without effect on their rates may be added to any solution. The one
 //! taken is the limit of equally stiff constraints as their stiffness grows: with a compliance ε gᵢ of each row, gᵢ the
-//! diagonal of the Delassus matrix (its mean over the rows of a friction group), the rates ε gᵢ λᵢ must be compatible
+//! diagonal of the Delassus matrix (its mean over the rows of a friction group; of a compliant contact over its share
+//! of the largest normal force, since friction is as stiff as its load), the rates ε gᵢ λᵢ must be compatible
 //! with a motion of the bodies, yᵀ g λ = 0 for every combination y of rows that vanishes. Where no contact slips that
 //! is the least Σ gᵢ λᵢ². It depends on the state alone: not on the history, the frame, the order of bodies, or the
 //! units of lengths and masses, and it does not jump where a contact begins to slip. Where contacts slide, the share
@@ -19,6 +20,9 @@ use super::active_set::{ActiveSet, ContactProblem};
 use super::cone::{ContactMode, UnilateralConstraint};
 use super::dense::{Dense, RANK};
 use super::solver::{norm, pair};
+
+/// Least stiffness of friction under a given load, relative to that under the largest.
+const LEAST_STIFFNESS: f64 = 1e-6;
 
 /// Maximum number of updates of the friction that creeps.
 const MAX_CREEPING: usize = 12;
@@ -373,6 +377,19 @@ impl<R: Real> LoadShare<R> {
         for group in blocks.iter().flat_map(|block| block.groups.iter().flatten()).filter(|group| group.dim == 2) {
             let mean = (self.compliances[group.row] + self.compliances[group.row + 1]) * R::splat(0.5);
             self.compliances[group.row..group.row + 2].fill(mean);
+        }
+        // a corner that hardly touches must not be the first at its limit
+        let is_given = |block: &&UnilateralConstraint<R>| block.is_compliant && block.given.is_some();
+        let given = |block: &UnilateralConstraint<R>| block.given.unwrap_or(R::zero());
+        let largest = blocks.iter().filter(is_given).map(given).fold(R::zero(), R::max);
+        if largest.lane(0) <= 0.0 {
+            return;
+        }
+        for block in blocks.iter().filter(is_given) {
+            let factor = largest / given(block).max(R::splat(LEAST_STIFFNESS) * largest);
+            for group in block.groups.iter().flatten() {
+                self.compliances[group.row..group.row + group.dim].iter_mut().for_each(|g| *g *= factor);
+            }
         }
     }
 }

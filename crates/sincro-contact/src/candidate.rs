@@ -115,6 +115,14 @@ impl<R: Real> LinkMotions<'_, R> {
 }
 
 impl ContactCandidate {
+    /// Returns true if it is a sharp corner over a plane. Of a compliant contact friction then acts where the corner
+    /// meets the plane: corners of one face that have sunk in to different depths, as of a body that rocks, would
+    /// otherwise contradict each other in how they slide.
+    #[must_use]
+    pub fn rubs_at_plane(&self) -> bool {
+        self.radius == 0.0 && self.rim.is_none() && matches!(self.feature, Feature::Plane { .. })
+    }
+
     /// Contact kinematics: signed distance, contact point, normal and their rates, at the instant of `motions`.
     #[must_use]
     pub fn kinematics<R: Real>(&self, motions: &LinkMotions<'_, R>) -> ContactKinematics<R> {

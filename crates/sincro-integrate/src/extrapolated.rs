@@ -142,12 +142,12 @@ impl<R: Real> Extrapolated<R> {
             system.project_error(&self.tableau[j], &mut self.error);
             let before = share;
             share = self.control.share(system, &self.tableau[j], &self.error);
-            // rows that no longer help mean a step far too long
             if share <= 1.0 && at_start.is_some() && system.branches(&self.tableau[j]) != at_start {
                 let jump = self.jump_share(system, t, h, y, j);
                 // it goes as the length of the step
                 return if jump > 1.0 { (1, jump) } else { (j + 1, share.max(jump)) };
             }
+            // rows that no longer help mean a step far too long
             if share <= 1.0 || (j >= 3 && share > 0.9 * before) || !share.is_finite() {
                 return (j + 1, share);
             }

@@ -101,6 +101,11 @@ impl<R: Real> Constraints<R> {
             // no adhesion
             force.max(R::zero())
         });
+        let (mut c, mut c_dot) = (c, at.point_dot);
+        if given.is_some() && !self.sweeps && candidate.rubs_at_plane() {
+            c -= n.scale(at.distance);
+            c_dot -= n.scale(self.motions.rate(&normal, v)) + at.normal_dot.scale(at.distance);
+        }
         let (t1, t2) = tangents(n);
         let zero = Vec3::zero();
         let mut groups = [None; 3];
@@ -113,7 +118,7 @@ impl<R: Real> Constraints<R> {
             let axes = if g == 2 { [n, n] } else { [t1, t2] };
             for t in axes.into_iter().take(dim) {
                 let row = if g == 0 {
-                    Row::between(candidate.a, candidate.b, force_at(c, t), force_rate(c, t, at.point_dot, zero))
+                    Row::between(candidate.a, candidate.b, force_at(c, t), force_rate(c, t, c_dot, zero))
                 } else {
                     Row::between(candidate.a, candidate.b, Force { ang: t, lin: zero }, Force::zero())
                 };
