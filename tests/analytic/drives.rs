@@ -1,6 +1,7 @@
 //! Velocity motors and Coulomb friction: exact tracking, impulses, saturation, sticking.
 
 use sincro_dynamics::actuation::{Motor, MotorMode};
+use sincro_dynamics::batch::{BatchSettings, BatchWorld, advance, advance_alone};
 use sincro_dynamics::joint::{Friction, JointKind};
 use sincro_dynamics::model::{BodySpec, JointSpec, MassProperties, Model, ModelBuilder, NodeId};
 use sincro_dynamics::signal::Signal;
@@ -252,4 +253,55 @@ fn an_elastic_joint_behind_a_held_motor_swings_at_its_own_frequency() {
     run(&mut world, 0.05, 20);
     // the motor holds zero: q = q0 cos(√(k/m) t)
     assert!((world.state.q[1] - 0.02 * libm::cos(2.0)).abs() < 1e-9);
+}
+
+#[test]
+fn an_ideal_motor_stops_short_of_the_limits_of_its_joint() {
+    let modes = [Motor::new(MotorMode::Velocity), Motor { kp: 5.0, ..Motor::new(MotorMode::Position) }];
+    for (kind, mode) in ALL.into_iter().flat_map(|kind| modes.map(|mode| (kind, mode))) {
+        for command in [-2.0, 3.0] {
+            let limited = JointSpec { limits: vec![(-0.5, 0.3)], ..motor(mode) };
+            let model = cart(1.5, limited);
+            let mut x = State::new(&model);
+            x.commands[0] = command;
+            let mut world = World::new(model, x, kind, 1e-9, 1e-3);
+            let mut furthest = 0.0_f64;
+            for k in 0..100 {
+                world.advance(f64::from(k) * 0.02, 0.02).unwrap();
+                furthest = furthest.max(world.state.q[0] * command.signum());
+            }
+            let bound = if command < 0.0 { 0.5 } else { 0.3 };
+            let q = world.state.q[0] * command.signum();
+            assert!(furthest <= bound && bound - q < 3e-9, "{kind:?} {mode:?} {furthest} {q}");
+            assert!(world.state.v[0].abs() < 1e-12, "{kind:?} {mode:?}");
+            // away from it at once
+            world.state.commands[0] = -command;
+            world.advance(2.0, 0.02).unwrap();
+            assert!(world.state.v[0] * command < 0.0, "{kind:?} {mode:?}");
+        }
+    }
+}
+
+#[test]
+fn ideal_motors_at_limits_have_the_bits_of_worlds_alone_in_lanes() {
+    let position = Motor { kp: 5.0, ..Motor::new(MotorMode::Position) };
+    let model = cart(1.5, JointSpec { limits: vec![(-0.5, 0.3)], ..motor(position) });
+    let start = || -> Vec<BatchWorld> {
+        let state = |k: i32| {
+            let mut x = State::new(&model);
+            x.commands[0] = 0.4 * f64::from(k) - 1.5;
+            x
+        };
+        (0..8).map(|k| BatchWorld::new(model.clone(), state(k))).collect()
+    };
+    for method in [MethodKind::Rk4, MethodKind::SemiImplicitEuler] {
+        let settings = BatchSettings { method, h: 0.02, n_steps: 60, record_every: 0 };
+        let (mut together, mut alone) = (start(), start());
+        advance(&mut together, &settings).unwrap();
+        alone.iter_mut().for_each(|world| advance_alone(world, &settings));
+        for (one, other) in together.iter().zip(&alone) {
+            assert_eq!((&one.state.q, &one.state.v), (&other.state.q, &other.state.v), "{method:?}");
+            assert!((-0.5..=0.3).contains(&one.state.q[0]), "{method:?} {:?}", one.state.q);
+        }
+    }
 }

@@ -13,6 +13,9 @@
 
 use sincro_math::Real;
 
+/// Distance from a limit of its joint at which an ideal motor stops `[rad]` or `[m]`: a limit counts as closed at 1e-9.
+pub const LEFT_TO_LIMIT: f64 = 2e-9;
+
 /// Control mode of a [`Motor`]: the meaning and unit of its command.
 ///
 /// ```

@@ -206,7 +206,7 @@ impl TangentWorld {
     pub fn advance(&mut self, t: f64, h: f64, system: &mut dyn CoupledSystem<D>) -> Result<(), TangentStop> {
         system.set_time_event(f64::INFINITY);
         self.load(system);
-        self.jump_to_targets();
+        self.jump_to_targets(h);
         self.sub_steps(t, h, system)?;
         self.mechanism.store(&self.y, &mut self.state);
         system.states().copy_from_slice(&self.y[self.mechanism.dim()..]);
@@ -235,8 +235,8 @@ impl TangentWorld {
         self.y[self.mechanism.dim()..].copy_from_slice(system.states());
     }
 
-    /// Brings motors without limit to their target velocities of this tick.
-    fn jump_to_targets(&mut self) {
+    /// Brings motors without limit to their target velocities of this tick of length `h` `[s]`.
+    fn jump_to_targets(&mut self, h: f64) {
         if self.mechanism.drives.is_empty() {
             return;
         }
@@ -245,18 +245,18 @@ impl TangentWorld {
         let velocities = self.mechanism.layout().velocities();
         for i in 0..self.mechanism.drives.len() {
             let dof = self.mechanism.model.params.drives[i].dof;
-            self.mechanism.prescribed_acceleration[dof] = self.target_velocity(i) - self.y[velocities.start + dof];
+            self.mechanism.prescribed_acceleration[dof] = self.target_velocity(i, h) - self.y[velocities.start + dof];
         }
         self.apply_impulse();
         for i in 0..self.mechanism.drives.len() {
             let dof = self.mechanism.model.params.drives[i].dof;
-            self.y[velocities.start + dof] = self.target_velocity(i);
+            self.y[velocities.start + dof] = self.target_velocity(i, h);
         }
     }
 
-    fn target_velocity(&self, drive: usize) -> D {
+    fn target_velocity(&self, drive: usize, h: f64) -> D {
         let Mechanism { model, commands, .. } = &self.mechanism;
-        model.target_velocity(&model.params.drives[drive], self.mechanism.base(), commands)
+        model.target_velocity_within(&model.params.drives[drive], self.mechanism.base(), commands, h)
     }
 
     /// Applies the impulses that bring about the prescribed changes of velocity, and adds those of motors to their

@@ -98,7 +98,7 @@ impl<R: Real> Task for Step<'_, R> {
         let Self { worlds, mut system, t, h } = self;
         let has_drives = !worlds.mechanism.drives.is_empty();
         if has_drives {
-            worlds.latch_target_velocities();
+            worlds.latch_target_velocities(h);
         }
         let mut modes = worlds.begin_modes();
         if has_drives && modes.is_none() {
@@ -453,12 +453,13 @@ impl<R: Real> LaneWorlds<R> {
         self.mechanism.mark_locked();
     }
 
-    /// Latches the target velocities of the drives for a step.
+    /// Latches the target velocities of the drives for a step of length `h` `[s]`.
     #[inline(always)]
-    fn latch_target_velocities(&mut self) {
+    fn latch_target_velocities(&mut self, h: f64) {
         let mechanism = &self.mechanism;
         for (drive, velocity) in mechanism.model.params.drives.iter().zip(&mut self.target_velocities) {
-            *velocity = mechanism.model.target_velocity(drive, mechanism.base(), &mechanism.commands);
+            let (q, commands) = (mechanism.base(), &mechanism.commands);
+            *velocity = mechanism.model.target_velocity_within(drive, q, commands, h);
         }
     }
 

@@ -3,6 +3,7 @@
 use sincro_math::Real;
 
 use super::Model;
+use crate::actuation::motor::LEFT_TO_LIMIT;
 use crate::actuation::{Drive, DriveKind};
 use crate::ids::MotorId;
 use crate::joint::JointKind;
@@ -67,6 +68,22 @@ impl<R: Real> Model<R> {
                 self.motor(i).target_velocity(q, commands[i.index()])
             }
         }
+    }
+
+    /// Target velocity as of [`Model::target_velocity`], of an ideal motor such that its joint stops short of its
+    /// limits within a tick of length `h` `[s]`: whatever torque a stop has, such a motor has more.
+    #[inline(always)]
+    pub(crate) fn target_velocity_within(&self, drive: &Drive, q: &[R], commands: &[R], h: f64) -> R {
+        let target = self.target_velocity(drive, q, commands);
+        let DriveKind::Motor(i) = drive.kind else { return target };
+        let mut within = target;
+        for limit in self.params.constraints.limits.iter().filter(|limit| limit.dof == drive.dof) {
+            let sign = R::splat(limit.sign);
+            let distance = sign * (q[limit.coordinate] - R::splat(limit.bound));
+            let left = (distance - R::splat(LEFT_TO_LIMIT)).max(R::zero());
+            within = sign * (sign * within).max(-(left * R::splat(1.0 / h)));
+        }
+        R::splat(f64::MAX).if_less(self.motor(i).max_torque, within, target)
     }
 
     /// Drives that follow from joints and motors: friction first, then motors, then locked degrees of freedom.

@@ -5,13 +5,14 @@
 use super::World;
 use crate::actuation::DriveKind;
 use crate::coupled::CoupledSystem;
+use crate::mechanism::Mechanism;
 
 impl World {
-    /// Latches the target velocity of each drive for this tick.
-    pub(super) fn latch_target_velocities(&mut self) {
-        for (i, drive) in self.mechanism.model.params.drives.iter().enumerate() {
-            self.target_velocities[i] =
-                self.mechanism.model.target_velocity(drive, self.mechanism.base(), &self.mechanism.commands);
+    /// Latches the target velocity of each drive for a tick of length `h` `[s]`.
+    pub(super) fn latch_target_velocities(&mut self, h: f64) {
+        let Mechanism { model, commands, .. } = &self.mechanism;
+        for (drive, target) in model.params.drives.iter().zip(&mut self.target_velocities) {
+            *target = model.target_velocity_within(drive, self.mechanism.base(), commands, h);
         }
     }
 

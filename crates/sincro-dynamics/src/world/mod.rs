@@ -195,6 +195,8 @@ pub struct World {
     base_before: Vec<f64>,
     report_before: SolverReport,
     target_velocities: Vec<f64>,
+    /// Those of the tick last made, while the forces of the next one are looked at.
+    made_target_velocities: Vec<f64>,
     jumps: Vec<bool>,
     /// Limited drives whose modes are being decided.
     kinks: Kinks,
@@ -322,6 +324,7 @@ impl World {
             base_before,
             report_before: SolverReport::default(),
             target_velocities: vec![0.0; n_drives],
+            made_target_velocities: vec![0.0; n_drives],
             jumps: vec![false; n_drives],
             kinks: Kinks::new(n_drives),
             present_kinks: Vec::with_capacity(n_drives),
@@ -484,7 +487,7 @@ impl World {
     /// see [`World::initialize`].
     pub fn initialize_with(&mut self, t: f64, system: &mut dyn CoupledSystem<f64>) {
         self.load(system);
-        self.latch_target_velocities();
+        self.latch_target_velocities(self.step_size);
         if self.is_next_step_large() {
             self.find_step_forces(t, system);
         } else {
@@ -505,7 +508,8 @@ impl World {
     /// Bytes that this world takes on the heap, the model left out; for memory statistics.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
-        let own = self.y.len() * 3 + self.base_before.len() + self.target_velocities.len() + self.accelerations.len();
+        let own =
+            self.y.len() * 3 + self.base_before.len() + 2 * self.target_velocities.len() + self.accelerations.len();
         let method = match &self.method {
             Method::SemiImplicitEuler => self.y.len(),
             Method::Rk4(_) => 5 * self.y.len(),
@@ -552,7 +556,7 @@ impl World {
         if system.acts() {
             self.attached_before.copy_from_slice(&self.y[self.mechanism.dim()..]);
         }
-        self.latch_target_velocities();
+        self.latch_target_velocities(h);
         let reached = if let Method::SemiImplicitEuler = self.method {
             let h = h / f64::from(self.substeps);
             (0..self.substeps).try_for_each(|k| self.velocity_level_step(t + f64::from(k) * h, h, system))
@@ -637,8 +641,10 @@ impl World {
     /// As [`World::rates`], over the next step, whose contacts are solved as a whole.
     fn step_rates(&mut self, t: f64) -> (&[f64], &[f64]) {
         let n = self.model().n_v();
-        self.latch_target_velocities();
+        self.made_target_velocities.copy_from_slice(&self.target_velocities);
+        self.latch_target_velocities(self.next_step);
         self.find_step_forces(t, &mut NoCoupling);
+        self.target_velocities.copy_from_slice(&self.made_target_velocities);
         for k in 0..n {
             self.accelerations[k] = (self.step_end_velocities[k] - self.state.v[k]) / self.next_step;
         }
@@ -712,6 +718,7 @@ impl World {
         self.state.drives.resize(n, 0.0);
         self.state.drives.copy_from_slice(&self.mechanism.drives);
         self.target_velocities.resize(n, 0.0);
+        self.made_target_velocities.resize(n, 0.0);
         self.jumps.resize(n, false);
         self.kinks.resize(n);
     }
