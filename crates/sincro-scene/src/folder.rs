@@ -138,7 +138,9 @@ impl Folder {
         let beside = std::fs::read_dir(path.parent()?).ok()?;
         let mut names: Vec<String> = beside
             .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-            .filter(|name| Path::new(name).extension() == missing.extension())
+            .filter(|name| {
+                Path::new(name).extension() == missing.extension() && path.file_name() != Some(name.as_ref())
+            })
             .collect();
         names.sort();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();

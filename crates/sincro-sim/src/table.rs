@@ -174,6 +174,10 @@ impl Table {
     /// [`FileError`]: the file cannot be read, is not CSV, has no column, or a field is not a number.
     pub fn read_csv(path: &Path) -> Result<Self, FileError> {
         let failed = |cause: io::Error| FileError::new("read", path, cause);
+        let metadata = std::fs::metadata(path).map_err(failed)?;
+        if !metadata.is_file() && !metadata.is_dir() {
+            return Err(failed(io::Error::new(io::ErrorKind::InvalidInput, "it is a device or pipe, not a file")));
+        }
         let mut reader = csv::Reader::from_path(path).map_err(|e| failed(e.into()))?;
         let header = reader.headers().map_err(|e| failed(e.into()))?.clone();
         if header.is_empty() {

@@ -26,7 +26,11 @@ const NO_LOOP: f64 = 1e-6;
 /// Rate of the states at an equilibrium, or their change in a period, in their own units.
 const STEADY: f64 = 1e-6;
 
-/// Base steps that a sampled loop may take to be linearised: a fraction of a second.
+/// Change of a state in a period, in its own unit, from which on nothing small is about the start: steps over it may
+/// take minutes.
+const VIOLENT: f64 = 1e3;
+
+/// Steps of the method that a sampled loop may take to be linearised: a fraction of a second.
 const MAX_STEPS: u64 = 40_000;
 
 /// Loop that a diagram closes and that is unstable at the start of the run; result of [`unstable_loop`].
@@ -99,8 +103,12 @@ pub fn unstable_loop(loaded: &Loaded) -> Option<UnstableLoop> {
     let held = linearize(loaded, &at, &Request::default()).ok()?;
     let is_sampled = !at_ticks.is_empty() || program.steps.iter().any(|step| matches!(step.rate, Rate::Sampled(_)));
     let (closed, is_steady) = if is_sampled {
-        let n_steps = period(loaded, &at).ok()?.saturating_mul(2 * n_states(&at) + 1);
-        let found = (n_steps <= MAX_STEPS).then(|| linearize_sampled(loaded, &at).ok()).flatten()?;
+        let (period, n_runs) = (period(loaded, &at).ok()?, 2 * n_states(&at) + 1);
+        if held.drift() * period as f64 * at.step() > VIOLENT {
+            return None;
+        }
+        let is_short = period.saturating_mul(n_runs) <= MAX_STEPS && is_short_run(loaded, period, MAX_STEPS / n_runs);
+        let found = is_short.then(|| linearize_sampled(loaded, &at).ok()).flatten()?;
         (growth(&found.system), found.drift < STEADY)
     } else {
         let found = linearize(loaded, &at, &Request { is_closed: true, ..Request::default() }).ok()?;
@@ -118,6 +126,12 @@ fn is_smooth(loaded: &Loaded, value: usize) -> bool {
     let kinds = loaded.scene.sensors.iter().flat_map(|s| std::iter::repeat_n(s.kind, s.kind.values().len()));
     let of_value = kinds.into_iter().nth(value);
     of_value.is_some_and(|kind| !matches!(kind, SensorKind::Contact { .. } | SensorKind::Proximity { .. }))
+}
+
+/// Returns true if the method makes at most `most` steps over the first `period` base steps.
+fn is_short_run(loaded: &Loaded, period: u64, most: u64) -> bool {
+    let mut run = LockStep::new(loaded, method_for(loaded).0, false);
+    run.start().is_ok() && (0..period).all(|_| run.advance().is_ok() && run.world().statistics().steps <= most)
 }
 
 /// Number of states of a run, at least.

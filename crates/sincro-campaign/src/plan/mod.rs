@@ -149,7 +149,11 @@ impl Plan {
     /// values without meaning, tables that cannot be read, too many runs.
     pub fn open(path: &Path) -> Result<Self, Diagnostics> {
         let path = &if path.is_dir() { path.join("experiment.toml") } else { path.to_owned() };
-        let text = std::fs::read_to_string(path).map_err(|error| {
+        let read = |path: &Path| match std::fs::metadata(path)?.is_file() {
+            true => std::fs::read_to_string(path),
+            false => Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a file")),
+        };
+        let text = read(path).map_err(|error| {
             let words = format!("cannot read the plan `{}`: {error}", path.display());
             Diagnostics::from(sincro_scene::diagnostic::Diagnostic::without_location(words))
         })?;

@@ -33,9 +33,12 @@ fn described(named: &Named) -> String {
     }
 }
 
-/// Enumeration of the indices of a list.
+/// Enumeration of the indices of a list; a comment for an empty one, which C has no enumeration for.
 fn enumeration(prefix: &str, list: impl Iterator<Item = (usize, String, String)>) -> String {
     let list: Vec<(usize, String, String)> = list.collect();
+    if list.is_empty() {
+        return String::from("/* none */\n");
+    }
     let names = identifiers(list.iter().map(|(_, name, _)| name.as_str()));
     let mut text = String::from("enum {\n");
     for ((index, _, comment), name) in list.iter().zip(&names) {
@@ -63,6 +66,10 @@ pub(super) fn header(request: &Request<'_>, parts: &Parts) -> String {
         _ = writeln!(text, "/* State of the plant, and the commands that it is under. */\ntypedef struct {{");
         for (field, what, _) in &fields {
             _ = writeln!(text, "    double {field}[{upper}_N_{}]; /* {what} */", field.to_uppercase());
+        }
+        if fields.is_empty() {
+            // C has no structure without members
+            _ = writeln!(text, "    unsigned char nothing; /* no joint, no state */");
         }
         _ = writeln!(text, "}} {name}_plant;\n");
         _ = writeln!(text, "/* Sets the initial state and the constant commands of the scene. */");
@@ -174,6 +181,9 @@ fn signature(name: &str, function: &Function) -> String {
     let inputs = function.inputs.iter().filter(|(_, n)| *n > 0).map(|(field, n)| format!("const double {field}[{n}]"));
     let outputs = function.outputs.iter().filter(|(_, n)| *n > 0).map(|(field, n)| format!("double {field}[{n}]"));
     let all: Vec<String> = inputs.chain(outputs).collect();
+    if all.is_empty() {
+        return format!("void {name}_{}(void)", function.name);
+    }
     format!("void {name}_{}({})", function.name, all.join(", "))
 }
 
@@ -202,6 +212,7 @@ pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
         ["q", "v", "elements", "commands"].iter().zip(sizes).map(|(field, n)| (format!("plant->{field}"), n)).collect();
     if let Some(step) = &parts.step {
         text += "\n/* ---- plant ---- */\n";
+        let none = if sizes.iter().all(|n| *n == 0) { "    (void)plant;\n" } else { "" };
         let initial = request.initial;
         _ = writeln!(text, "\nvoid {name}_plant_init({name}_plant *plant) {{");
         let commands: Vec<f64> = request.commands.iter().map(|signal| signal.value(0.0)).collect();
@@ -212,7 +223,8 @@ pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
                 _ = writeln!(text, "    plant->{field}[{k}] = {};", number(*value));
             }
         }
-        _ = writeln!(text, "}}\n\nvoid {name}_plant_step({name}_plant *plant) {{");
+        _ = writeln!(text, "{none}}}\n\nvoid {name}_plant_step({name}_plant *plant) {{");
+        text += none;
         let at = |k: usize| element(&of_plant, k);
         text += &statements(step, dialect, at, at);
         text += "}\n";
@@ -247,6 +259,9 @@ pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
                 text,
                 "}}\n\nvoid {name}_command(const {name}_controller *controller, {name}_plant *plant) {{"
             );
+            if diagram.commands.is_empty() {
+                text += "    (void)controller;\n    (void)plant;\n";
+            }
             for command in &diagram.commands {
                 _ = writeln!(
                     text,

@@ -103,7 +103,7 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     let mut ready = Vec::new();
     let mut refused = None;
     for scene in &arguments.scenes {
-        match prepare(arguments, scene) {
+        match prepare(arguments, scene, &ready) {
             Ok(scene) => ready.push(scene),
             Err(exit) => refused = Some(exit),
         }
@@ -122,8 +122,8 @@ pub(crate) fn run(arguments: &Arguments) -> Exit {
     worst
 }
 
-/// Loads a scene and begins its folder of results.
-fn prepare(arguments: &Arguments, scene: &Path) -> Result<Ready, Exit> {
+/// Loads a scene and begins its folder of results, another one than those of the scenes that are ready.
+fn prepare(arguments: &Arguments, scene: &Path, others: &[Ready]) -> Result<Ready, Exit> {
     let overrides = overrides(arguments).map_err(|found| diagnostics::refuse_diagnostics(&found))?;
     let OpenedScene { source, set: mut overrides, mut loaded } = OpenedScene::with_settings(scene, overrides)?;
     if let Some(part) = &arguments.only {
@@ -135,6 +135,10 @@ fn prepare(arguments: &Arguments, scene: &Path) -> Result<Ready, Exit> {
         Some(out) if arguments.scenes.len() > 1 => Some(out.join(&name)),
         out => out.clone(),
     };
+    if let Some(out) = shown.as_ref().filter(|_| others.iter().any(|other| other.shown == shown)) {
+        let message = format!("two of the scenes are named `{name}`, both would write `{}`", out.display());
+        return Err(diagnostics::refuse(&message, Some("run them one by one, each with its own --out DIR")));
+    }
     let folder = match &shown {
         Some(out) => ResultFolder::replace(out),
         None => ResultFolder::numbered(&Path::new("results").join(&name)),
