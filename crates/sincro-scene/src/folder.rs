@@ -175,8 +175,12 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-/// Reads a whole text file, or says in words why not.
-fn read_text(path: &Path) -> Result<String, String> {
+/// Reads a whole UTF-8 text file.
+///
+/// # Errors
+///
+/// What is wrong, in words: there is no such file, it may not be read, is a device or pipe, too large, or not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, String> {
     let (bytes, shown) = (read_bytes(path)?, path.display());
     let text = String::from_utf8(bytes).map_err(|error| {
         let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count();

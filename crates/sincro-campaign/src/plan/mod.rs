@@ -15,7 +15,8 @@ mod resolve;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sincro_scene::diagnostic::{Diagnostics, Located, SourceText};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, Located, SourceText};
+use sincro_scene::folder::read_text;
 use sincro_scene::overrides::Override;
 
 use crate::design::random::{Purpose, bits, permuted, uniform};
@@ -149,14 +150,8 @@ impl Plan {
     /// values without meaning, tables that cannot be read, too many runs.
     pub fn open(path: &Path) -> Result<Self, Diagnostics> {
         let path = &if path.is_dir() { path.join("experiment.toml") } else { path.to_owned() };
-        let read = |path: &Path| match std::fs::metadata(path)?.is_file() {
-            true => std::fs::read_to_string(path),
-            false => Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is not a file")),
-        };
-        let text = read(path).map_err(|error| {
-            let words = format!("cannot read the plan `{}`: {error}", path.display());
-            Diagnostics::from(sincro_scene::diagnostic::Diagnostic::without_location(words))
-        })?;
+        let text =
+            read_text(path).map_err(|why| Diagnostic::without_location(format!("cannot read the plan: {why}")))?;
         Self::parse(path, text)
     }
 

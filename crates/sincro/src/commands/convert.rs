@@ -1,16 +1,16 @@
 //! `sincro convert`: scene folders in the present format, comments kept.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use sincro_scene::diagnostic::{Diagnostics, SourceText};
+use sincro_scene::diagnostic::{Diagnostic, Diagnostics, SourceText};
 use sincro_scene::document::Document;
 use sincro_scene::experiment::experiment_schema;
+use sincro_scene::folder::read_text;
 use sincro_scene::normalize::convert;
 use sincro_scene::scene::scene_schema;
-use sincro_sim::file::{FileError, write_atomically};
+use sincro_sim::file::write_atomically;
 
 use crate::{Exit, diagnostics};
 
@@ -82,7 +82,6 @@ fn files(scene: &Path) -> Result<Vec<Converted>, Diagnostics> {
 }
 
 fn read(path: &Path) -> Result<Arc<SourceText>, Diagnostics> {
-    let text = fs::read_to_string(path).map_err(|e| FileError::new("read", path, e));
-    let text = text.map_err(|e| sincro_scene::diagnostic::Diagnostic::without_location(e.to_string()))?;
+    let text = read_text(path).map_err(Diagnostic::without_location)?;
     Ok(Arc::new(SourceText { path: path.to_owned(), text }))
 }

@@ -8,6 +8,7 @@ use sincro_campaign::fit::parse_all;
 use sincro_campaign::tune::{Goal, Limit, Method, Robust, Tuned, Tuning, measure_tables};
 use sincro_campaign::{Campaign, Plan};
 use sincro_scene::diagnostic::{Diagnostic, Diagnostics};
+use sincro_scene::folder::read_text;
 use sincro_sim::run::RunError;
 
 use super::console::Bar;
@@ -71,9 +72,8 @@ fn campaign(arguments: &Arguments) -> Result<Campaign, Diagnostics> {
     let measures = measure_tables(&arguments.measure)?;
     let is_plan = path.is_file() && path.file_name().is_none_or(|name| name != "experiment.toml");
     let mut plan = if is_plan {
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            Diagnostic::without_location(format!("cannot read the plan `{}`: {error}", path.display()))
-        })?;
+        let text =
+            read_text(path).map_err(|why| Diagnostic::without_location(format!("cannot read the plan: {why}")))?;
         Plan::parse(path, format!("{text}\n{measures}"))?
     } else {
         let scene = std::path::absolute(path).unwrap_or_else(|_| path.clone());
