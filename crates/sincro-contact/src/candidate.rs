@@ -2,15 +2,18 @@
 //! feature of another.
 //!
 //! Every smooth contact of the shapes here has this form: a sphere, the end of a capsule or a vertex against a plane, a
-//! point or a line, the rim of a disc against a plane. The signed distance g (gap function), the normal n (from b to a)
-//! and the contact point C satisfy ġ = n·(v_a(C) − v_b(C)); with ṅ and Ċ given here the acceleration level of a
-//! constraint follows, curvature included. Source: key `acary2008`, chapter 3.
+//! point, a line or a circle, the rim of a disc against a plane, an edge across an edge. The signed distance g (gap
+//! function), the normal n (from b to a) and the contact point C satisfy ġ = n·(v_a(C) − v_b(C)); with ṅ and Ċ given
+//! here the acceleration level of a constraint follows, curvature included. The gap at a point that is cut off, or over
+//! a vertex, also changes as C moves over tilted surfaces. Source: key `acary2008`, chapter 3.
 //!
 //! | feature | signed distance g | ṅ |
 //! |---|---|---|
 //! | plane (o, n) | n·(P − o) − r | ω_b × n |
 //! | point o | \|P − o\| − r | (Ḋ − n (n·Ḋ))/\|D\|, D = P − o |
 //! | line (o, d) | \|D\| − r, D = P − o − d (d·(P − o)) | the same |
+//! | circle (o, k, R) | \|D\| − r, D = P − o − R e, e along P − o across k | the same |
+//! | line (o, w) under an edge along u | n·(P − o), n = c/\|c\|, c = u × w | (ċ − n (n·ċ))/\|c\|, ċ = (ω_a × u) × w + u × (ω_b × w) |
 
 use sincro_math::Real;
 
@@ -36,8 +39,17 @@ pub enum Feature {
     Line {
         /// Point of the line `[m]`.
         origin: Vec3<f64>,
-        /// Unit vector along the line.
+        /// Vector along the line: a unit vector, but with an edge that crosses it, where it has any length.
         direction: Vec3<f64>,
+    },
+    /// Circle, the rim of a disc.
+    Circle {
+        /// Centre `[m]`.
+        origin: Vec3<f64>,
+        /// Unit vector along its axis.
+        axis: Vec3<f64>,
+        /// Radius `[m]`.
+        radius: f64,
     },
 }
 
@@ -54,21 +66,46 @@ pub struct ContactCandidate {
     pub radius: f64,
     /// Share of the radius that belongs to a.
     pub radius_a: f64,
-    /// Disc whose rim it is, rounded by the radius; the point is then the disc's centre. Planes only.
-    pub rim: Option<Rim>,
+    /// Edge or face that the point moves along, where it does not stay in place on body a.
+    pub edge: Option<Edge>,
     /// Feature of body b that it may touch.
     pub feature: Feature,
     /// Features of the surfaces that the candidate comes from, the same as long as the same ones touch; 0: not known.
     pub id: u32,
 }
 
-/// Disc of which the lowest point over a plane may touch it.
+/// Edge of body a on which the contact point is, in link axes of a; vectors are of any length where not said otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rim {
-    /// Unit vector along the axis of the disc, in link axes of a.
-    pub axis: Vec3<f64>,
-    /// Radius of the disc `[m]`; the rounding of its edge is the radius of the candidate.
-    pub radius: f64,
+pub enum Edge {
+    /// Edge through the point, which crosses the line of body b. The signed distance is that of the two lines, negative
+    /// where they have passed each other.
+    Crossing {
+        /// Along the edge, a unit vector where it is curved; the normal points along its vector product with the line.
+        direction: Vec3<f64>,
+        /// Curvature of the edge: the rate of a unit vector along it by its length, zero of a straight one `[1/m]`.
+        curvature: Vec3<f64>,
+    },
+    /// Straight edge over the plane of b, cut off by a side of the surface in that plane, which goes through the
+    /// plane's point: the contact point moves along both.
+    Cut {
+        /// Along the edge.
+        direction: Vec3<f64>,
+        /// Normal of the side, in link axes of b.
+        side: Vec3<f64>,
+    },
+    /// Face over the plane of b: the contact point is that over the plane's point, a vertex of the surface in it.
+    OverVertex {
+        /// Normal of the face.
+        face: Vec3<f64>,
+    },
+    /// Rim of a disc, the lowest point of which over a plane may touch it; the candidate's point is its centre, the
+    /// rounding of the edge is the radius of the candidate.
+    Rim {
+        /// Unit vector along the axis of the disc.
+        axis: Vec3<f64>,
+        /// Radius of the disc `[m]`.
+        radius: f64,
+    },
 }
 
 /// Contact kinematics of a candidate at one instant, world axes.
@@ -115,12 +152,41 @@ impl<R: Real> LinkMotions<'_, R> {
 }
 
 impl ContactCandidate {
-    /// Returns true if it is a sharp corner over a plane. Of a compliant contact friction then acts where the corner
-    /// meets the plane: corners of one face that have sunk in to different depths, as of a body that rocks, would
-    /// otherwise contradict each other in how they slide.
+    /// Returns true if friction of a contact, `is_compliant` or not, acts where a sharp corner or edge meets the plane
+    /// or edge of the other body, not at the contact point: corners of one face that have sunk in to different depths,
+    /// as of a body that rocks, would otherwise contradict each other in how they slide.
     #[must_use]
-    pub fn rubs_at_plane(&self) -> bool {
-        self.radius == 0.0 && self.rim.is_none() && matches!(self.feature, Feature::Plane { .. })
+    pub fn rubs_at_plane(&self, is_compliant: bool) -> bool {
+        is_compliant && self.radius == 0.0 && !matches!(self.edge, Some(Edge::Rim { .. }))
+    }
+
+    /// Returns true if its distance has a sign on either side of the feature, as over a plane; that from a point or a
+    /// line goes through the least there is and grows again.
+    #[must_use]
+    pub fn is_signed(&self) -> bool {
+        matches!(self.feature, Feature::Plane { .. }) || self.edge.is_some()
+    }
+
+    /// Point at which friction of a contact, `is_compliant` or not, acts, in the world frame `[m]`.
+    #[must_use]
+    pub fn friction_point<R: Real>(&self, at: &ContactKinematics<R>, is_compliant: bool) -> Vec3<R> {
+        if self.rubs_at_plane(is_compliant) { at.point - at.normal.scale(at.distance) } else { at.point }
+    }
+
+    /// Velocity of that point `[m/s]`; `twist_b` is that of link b.
+    #[must_use]
+    pub fn friction_point_dot<R: Real>(
+        &self,
+        at: &ContactKinematics<R>,
+        twist_b: Motion<R>,
+        is_compliant: bool,
+    ) -> Vec3<R> {
+        if !self.rubs_at_plane(is_compliant) {
+            return at.point_dot;
+        }
+        // the rate of the distance at the point as it moves, which need not be with body a
+        let rate = at.normal.dot(at.point_dot - twist_b.lin - twist_b.ang.cross(at.point));
+        at.point_dot - at.normal.scale(rate) - at.normal_dot.scale(at.distance)
     }
 
     /// Contact kinematics: signed distance, contact point, normal and their rates, at the instant of `motions`.
@@ -135,16 +201,17 @@ impl ContactCandidate {
             Feature::Plane { origin, normal } => {
                 let n = x_b.rot.mul_vec(Vec3::splat(normal.0));
                 let n_dot = w_b.cross(n);
-                let height = n.dot(p - x_b.point(Vec3::splat(origin.0)));
-                if let Some(Rim { axis, radius: of_disc }) = self.rim {
+                let o = x_b.point(Vec3::splat(origin.0));
+                let height = n.dot(p - o);
+                if let Some(Edge::Rim { axis, radius: of_disc }) = self.edge {
                     let axis = x_a.rot.mul_vec(Vec3::splat(axis.0));
                     let axis_dot = motions.twist_of(self.a).ang.cross(axis);
                     return rim(height, (p, p_dot), (n, n_dot), (axis, axis_dot), (R::splat(of_disc), radius));
                 }
-                let point = p - n.scale(radius);
+                let (p, p_dot) = self.moved(motions, (x_a, x_b), (p, p_dot), (o, n));
                 ContactKinematics {
-                    distance: height - radius,
-                    point,
+                    distance: n.dot(p - o) - radius,
+                    point: p - n.scale(radius),
                     normal: n,
                     point_dot: p_dot - n_dot.scale(radius),
                     normal_dot: n_dot,
@@ -154,15 +221,97 @@ impl ContactCandidate {
                 let o = x_b.point(Vec3::splat(origin.0));
                 self.of_distance(p, p_dot, p - o, p_dot - motions.velocity_of(self.b, o))
             }
+            Feature::Circle { origin, axis, radius } => {
+                let o = x_b.point(Vec3::splat(origin.0));
+                let k = x_b.rot.mul_vec(Vec3::splat(axis.0));
+                let k_dot = w_b.cross(k);
+                let (d, d_dot) = (p - o, p_dot - motions.velocity_of(self.b, o));
+                let (high, high_dot) = (k.dot(d), k_dot.dot(d) + k.dot(d_dot));
+                let (across, across_dot) = (d - k.scale(high), d_dot - k_dot.scale(high) - k.scale(high_dot));
+                let inverse = R::one() / across.norm();
+                let e = across.scale(inverse);
+                let e_dot = (across_dot - e.scale(e.dot(across_dot))).scale(inverse);
+                let radius = R::splat(radius);
+                self.of_distance(p, p_dot, d - e.scale(radius), d_dot - e_dot.scale(radius))
+            }
             Feature::Line { origin, direction } => {
                 let o = x_b.point(Vec3::splat(origin.0));
                 let d = x_b.rot.mul_vec(Vec3::splat(direction.0));
                 let d_dot = w_b.cross(d);
+                if let Some(Edge::Crossing { direction, curvature }) = self.edge {
+                    let [u, k] = [direction, curvature].map(|x| x_a.rot.mul_vec(Vec3::splat(x.0)));
+                    return self.crossing(motions, (p, u, k), (o, d));
+                }
                 let (rho, rho_dot) = (p - o, p_dot - motions.velocity_of(self.b, o));
                 let along = d.dot(rho);
                 let along_dot = d_dot.dot(rho) + d.dot(rho_dot);
                 self.of_distance(p, p_dot, rho - d.scale(along), rho_dot - d_dot.scale(along) - d.scale(along_dot))
             }
+        }
+    }
+
+    /// Point over a plane through `o` with normal `n`, and its velocity, of one that is `p` on body a where it stays in
+    /// place: where the edge through it crosses the side through `o`, or the face through it is over `o`.
+    fn moved<R: Real>(
+        &self,
+        motions: &LinkMotions<'_, R>,
+        (x_a, x_b): (Pose<R>, Pose<R>),
+        (p, p_dot): (Vec3<R>, Vec3<R>),
+        (o, n): (Vec3<R>, Vec3<R>),
+    ) -> (Vec3<R>, Vec3<R>) {
+        let velocities = |c: Vec3<R>| (motions.velocity_of(self.a, c), motions.velocity_of(self.b, c));
+        match self.edge {
+            Some(Edge::Cut { direction, side }) => {
+                let (u, m) = (x_a.rot.mul_vec(Vec3::splat(direction.0)), x_b.rot.mul_vec(Vec3::splat(side.0)));
+                let inverse = R::one() / m.dot(u);
+                let c = p - u.scale(m.dot(p - o) * inverse);
+                let (v_a, v_b) = velocities(c);
+                (c, v_a - u.scale(m.dot(v_a - v_b) * inverse))
+            }
+            Some(Edge::OverVertex { face }) => {
+                let m = x_a.rot.mul_vec(Vec3::splat(face.0));
+                let inverse = R::one() / m.dot(n);
+                let c = o + n.scale(m.dot(p - o) * inverse);
+                let (v_a, v_b) = velocities(c);
+                (c, v_b + n.scale(m.dot(v_a - v_b) * inverse))
+            }
+            _ => (p, p_dot),
+        }
+    }
+
+    /// Two lines: through `p` along `u` on body a, through `o` along `w` on b. With c = u × w and D = P − o their
+    /// nearest points are P + s u and o + t w; D + s u − t w = g n, so that s = −D·(w × c)/|c|², and its derivative
+    /// gives ṡ. An edge with the curvature `k` is P + s u + k s²/2, of which s is nearly zero.
+    fn crossing<R: Real>(
+        &self,
+        motions: &LinkMotions<'_, R>,
+        (p, u, k): (Vec3<R>, Vec3<R>, Vec3<R>),
+        (o, w): (Vec3<R>, Vec3<R>),
+    ) -> ContactKinematics<R> {
+        let (w_a, w_b) = (motions.twist_of(self.a).ang, motions.twist_of(self.b).ang);
+        let at = |u: Vec3<R>, p: Vec3<R>| {
+            let c = u.cross(w);
+            let inverse = R::one() / c.norm();
+            let (n, across) = (c.scale(inverse), w.cross(c).scale(inverse * inverse));
+            let turned = move |c_dot: Vec3<R>| (c_dot - n.scale(n.dot(c_dot))).scale(inverse);
+            let (gap, by_s) = (n.dot(p - o), turned(k.cross(w)));
+            (n, across, gap, by_s, R::one() - gap * by_s.dot(across), turned)
+        };
+        let (_, across, .., bend, _) = at(u, p);
+        let s = -((p - o).dot(across) / bend);
+        let (nearest, u) = (p + (u + k.scale(R::splat(0.5) * s)).scale(s), u + k.scale(s));
+        let (n, across, gap, by_s, bend, turned) = at(u, nearest);
+        let n_dot = turned(w_a.cross(u).cross(w) + u.cross(w_b.cross(w)));
+        let v_a = motions.velocity_of(self.a, nearest);
+        let v = v_a - motions.velocity_of(self.b, nearest - n.scale(gap)) - n_dot.scale(gap);
+        let s_dot = -(v.dot(across) / bend);
+        let (n_dot, own) = (n_dot + by_s.scale(s_dot), R::splat(self.radius_a));
+        ContactKinematics {
+            distance: gap - R::splat(self.radius),
+            point: nearest - n.scale(own),
+            normal: n,
+            point_dot: v_a + u.scale(s_dot) - n_dot.scale(own),
+            normal_dot: n_dot,
         }
     }
 
@@ -209,17 +358,15 @@ fn rim<R: Real>(
     }
 }
 
-/// Two unit vectors across `n`, (t₁, t₂, n) right-handed; the same for the same bits of n.
+/// Component of a normal up to which the first tangent is along the x axis: far from those of floors, walls and slopes
+/// of 45 degrees, since directions of friction that are kept over a step would change with the tangents.
+const ALONG_X: f64 = 0.77;
+
+/// Two unit vectors across `n`, (t₁, t₂, n) right-handed; the same for the same bits of n, and near each other for
+/// normals near each other but where a normal's x component passes ±0.77.
 #[must_use]
 pub fn tangents<R: Real>(n: Vec3<R>) -> (Vec3<R>, Vec3<R>) {
-    let size = |k: usize| n[k].lane(0).abs();
-    let k = if size(0) <= size(1) && size(0) <= size(2) {
-        0
-    } else if size(1) <= size(2) {
-        1
-    } else {
-        2
-    };
+    let k = usize::from(n[0].lane(0).abs() > ALONG_X);
     let e = Vec3::along(k, R::one());
     let t1 = e - n.scale(n[k]);
     let t1 = t1.scale(R::one() / t1.norm());

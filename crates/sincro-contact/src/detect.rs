@@ -1,17 +1,14 @@
 //! Contact detection from the poses of the links: broad phase by bounding spheres, then the narrow phase of each pair.
 
 use super::broad_phase::{BroadPhase, Margin, are_close, center};
-use super::candidate::{ContactCandidate, Feature, Rim};
+use super::candidate::{ContactCandidate, Edge, Feature};
 use super::candidate_list::{CandidateList, SlotCandidate};
 use super::manifold::{Manifolds, is_convex};
-use super::{Collider, Pair, PairKind, Surface};
+use super::{Collider, Pair, PairKind, Surface, discs};
 use crate::WORLD;
 use sincro_geometry::Shape;
-use sincro_geometry::sat::{ContactKind, FaceClipper, PointOnPlane, Polytope};
+use sincro_geometry::sat::{ContactKind, FaceClipper, Place, PointOnPlane, Polytope};
 use sincro_geometry::spatial::{Pose, Vec3};
-
-/// Sine of the tilt below which a cylinder on its end, or a torus, is held to stand on four points of its rim.
-const STANDS: f64 = 1e-6;
 
 /// Distances within which the candidate of one slot is looked for, one after the other `[m]`; of convex surfaces within
 /// the last alone.
@@ -129,7 +126,13 @@ impl Detector {
         let at = |c: &Collider| if c.link == WORLD { c.pose } else { poses[c.link as usize].compose(&c.pose) };
         match pair.kind {
             PairKind::PointsOnPlane => points_on_plane(&self.points[pair.a], a, b, slots),
-            PairKind::DiscsOnPlane => discs_on_plane(a, b, (&at(a), &at(b)), is_step, slots),
+            PairKind::DiscsOnPlane => discs::over_half_space((a, b), (&at(a), &at(b)), is_step, slots),
+            PairKind::DiscsOnCuboid => {
+                let poses = (&at(a), &at(b));
+                if !discs::over_cuboid((a, b), poses, (margin, is_step), slots) {
+                    self.manifolds.find(k, (pair.a, pair.b), (a, b), poses, margin, slots);
+                }
+            }
             PairKind::Balls => slots[0] = Some(balls(a, b)),
             PairKind::BallOnCuboid => slots[0] = Some(ball_on_cuboid(a, b, (&at(a), &at(b)))),
             PairKind::Polytopes => {
@@ -177,53 +180,29 @@ fn plane_of(b: &Collider) -> Feature {
 }
 
 fn candidate(a: &Collider, b: &Collider, point: Vec3<f64>, radius: f64, feature: Feature) -> ContactCandidate {
-    ContactCandidate { a: a.link, b: b.link, point, radius, radius_a: radius, rim: None, feature, id: 0 }
+    ContactCandidate { a: a.link, b: b.link, point, radius, radius_a: radius, edge: None, feature, id: 0 }
 }
 
 /// Contact candidate of a point that face clipping or crossing edges gave.
 fn point_on_plane(found: &PointOnPlane, a: &Collider, b: &Collider) -> ContactCandidate {
     let (a, b) = if found.is_on_first { (a, b) } else { (b, a) };
     let plane = Feature::Plane { origin: found.origin, normal: found.normal };
-    ContactCandidate { id: found.feature, ..candidate(a, b, found.point, 0.0, plane) }
+    let (edge, feature) = match found.place {
+        Place::Vertex => (None, plane),
+        Place::CutEdge { edge, side } => (Some(Edge::Cut { direction: edge, side }), plane),
+        Place::OverVertex { face } => (Some(Edge::OverVertex { face }), plane),
+        Place::Crossing { edge, other } => {
+            let crossing = Edge::Crossing { direction: edge, curvature: Vec3::zero() };
+            (Some(crossing), Feature::Line { origin: found.origin, direction: other })
+        }
+    };
+    ContactCandidate { id: found.feature, edge, ..candidate(a, b, found.point, 0.0, feature) }
 }
 
 fn points_on_plane(points: &(Vec<Vec3<f64>>, f64), a: &Collider, b: &Collider, slots: &mut [Option<ContactCandidate>]) {
     let (points, radius) = points;
     for (slot, point) in slots.iter_mut().zip(points) {
         *slot = Some(candidate(a, b, *point, *radius, plane_of(b)));
-    }
-}
-
-/// Both ends of a cylinder, or the circle of a torus, over a plane: the lowest point of each rim, with the three points
-/// a quarter of a turn from it and opposite that the rim may come to rest on within a step (`is_step`).
-fn discs_on_plane(
-    a: &Collider,
-    b: &Collider,
-    (at_a, at_b): (&Pose<f64>, &Pose<f64>),
-    is_step: bool,
-    slots: &mut [Option<ContactCandidate>],
-) {
-    // of a torus the circle in the middle of its tube
-    let (radius, rounding, heights) = match a.surface {
-        Surface::Solid(Shape::Cylinder { radius, length }) => (radius, 0.0, [-0.5 * length, 0.5 * length]),
-        Surface::Solid(Shape::Torus { major_radius, tube_radius }) => (major_radius, tube_radius, [0.0; 2]),
-        _ => return,
-    };
-    let (n, axis) = (at_b.rot.col(2), at_a.rot.col(2));
-    let across = n - axis.scale(n.dot(axis));
-    let stands = across.norm() < STANDS;
-    let [x, y, _] = if stands { [1.0, 0.0, 0.0] } else { at_a.rot.tr_mul_vec(across.scale(-1.0 / across.norm())).0 };
-    let around = [[x, y], [-y, x], [-x, -y], [y, -x]];
-    for (slots, z) in slots.chunks_mut(4).zip(heights) {
-        let center = a.pose.point(Vec3([0.0, 0.0, z]));
-        for (slot, [x, y]) in slots.iter_mut().zip(around).filter(|_| stands || is_step) {
-            let point = Vec3([radius * x, radius * y, z]);
-            *slot = Some(candidate(a, b, a.pose.point(point), rounding, plane_of(b)));
-        }
-        if !stands {
-            let rim = Some(Rim { axis: a.pose.rot.col(2), radius });
-            slots[0] = Some(ContactCandidate { rim, ..candidate(a, b, center, rounding, plane_of(b)) });
-        }
     }
 }
 

@@ -21,6 +21,7 @@ pub mod candidate;
 pub mod candidate_list;
 mod collider;
 mod detect;
+mod discs;
 mod manifold;
 mod material;
 mod pair;

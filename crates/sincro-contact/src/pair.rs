@@ -1,6 +1,6 @@
 //! Pairs of colliders: which can touch, by which algorithm, at how many points.
 
-use super::{Collider, Material, PairLaw, Surface, WORLD};
+use super::{Collider, Material, PairLaw, Surface, WORLD, discs};
 use sincro_geometry::Shape;
 use sincro_geometry::sat::Polytope;
 
@@ -30,8 +30,10 @@ pub struct Pair {
 pub(crate) enum PairKind {
     /// Rounded points of a against the plane b.
     PointsOnPlane,
-    /// A cylinder or torus on a plane.
+    /// A cylinder, cone or torus a on the plane b.
     DiscsOnPlane,
+    /// A cylinder, cone or torus a and the cuboid b: on one of its faces, else by the general algorithm.
+    DiscsOnCuboid,
     /// Ball against ball.
     Balls,
     /// Ball a against cuboid b.
@@ -127,13 +129,15 @@ fn arrange(
     let is = |k: usize, test: fn(&Surface) -> bool| test(&colliders[k].surface);
     let cuboid: fn(&Surface) -> bool = |s| matches!(s, Surface::Solid(Shape::Cuboid { .. }));
     if is(b, |s| matches!(s, Surface::HalfSpace)) {
-        let slots = match &colliders[a].surface {
-            Surface::Solid(Shape::Cylinder { .. }) => return Some((a, b, PairKind::DiscsOnPlane, 8)),
-            Surface::Solid(Shape::Torus { .. }) => return Some((a, b, PairKind::DiscsOnPlane, 4)),
-            Surface::Solid(Shape::Cone { .. }) => return Some((a, b, PairKind::General, MANIFOLD)),
-            _ => colliders[a].points().0.len(),
-        };
-        return Some((a, b, PairKind::PointsOnPlane, slots));
+        return Some(match discs::slots(&colliders[a].surface) {
+            Some(slots) => (a, b, PairKind::DiscsOnPlane, slots),
+            None => (a, b, PairKind::PointsOnPlane, colliders[a].points().0.len()),
+        });
+    }
+    for (a, b) in [(a, b), (b, a)] {
+        if discs::slots(&colliders[a].surface).is_some() && is(b, cuboid) {
+            return Some((a, b, PairKind::DiscsOnCuboid, MANIFOLD));
+        }
     }
     Some(match (colliders[a].ball().is_some(), colliders[b].ball().is_some()) {
         (true, true) => (a, b, PairKind::Balls, 1),

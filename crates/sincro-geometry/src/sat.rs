@@ -32,6 +32,10 @@ const PARALLEL: f64 = 1e-6;
 const ALMOST_PARALLEL: f64 = 0.104_528_463;
 const ALMOST_ALONG: f64 = 0.994_521_895;
 
+/// Sine of the angle between two edges, or an edge and a side, below which their crossing stays where it is found: it
+/// would move too fast.
+const CUTS: f64 = 1e-2;
+
 /// Sine of the angle between two edges of one polytope below which they count as one direction.
 const ONE_DIRECTION: f64 = 1e-12;
 
@@ -135,6 +139,45 @@ fn corner(k: usize, size: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|c| if k >> c & 1 == 0 { -0.5 * size[c] } else { 0.5 * size[c] })
 }
 
+/// Place of a contact point on its polytopes: what it moves with. Vectors are of any length; those of the polytope that
+/// has the point are in its link frame, those of the polytope that has the plane in the other one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// With the polytope of the point: a vertex.
+    Vertex,
+    /// Along an edge of the polytope of the point, as a side of the face in the plane cuts it.
+    CutEdge {
+        /// Along the edge.
+        edge: Vec3<f64>,
+        /// Normal of the side, of the polytope of the plane.
+        side: Vec3<f64>,
+    },
+    /// With a vertex of the face in the plane, in the face of the other polytope over it.
+    OverVertex {
+        /// Normal of that face, of the polytope of the point.
+        face: Vec3<f64>,
+    },
+    /// On two edges that cross; the normal of the plane points along their vector product.
+    Crossing {
+        /// Along the edge of the polytope of the point.
+        edge: Vec3<f64>,
+        /// Along that of the polytope of the plane.
+        other: Vec3<f64>,
+    },
+}
+
+impl Place {
+    /// The same with the vectors of each polytope turned into its own frame.
+    fn seen_from(self, of_point: impl Fn(Vec3<f64>) -> Vec3<f64>, of_plane: impl Fn(Vec3<f64>) -> Vec3<f64>) -> Self {
+        match self {
+            Self::Vertex => Self::Vertex,
+            Self::CutEdge { edge, side } => Self::CutEdge { edge: of_point(edge), side: of_plane(side) },
+            Self::OverVertex { face } => Self::OverVertex { face: of_point(face) },
+            Self::Crossing { edge, other } => Self::Crossing { edge: of_point(edge), other: of_plane(other) },
+        }
+    }
+}
+
 /// Contact point found by [`FaceClipper::find`]: a point of one polytope over a plane of the other, each in the frame
 /// of its own link. Its signed distance is that of the point from the plane.
 #[derive(Clone, Copy, Debug)]
@@ -143,10 +186,12 @@ pub struct PointOnPlane {
     pub is_on_first: bool,
     /// Point, in the link frame of its polytope `[m]`.
     pub point: Vec3<f64>,
-    /// Point on the plane, in the link frame of the other polytope `[m]`.
+    /// Point on the plane, in the link frame of the other polytope `[m]`: of one that is not a vertex the one under it.
     pub origin: Vec3<f64>,
     /// Unit normal of the plane, from its polytope towards the point, in the link frame of the plane's polytope.
     pub normal: Vec3<f64>,
+    /// Place of the point on the polytopes.
+    pub place: Place,
     /// Identifier of the faces, edges or vertices that the point comes from, nonzero: equal in successive steps as long
     /// as the same ones touch, so that contact forces can be carried over.
     pub feature: u32,
@@ -211,6 +256,29 @@ fn crossing(edge: u32, side: u32) -> u32 {
     64 + (edge % 128) * 64 + side % 64
 }
 
+/// Edge and side plane of the crossing with this number, each by its number in its outline; `None` for the edge that
+/// another side plane has cut along. None for vertices.
+fn crossed(id: u32) -> Option<(Option<usize>, usize)> {
+    let of_edge = id.checked_sub(64)?;
+    let edge = of_edge / 64;
+    Some(((edge < SIDE).then_some(edge as usize), (of_edge % 64) as usize))
+}
+
+/// Place of corner `id` of the incident face, cut by the sides of the face of the leading polytope; all vectors are in
+/// the frame of the first polytope.
+fn place((lead, face): (&Placed<'_>, usize), (other, incident): (&Placed<'_>, usize), id: u32) -> Place {
+    match crossed(id) {
+        None => Place::Vertex,
+        Some((None, _)) => Place::OverVertex { face: other.normal(incident) },
+        Some((Some(edge), side)) => {
+            let edge = other.side(incident, edge);
+            let side = lead.normal(face).cross(lead.side(face, side + lead.shape.faces[face].len - 1));
+            let cuts = edge.dot(side).abs() > CUTS * edge.norm() * side.norm();
+            if cuts { Place::CutEdge { edge, side } } else { Place::Vertex }
+        }
+    }
+}
+
 /// Working memory of the contact search of polytopes: made once, used for all pairs, so that no search allocates after
 /// the first.
 #[derive(Clone, Debug, Default)]
@@ -238,6 +306,13 @@ impl Placed<'_> {
     fn outline(&self, face: usize) -> impl Iterator<Item = Vec3<f64>> {
         let Face { first, len, .. } = self.shape.faces[face];
         self.shape.loops[first..first + len].iter().map(|k| self.vertices[*k])
+    }
+
+    /// Vector along side `k` of a face, from its corner `k` to the next one.
+    fn side(&self, face: usize, k: usize) -> Vec3<f64> {
+        let Face { first, len, .. } = self.shape.faces[face];
+        let corner = |k: usize| self.vertices[self.shape.loops[first + k % len]];
+        corner(k + 1) - corner(k)
     }
 
     /// Vector along an edge.
@@ -319,12 +394,16 @@ impl FaceClipper {
         thin_out(outline, max_points);
         for Corner { point, id, .. } in outline.iter() {
             let own = |p: Vec3<f64>| x_ab.rot.tr_mul_vec(p - x_ab.pos);
+            let turn = |v: Vec3<f64>| x_ab.rot.tr_mul_vec(v);
             let feature = face_feature(first_leads, [face, incident], *id);
+            let place = place((lead, face), (other, incident), *id);
+            let place = if first_leads { place.seen_from(turn, |v| v) } else { place.seen_from(|v| v, turn) };
+            // the sides and vertices that cut a point off go through the plane under it
+            let origin = if place == Place::Vertex { origin } else { *point - n.scale(n.dot(*point - origin)) };
             emit(if first_leads {
-                PointOnPlane { is_on_first: false, point: own(*point), origin, normal: n, feature }
+                PointOnPlane { is_on_first: false, point: own(*point), origin, normal: n, place, feature }
             } else {
-                let normal = x_ab.rot.tr_mul_vec(n);
-                PointOnPlane { is_on_first: true, point: *point, origin: own(origin), normal, feature }
+                PointOnPlane { is_on_first: true, point: *point, origin: own(origin), normal: turn(n), place, feature }
             });
         }
     }
@@ -571,11 +650,16 @@ fn edge_point(one: &Placed<'_>, two: &Placed<'_>, edges: [usize; 2], n: Vec3<f64
     let ((p, u), (q, w)) = (line(one, edges[0]), line(two, edges[1]));
     let r = q - p;
     let (uu, ww, uw) = (u.dot(u), w.dot(w), u.dot(w));
-    let along = ((r.dot(u) * ww - r.dot(w) * uw) / (uu * ww - uw * uw)).clamp(0.0, 1.0);
+    let square = uu * ww - uw * uw;
+    let nearest = (r.dot(u) * ww - r.dot(w) * uw) / square;
+    let along = nearest.clamp(0.0, 1.0);
     let point = p + u.scale(along);
     let own = |v: Vec3<f64>| x_ab.rot.tr_mul_vec(v);
     let feature = edge_feature([one.shape.edges[edges[0]].number, two.shape.edges[edges[1]].number]);
-    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n), feature }
+    let u = if u.cross(w).dot(n) < 0.0 { -u } else { u };
+    let crosses = nearest == along && square > CUTS * CUTS * uu * ww;
+    let place = if crosses { Place::Crossing { edge: u, other: w }.seen_from(|v| v, own) } else { Place::Vertex };
+    PointOnPlane { is_on_first: true, point, origin: own(q - x_ab.pos), normal: own(n), place, feature }
 }
 
 #[cfg(test)]

@@ -101,11 +101,9 @@ impl<R: Real> Constraints<R> {
             // no adhesion
             force.max(R::zero())
         });
-        let (mut c, mut c_dot) = (c, at.point_dot);
-        if given.is_some() && !self.sweeps && candidate.rubs_at_plane() {
-            c -= n.scale(at.distance);
-            c_dot -= n.scale(self.motions.rate(&normal, v)) + at.normal_dot.scale(at.distance);
-        }
+        let is_compliant = given.is_some() && !self.sweeps;
+        let c = if is_compliant { candidate.friction_point(at, true) } else { c };
+        let c_dot = candidate.friction_point_dot(at, self.motions.twist_of(candidate.b), is_compliant);
         let (t1, t2) = tangents(n);
         let zero = Vec3::zero();
         let mut groups = [None; 3];
@@ -117,12 +115,13 @@ impl<R: Real> Constraints<R> {
             let first = self.rows.len();
             let axes = if g == 2 { [n, n] } else { [t1, t2] };
             for t in axes.into_iter().take(dim) {
-                let row = if g == 0 {
-                    Row::between(candidate.a, candidate.b, force_at(c, t), force_rate(c, t, c_dot, zero))
-                } else {
-                    Row::between(candidate.a, candidate.b, Force { ang: t, lin: zero }, Force::zero())
+                // tangents turn with the normal: a contact that sinks in or spins has a rate along it
+                let t_dot = if g == 2 { at.normal_dot } else { n.scale(-at.normal_dot.dot(t)) };
+                let (force, rate) = match g {
+                    0 => (force_at(c, t), force_rate(c, t, c_dot, t_dot)),
+                    _ => (Force { ang: t, lin: zero }, Force { ang: t_dot, lin: zero }),
                 };
-                self.add(row, R::zero());
+                self.add(Row::between(candidate.a, candidate.b, force, rate), R::zero());
             }
             let is_sliding = within && self.memory.is_sliding(slot, g);
             let mut group = FrictionGroup {

@@ -197,7 +197,6 @@ impl Constraints<f64> {
             let k = block.slot - set.limits.len();
             let candidate = self.candidates.get(k)?;
             let at = candidate.kinematics(&self.motions.at(scratch));
-            let at_plane = block.is_compliant && candidate.rubs_at_plane();
             let mut force = at.normal.scale(self.lambda[block.row]);
             let mut torque = Vec3::zero();
             for (g, group) in block.groups.iter().enumerate() {
@@ -219,7 +218,7 @@ impl Constraints<f64> {
             Some(ContactPoint {
                 pair,
                 surfaces,
-                point: if at_plane { at.point - at.normal.scale(at.distance) } else { at.point },
+                point: candidate.friction_point(&at, block.is_compliant),
                 normal: at.normal,
                 force,
                 torque,

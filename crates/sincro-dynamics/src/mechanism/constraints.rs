@@ -698,8 +698,7 @@ fn slides(
     zero_speed: f64,
 ) -> [bool; 3] {
     let (t1, t2) = tangents(at.normal);
-    let at_plane = pair.material.stiffness.is_finite() && candidate.rubs_at_plane();
-    let point = if at_plane { at.point - at.normal.scale(at.distance) } else { at.point };
+    let point = candidate.friction_point(at, pair.material.stiffness.is_finite());
     let v = relative(|link| motions.twist_of(link), candidate, point);
     let w = motions.twist_of(candidate.a).ang - motions.twist_of(candidate.b).ang;
     let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > zero_speed;

@@ -3,7 +3,6 @@
 
 use crate::constraint::{CLOSED_DISTANCE, Constraints, Parting};
 use crate::contact::Margin;
-use crate::contact::candidate::Feature;
 use crate::contact::candidate_list::SlotCandidate;
 use crate::integrate::{dip, distance_dip};
 use crate::mechanism::Mechanism;
@@ -77,17 +76,15 @@ impl Mechanism<f64> {
         for Parting { candidate, end } in &c.parting {
             let at = candidate.kinematics(&c.motions.at(&self.scratch));
             let start = (at.distance, normal_rate(&c.motions, candidate, &at));
-            match candidate.feature {
+            if !candidate.is_signed() {
+                let whole = |(distance, rate)| (distance + candidate.radius, rate);
+                let closest = candidate.radius - CLOSED_DISTANCE;
+                looks.first = looks.first.min(distance_dip(h, closest, whole(start), whole(*end)));
+            } else if start.0 < -CLOSED_DISTANCE {
                 // at its end it has left by the other side
-                Feature::Plane { .. } if start.0 < -CLOSED_DISTANCE => {
-                    looks = looks.and(Looks { first: THROUGH_STEP * h, interval: THROUGH_STEP * h });
-                }
-                Feature::Plane { .. } => looks.first = looks.first.min(dip(h, -CLOSED_DISTANCE, start, *end)),
-                Feature::Point { .. } | Feature::Line { .. } => {
-                    let whole = |(distance, rate)| (distance + candidate.radius, rate);
-                    let closest = candidate.radius - CLOSED_DISTANCE;
-                    looks.first = looks.first.min(distance_dip(h, closest, whole(start), whole(*end)));
-                }
+                looks = looks.and(Looks { first: THROUGH_STEP * h, interval: THROUGH_STEP * h });
+            } else {
+                looks.first = looks.first.min(dip(h, -CLOSED_DISTANCE, start, *end));
             }
         }
         looks

@@ -1,0 +1,170 @@
+//! Contacts that move over both bodies as these slide, roll, tip and sink in, against geometry.
+
+use sincro_math::elementary::sin_cos;
+use sincro_testing::{SceneFolder, run};
+
+/// A bar on a hinge leans with its lower edge on the upper edge of a block that slides under it.
+const CROSSING: &str = r#"
+[[joint]]
+name = "arm"
+kind = "revolute"
+axis = [0, 1, 0]
+initial = { position = [ANGLE], velocity = [RATE] }
+
+[[body]]
+name = "bar"
+parent = "/arm"
+density = 1000.0
+contact = { friction = 0.0 }
+shape = [{ cuboid = { size = [1.2, 0.06, 0.06] }, position = [0.5, 0, 0], rotation_deg = [45, 0, 0] }]
+
+[[joint]]
+name = "slide"
+kind = "prismatic"
+axis = [1, 0, 0]
+position = [0.6, 0, -0.3]
+initial = { velocity = [SPEED] }
+
+[[body]]
+name = "block"
+parent = "/slide"
+density = 20000.0
+contact = { friction = 0.0 }
+shape = [{ cuboid = { size = [0.06, 0.5, 0.06] }, rotation_deg = [0, 45, 0] }]
+"#;
+
+/// Signals of a run of `duration` seconds.
+fn columns<const N: usize>(scene: &str, duration: f64, record: [&str; N]) -> [Vec<f64>; N] {
+    let experiment = format!(
+        "title = \"Contact\"\nduration = {duration}\nstep = 0.002\nerror_bar = \"none\"\nrecord = {record:?}\n"
+    );
+    let simulated = run(&SceneFolder::of(scene, &experiment).load(&[]).unwrap());
+    record.map(|name| simulated.table.columns.iter().find(|c| c.name == name).unwrap().values.clone())
+}
+
+#[test]
+fn an_edge_slides_over_an_edge_as_geometry_says() {
+    // half diagonal of both sections: the edge of the bar is as far below its axis, that of the block above its own
+    let d = 0.03 * 2.0_f64.sqrt();
+    let z = d - 0.3;
+    for speed in [-1.0, -0.4, 0.3] {
+        // x sin θ + z cos θ + d = 0, and its two derivatives
+        let gap = |x: f64, angle: f64| {
+            let (s, c) = sin_cos(angle);
+            x * s + z * c + d
+        };
+        let rates = |x: f64, v: f64, a: f64, angle: f64| {
+            let (s, c) = sin_cos(angle);
+            let lever = x * c - z * s;
+            let rate = -s * v / lever;
+            let lever_rate = v * c - (x * s + z * c) * rate;
+            (rate, (-c * rate * v - s * a) / lever + s * v * lever_rate / (lever * lever))
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..60 {
+            let at = 0.5 * (low + high);
+            (low, high) = if gap(0.6, at) < 0.0 { (at, high) } else { (low, at) };
+        }
+        let (rate, _) = rates(0.6, speed, 0.0, low);
+        let scene = CROSSING.replace("ANGLE", &format!("{low:?}")).replace("RATE", &format!("{rate:?}"));
+        let scene = scene.replace("SPEED", &format!("{speed:?}"));
+        let [angle, rate, turn] = ["position", "velocity", "acceleration"].map(|of| format!("/arm.{of}"));
+        let [x, v, a] = ["position", "velocity", "acceleration"].map(|of| format!("/slide.{of}"));
+        let [angle, rate, turn, x, v, a] = columns(&scene, 0.25, [&angle, &rate, &turn, &x, &v, &a]);
+        for k in 1..angle.len() {
+            let (x, at) = (0.6 + x[k], angle[k]);
+            let expected = rates(x, v[k], a[k], at);
+            assert!(gap(x, at).abs() < 1e-9, "{speed}: gap {:e} at sample {k}", gap(x, at));
+            assert!((rate[k] - expected.0).abs() < 1e-8, "{speed}: {} and {} rad/s at {k}", rate[k], expected.0);
+            assert!((turn[k] - expected.1).abs() < 1e-6, "{speed}: {} and {} rad/s² at {k}", turn[k], expected.1);
+        }
+    }
+}
+
+/// A body that rolls, tilted, on a floor.
+fn rolling(shape: &str, floor: &str, pose: &str) -> String {
+    format!(
+        "[[joint]]\nname = \"air\"\nkind = \"free\"\ninitial = {{ position = {pose}, velocity = [0.5, 1.0, 18.0, 1.5, 0.0, 0.2] }}\n\
+         [[body]]\nname = \"wheel\"\nparent = \"/air\"\ndensity = 800.0\ncontact = {{ friction = 0.6 }}\n\
+         shape = [{{ {shape} }}]\n[[body]]\nname = \"floor\"\ncontact = {{ friction = 0.6 }}\nshape = [{{ {floor} }}]\n"
+    )
+}
+
+#[test]
+fn what_rolls_on_the_face_of_a_cuboid_rolls_as_on_a_plane() {
+    let record = ["/air.position.x", "/air.position.y", "/air.position.z", "/air.velocity.x", "energy.balance"];
+    // a wheel cambered by 20 degrees, a cone on the rim of its base
+    for (shape, pose) in [
+        ("cylinder = { radius = 0.1, length = 0.04 }", "[0, 0, 0.1008096649451042, 0.81915204, 0.57357644, 0, 0]"),
+        ("cone = { radius = 0.1, length = 0.12 }", "[0, 0, 0.14, 0.81915204, 0.57357644, 0, 0]"),
+        ("torus = { major_radius = 0.1, tube_radius = 0.02 }", "[0, 0, 0.14, 0.81915204, 0.57357644, 0, 0]"),
+    ] {
+        let on = |floor: &str| columns(&rolling(shape, floor, pose), 0.3, record);
+        let (plane, cuboid) = (on("plane = {}"), on("cuboid = { size = [6, 6, 1] }, position = [0, 0, -0.5]"));
+        for (name, (plane, cuboid)) in record.iter().zip(plane.iter().zip(&cuboid)) {
+            assert_eq!(plane, cuboid, "{shape}: {name}");
+        }
+    }
+}
+
+/// A ball falls on a soft platform that turns: it sticks where it touches and sinks in.
+const SINKING: &str = r#"
+[[joint]]
+name = "hinge"
+kind = "revolute"
+axis = [0, 1, 0]
+initial = { velocity = [2.0] }
+
+[[body]]
+name = "platform"
+parent = "/hinge"
+density = 1e6
+contact = { stiffness = 2e3, friction = 3.0 }
+shape = [{ cuboid = { size = [1, 1, 0.1] } }]
+
+[[joint]]
+name = "x"
+kind = "prismatic"
+axis = [1, 0, 0]
+initial = { position = [0.2], velocity = [0.1] }
+
+[[joint]]
+name = "z"
+kind = "prismatic"
+axis = [0, 0, 1]
+parent = "/x"
+initial = { position = [0.15], velocity = [-1.4] }
+
+[[joint]]
+name = "spin"
+kind = "revolute"
+axis = [0, 1, 0]
+parent = "/x/z"
+
+[[body]]
+name = "ball"
+parent = "/x/z/spin"
+density = 500.0
+contact = { friction = 3.0 }
+shape = [{ sphere = { radius = 0.1 } }]
+"#;
+
+#[test]
+fn what_sinks_into_a_platform_that_turns_sticks_to_it() {
+    let record = ["/hinge.position", "/hinge.velocity", "/x.position", "/x.velocity", "/x/z.position", "/x/z.velocity"];
+    let [angle, turn, x, v_x, z, v_z] = columns(SINKING, 0.06, record);
+    let [spin] = columns(SINKING, 0.06, ["/x/z/spin.velocity"]);
+    let mut deepest = 0.0_f64;
+    for k in 1..x.len() {
+        let (s, c) = sin_cos(angle[k]);
+        // normal (s, c), tangent (c, −s); the contact point is the lowest one of the ball
+        let point = [x[k] - 0.1 * s, z[k] - 0.1 * c];
+        let depth = 0.05 - (s * point[0] + c * point[1]);
+        deepest = deepest.max(depth);
+        let of_ball = [v_x[k] - 0.1 * spin[k] * c, v_z[k] + 0.1 * spin[k] * s];
+        let of_platform = [turn[k] * point[1], -turn[k] * point[0]];
+        let slip = c * (of_ball[0] - of_platform[0]) - s * (of_ball[1] - of_platform[1]);
+        assert!(depth <= 0.0 || slip.abs() < 1e-7, "it slips at {slip:e} m/s at sample {k}, {depth} m deep");
+    }
+    assert!(deepest > 0.01, "it sinks in by {deepest} m");
+}
