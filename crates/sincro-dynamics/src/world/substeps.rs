@@ -38,8 +38,8 @@ const MAX_CRAWLING_STEPS: usize = 200;
 /// Length of a sub-step, relative to the tick, that makes next to no progress.
 const CRAWLING: f64 = 1e-9;
 
-/// Maximum number of close sub-steps of one tick with contacts or limits, and after one that had more: what keeps it
-/// from its end is then some noise, as of points of contact that are found to 1e-8 m.
+/// Maximum number of close sub-steps of one tick with contacts or limits, an event counting as ten, and after one that
+/// had more: what keeps it from its end is then some noise, as of points of contact that are found to 1e-8 m.
 const MAX_STEPS: [usize; 2] = [12_000, 4_000];
 
 /// Maximum number of steps in which a sub-step, made in one, is repeated.
@@ -148,7 +148,7 @@ impl World {
             } else {
                 (idle, close) = (0, 0);
             }
-            short += usize::from(reached - t < CLOSE * span);
+            short += usize::from(reached - t < CLOSE * span) * if is_event { 10 } else { 1 };
             let is_endless = events > most_events || short > MAX_STEPS[usize::from(!is_first)];
             if is_endless && reached < end && self.is_constrained() {
                 self.set_zeno_fallback(zeno_fallback.lost());
