@@ -6,10 +6,11 @@
 //! points it may have; a point is known by its slot, and states hold the loaded ones.
 //!
 //! Broad phase: bounding spheres of the pair against a margin (`broad_phase`). Narrow phase, by kind of pair: closed
-//! forms for points, cylinders and spheres against planes and cuboids (`detect`), separating axes and face clipping for
-//! convex polytopes ([`sincro_geometry::sat`]), contact manifolds of the collision library for the rest (`manifold`).
-//! Every contact candidate is a rounded point of one body against a plane, line or point of the other ([`candidate`]),
-//! which gives signed distance, normal and their rates exactly, curvature included.
+//! forms for points and spheres against planes and cuboids (`detect`), for bodies with rims on planes and faces of
+//! cuboids (`discs`), separating axes and face clipping for convex polytopes ([`sincro_geometry::sat`]), contact
+//! manifolds of the collision library for the rest (`manifold`). A contact candidate is a rounded point, an edge or a
+//! rim of one body against a plane, line, point or circle of the other ([`candidate`]): signed distance, normal and
+//! contact point with the rates at which they change as both bodies move.
 //!
 //! The contact law of a pair combines two materials: the geometric mean of the friction coefficients (nothing sticks to
 //! a frictionless surface), the larger restitution, the larger lengths of rolling and spinning friction, the sum of the
