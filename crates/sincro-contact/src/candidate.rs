@@ -155,8 +155,7 @@ impl ContactCandidate {
     /// Returns true if friction of a contact, `is_compliant` or not, acts where a sharp corner or edge meets the plane
     /// or edge of the other body, not at the contact point: corners of one face that have sunk in to different depths,
     /// as of a body that rocks, would otherwise contradict each other in how they slide.
-    #[must_use]
-    pub fn rubs_at_plane(&self, is_compliant: bool) -> bool {
+    fn rubs_at_plane(&self, is_compliant: bool) -> bool {
         is_compliant && self.radius == 0.0 && !matches!(self.edge, Some(Edge::Rim { .. }))
     }
 
@@ -202,8 +201,8 @@ impl ContactCandidate {
                 let n = x_b.rot.mul_vec(Vec3::splat(normal.0));
                 let n_dot = w_b.cross(n);
                 let o = x_b.point(Vec3::splat(origin.0));
-                let height = n.dot(p - o);
                 if let Some(Edge::Rim { axis, radius: of_disc }) = self.edge {
+                    let height = n.dot(p - o);
                     let axis = x_a.rot.mul_vec(Vec3::splat(axis.0));
                     let axis_dot = motions.twist_of(self.a).ang.cross(axis);
                     return rim(height, (p, p_dot), (n, n_dot), (axis, axis_dot), (R::splat(of_disc), radius));

@@ -202,7 +202,7 @@ fn between(
     let radius = on_a.radius + on_b.radius;
     let (n, o) = (x_ab.rot.mul_vec(n_b), x_ab.point(on_b.point));
     let origin = b.pose.point(on_b.point);
-    let is_edge = matches!(on_a.kind, Kind::Line(_) | Kind::Rim { .. });
+    let is_edge = matches!(on_a.kind, Kind::Line(_) | Kind::Rim(_));
     if let (Kind::Line(w), true) = (on_b.kind, is_edge)
         && let Some((point, u, curvature)) = crossing_edge(on_a, (o, x_ab.rot.mul_vec(w)))
     {
@@ -213,7 +213,7 @@ fn between(
     }
     let feature = match (on_a.kind, on_b.kind) {
         (Kind::Point, Kind::Point) => Feature::Point { origin },
-        (Kind::Point, Kind::Rim { radius, .. }) => {
+        (Kind::Point, Kind::Rim(radius)) => {
             let origin = b.pose.point(Vec3([0.0, 0.0, on_b.point[2]]));
             Feature::Circle { origin, axis: b.pose.rot.col(2), radius }
         }
@@ -235,7 +235,7 @@ fn crossing_edge(on_a: Element, (o, w): (Vec3<f64>, Vec3<f64>)) -> Option<(Vec3<
             let along = across(o - on_a.point).dot(u) / across(u).dot(u);
             (on_a.point + u.scale(along), u, Vec3::zero())
         }
-        Kind::Rim { radius, .. } => {
+        Kind::Rim(radius) => {
             let point = nearest_of_rim(on_a.point, radius, (o, w))?;
             let (tangent, curvature) = around(point, radius);
             (point, tangent, curvature)
@@ -266,7 +266,7 @@ fn over_plane(
     x_ab: &Pose<f64>,
 ) -> ContactCandidate {
     let feature = Feature::Plane { origin: b.pose.point(p_b), normal: b.pose.rot.mul_vec(n_b) };
-    if let Kind::Rim { radius, .. } = on_a.kind {
+    if let Kind::Rim(radius) = on_a.kind {
         // of a flat end on a face the library gives other points of the rim than the lowest one
         let n = x_ab.rot.mul_vec(n_b);
         let size = (n[0] * n[0] + n[1] * n[1]).sqrt();
@@ -301,8 +301,8 @@ enum Kind {
     Point,
     /// A straight edge or the axis of a rounded flank, along this unit vector.
     Line(Vec3<f64>),
-    /// The rim of a flat end, a circle about the z axis.
-    Rim { tangent: Vec3<f64>, radius: f64 },
+    /// The rim of a flat end, a circle of this radius about the z axis.
+    Rim(f64),
 }
 
 /// Part of a surface at its point `p` with normal `n` outwards.
@@ -320,7 +320,7 @@ fn element(c: &Collider, p: Vec3<f64>, n: Vec3<f64>) -> Element {
             return sharp(Kind::Unknown, p);
         }
         let point = Vec3([p[0] * radius / size, p[1] * radius / size, z]);
-        sharp(Kind::Rim { tangent: around(point, radius).0, radius }, point)
+        sharp(Kind::Rim(radius), point)
     };
     match c.surface {
         Surface::Solid(Shape::Sphere { radius }) => on_axis(0.0, Kind::Point, radius),
