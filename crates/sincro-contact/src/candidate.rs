@@ -15,10 +15,19 @@
 //! | circle (o, k, R) | \|D\| − r, D = P − o − R e, e along P − o across k | the same |
 //! | line (o, w) under an edge along u | n·(P − o), n = c/\|c\|, c = u × w | (ċ − n (n·ċ))/\|c\|, ċ = (ω_a × u) × w + u × (ω_b × w) |
 
+use std::mem::discriminant;
+
 use sincro_math::Real;
 
 use crate::WORLD;
+use crate::material::Material;
 use sincro_geometry::spatial::{Motion, Pose, Vec3};
+
+/// Cosine of the angle between the normals of two planes above which they may be one, found at two instants.
+const SAME_PLANE: f64 = 0.9;
+
+/// Distance of a point of one line from another one below which they may be one `[m]`.
+const SAME_LINE: f64 = 1e-5;
 
 /// Feature of body b that the point of body a may touch, in link axes of b.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,6 +175,27 @@ impl ContactCandidate {
         matches!(self.feature, Feature::Plane { .. }) || self.edge.is_some()
     }
 
+    /// Returns true if this candidate and another one of the same two surfaces, found at another instant, are of the
+    /// same features, as far as these are told apart.
+    #[must_use]
+    pub fn has_features_of(&self, other: &Self) -> bool {
+        if self.id != 0 || other.id != 0 {
+            return self.id == other.id;
+        }
+        let is_edge = match (self.edge, other.edge) {
+            (Some(Edge::Rim { .. }), Some(Edge::Rim { .. })) => self.point == other.point,
+            (one, two) => one.map(|edge| discriminant(&edge)) == two.map(|edge| discriminant(&edge)),
+        };
+        let is_feature = match (self.feature, other.feature) {
+            (Feature::Plane { normal, .. }, Feature::Plane { normal: other, .. }) => normal.dot(other) > SAME_PLANE,
+            (Feature::Line { origin, direction }, Feature::Line { origin: point, .. }) => {
+                (point - origin).cross(direction).norm() < SAME_LINE * direction.norm()
+            }
+            (one, two) => discriminant(&one) == discriminant(&two),
+        };
+        self.a == other.a && is_edge && is_feature
+    }
+
     /// Point at which friction of a contact, `is_compliant` or not, acts, in the world frame `[m]`.
     #[must_use]
     pub fn friction_point<R: Real>(&self, at: &ContactKinematics<R>, is_compliant: bool) -> Vec3<R> {
@@ -186,6 +216,38 @@ impl ContactCandidate {
         // the rate of the distance at the point as it moves, which need not be with body a
         let rate = at.normal.dot(at.point_dot - twist_b.lin - twist_b.ang.cross(at.point));
         at.point_dot - at.normal.scale(rate) - at.normal_dot.scale(at.distance)
+    }
+
+    /// Rate of the distance [m/s], for the twists of links about the world's origin.
+    #[must_use]
+    pub fn normal_rate(&self, twist: impl Fn(u32) -> Motion<f64>, at: &ContactKinematics<f64>) -> f64 {
+        self.relative_velocity(twist, at.point).dot(at.normal)
+    }
+
+    /// Velocity of a's material at a point of the world against b's [m/s].
+    fn relative_velocity(&self, twist: impl Fn(u32) -> Motion<f64>, point: Vec3<f64>) -> Vec3<f64> {
+        let [a, b] = [twist(self.a), twist(self.b)];
+        (a.lin + a.ang.cross(point)) - (b.lin + b.ang.cross(point))
+    }
+
+    /// Friction groups that slide faster than `zero_speed` [m/s], [rad/s]: friction, rolling, spinning.
+    #[must_use]
+    pub fn slides(
+        &self,
+        twist: impl Fn(u32) -> Motion<f64>,
+        at: &ContactKinematics<f64>,
+        material: &Material,
+        zero_speed: f64,
+    ) -> [bool; 3] {
+        let (t1, t2) = tangents(at.normal);
+        let w = twist(self.a).ang - twist(self.b).ang;
+        let v = self.relative_velocity(twist, self.friction_point(at, material.stiffness.is_finite()));
+        let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > zero_speed;
+        [
+            material.friction > 0.0 && across(v),
+            material.rolling_friction > 0.0 && across(w),
+            material.spinning_friction > 0.0 && w.dot(at.normal).abs() > zero_speed,
+        ]
     }
 
     /// Contact kinematics: signed distance, contact point, normal and their rates, at the instant of `motions`.

@@ -45,6 +45,14 @@ pub(crate) enum PairKind {
 }
 
 impl Pair {
+    /// Returns true if each slot stands for one point of the surfaces all the time; else for one of those found.
+    #[inline]
+    #[must_use]
+    pub fn has_fixed_points(&self) -> bool {
+        use PairKind::{BallOnCuboid, Balls, DiscsOnPlane, PointsOnPlane};
+        matches!(self.kind, PointsOnPlane | DiscsOnPlane | Balls | BallOnCuboid)
+    }
+
     /// Number of rows of a contact point: its normal, and two, two and one of its friction groups.
     #[inline]
     #[must_use]

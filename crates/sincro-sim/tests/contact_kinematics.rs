@@ -1,6 +1,11 @@
 //! Contacts that move over both bodies as these slide, roll, tip and sink in, against geometry.
 
+use std::fmt::Write;
+use std::sync::atomic::AtomicBool;
+
 use sincro_math::elementary::sin_cos;
+use sincro_sim::campaign::run_campaign;
+use sincro_testing::random::Draw;
 use sincro_testing::{SceneFolder, run};
 
 /// A bar on a hinge leans with its lower edge on the upper edge of a block that slides under it.
@@ -167,4 +172,78 @@ fn what_sinks_into_a_platform_that_turns_sticks_to_it() {
         assert!(depth <= 0.0 || slip.abs() < 1e-7, "it slips at {slip:e} m/s at sample {k}, {depth} m deep");
     }
     assert!(deepest > 0.01, "it sinks in by {deepest} m");
+}
+
+/// Largest penetration of a run `[m]`, as its audit found it.
+fn depth_of(scene: &str, experiment: &str) -> f64 {
+    let folder = SceneFolder::of(scene, experiment);
+    let loaded = folder.load(&[]).unwrap_or_else(|message| panic!("{message}"));
+    let done = run_campaign(&folder, &[], &loaded, None, &AtomicBool::new(false), &mut |_, _| {}).unwrap();
+    let law = done.main.audit.laws.iter().find(|checked| checked.law == "penetration");
+    law.unwrap_or_else(|| panic!("nothing touches\n{scene}")).value
+}
+
+/// Scene of two free cuboids, turned at random, one over the other over a floor.
+fn falling_pair(random: &mut Draw) -> String {
+    let mut scene = String::new();
+    for (name, height) in [("low", 0.3), ("high", 0.65)] {
+        let [x, y] = [(); 2].map(|()| random.between(-0.03, 0.03));
+        let size = [(); 3].map(|()| random.between(0.06, 0.3));
+        let turn = [(); 3].map(|()| random.between(-180.0, 180.0));
+        let (density, friction) = (random.between(100.0, 2000.0), random.between(0.1, 1.0));
+        let restitution = random.one_of(&[0.0, 0.2, 0.5]);
+        write!(
+            scene,
+            "[[joint]]\nname = \"{name}\"\nkind = \"free\"\nposition = [{x:?}, {y:?}, {height:?}]\nrotation_deg = {turn:?}\n\n\
+             [[body]]\nname = \"box\"\nparent = \"/{name}\"\ndensity = {density:?}\nshape = [{{ cuboid = {{ size = {size:?} }} }}]\n\
+             contact = {{ friction = {friction:?}, restitution = {restitution:?} }}\n\n"
+        )
+        .unwrap();
+    }
+    scene + "[[body]]\nname = \"floor\"\nshape = [{ plane = {} }]\ncontact = { friction = 0.5 }\n"
+}
+
+/// Whatever corners, edges and faces of two boxes meet, it is an event, and nothing sinks in.
+#[test]
+fn boxes_that_fall_on_each_other_do_not_sink_in() {
+    let mut random = Draw(5);
+    for k in 0..24 {
+        let scene = falling_pair(&mut random);
+        let experiment =
+            "title = \"Pair\"\nduration = 0.5\nstep = 0.01\nerror_bar = \"none\"\nrecord = [\"energy.total\"]\n";
+        let depth = depth_of(&scene, experiment);
+        assert!(depth < 1e-9, "draw {k}: {:e} m deep\n{scene}", depth);
+    }
+}
+
+/// A cylinder that falls on a cuboid and rolls off: of the first one the rim leaves a face, of the second one the flank
+/// an edge.
+#[test]
+fn cylinders_that_fall_on_a_cuboid_do_not_sink_in() {
+    let body = |name: &str, start: &str, shape: &str, density: f64, friction: f64| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"free\"\ninitial = {{ position = [{start}] }}\n\n\
+             [[body]]\nname = \"of-{name}\"\nparent = \"/{name}\"\ndensity = {density:?}\nshape = [{{ {shape} }}]\n\
+             contact = {{ friction = {friction:?}, restitution = RESTITUTION }}\n\n"
+        )
+    };
+    let floor = "[[body]]\nname = \"floor\"\nshape = [{ plane = {} }]\ncontact = { friction = 0.5 }\n";
+    let low = "-0.010, -0.019, 0.300, -0.009159, -0.824320, -0.558710, 0.090861";
+    let high = "-0.025, 0.012, 0.650, 0.930841, -0.342804, 0.043662, 0.118805";
+    let (cuboid, cylinder) =
+        ("cuboid = { size = [0.16, 0.23, 0.104] }", "cylinder = { radius = 0.102, length = 0.24 }");
+    let first = body("low", low, cuboid, 1878.2, 0.52) + &body("high", high, cylinder, 471.9, 0.93);
+    let low = "-0.023, 0.021, 0.300, -0.254571, 0.592390, 0.489618, 0.586977";
+    let high = "0.012, -0.014, 0.650, 0.850654, -0.209542, -0.054762, -0.479042";
+    let (cylinder, cuboid) =
+        ("cylinder = { radius = 0.063, length = 0.144 }", "cuboid = { size = [0.109, 0.288, 0.147] }");
+    let second = body("low", low, cylinder, 1986.9, 0.53) + &body("high", high, cuboid, 796.7, 0.42);
+    for (scene, restitution) in [(first, "0.5"), (second, "0.1")] {
+        let scene = scene.replace("RESTITUTION", restitution) + floor;
+        let experiment =
+            "title = \"Pair\"\nduration = 0.7\nstep = 0.01\nerror_bar = \"none\"\nrecord = [\"energy.total\"]\n";
+        let depth = depth_of(&scene, experiment);
+        // points of cylinders are found to 1e-8 m
+        assert!(depth < 1e-7, "{depth:e} m deep\n{scene}");
+    }
 }

@@ -11,7 +11,6 @@ use crate::constraint::{
     CLOSED_DISTANCE, ConstraintSet, Constraints, DIRECT_ROWS, HeldLaw, LEAST_ZERO_SPEED, LOCATED_DISTANCE,
     MAX_ZERO_SPEED, ModeRule, SETTLING_SPEED, pair_of,
 };
-use crate::contact::candidate::{ContactCandidate, ContactKinematics, tangents};
 use crate::contact::candidate_list::{CandidateList, SlotCandidate};
 use crate::contact::{Collider, Detector, Margin, Pair};
 use crate::energy::energy_at;
@@ -19,7 +18,7 @@ use crate::integrate::{Sample, System};
 use crate::mechanism::{Mechanism, PROJECTION_TOLERANCE};
 use crate::recursions::kinematics;
 use crate::scratch::Scratch;
-use crate::spatial::{Motion, Pose, Vec3};
+use crate::spatial::{Pose, Vec3};
 
 /// Projection tolerance of positions and rates `[m]`, [m/s], of a mechanism of 1 m or more.
 const PROJECTED: f64 = PROJECTION_TOLERANCE;
@@ -42,8 +41,10 @@ pub(crate) enum ContactEvent {
     Reversal(usize, usize),
     /// A compliant contact opens: index of the constraint.
     Opening(usize),
-    /// An open contact or limit closes: slot.
+    /// An open contact of fixed points, or an open limit, closes: slot.
     Closing(usize),
+    /// Features of two bodies that did not touch at the start of the sub-step do: pair.
+    Meeting(usize),
 }
 
 /// Result of contact detection at the start of a sub-step.
@@ -269,7 +270,7 @@ impl Mechanism<f64> {
             c.violation.map(ContactEvent::Law),
             c.memory.reversal().map(|(slot, group)| ContactEvent::Reversal(slot, group)),
             opened.map(ContactEvent::Opening),
-            self.find_closing(v).map(ContactEvent::Closing),
+            self.find_closing(v),
         ]
     }
 
@@ -286,6 +287,7 @@ impl Mechanism<f64> {
                 let (distance, rate) = self.gap_of(slot, v);
                 Sample { value: -distance, rate: -rate }
             }
+            ContactEvent::Meeting(pair) => self.meeting_of(pair),
         }
     }
 
@@ -294,14 +296,14 @@ impl Mechanism<f64> {
         let small = match event {
             ContactEvent::Law(_) => 1e-11,
             ContactEvent::Reversal(..) => 1e-3 * self.constraints.as_ref().map_or(LEAST_ZERO_SPEED, |c| c.zero_speed),
-            ContactEvent::Opening(_) | ContactEvent::Closing(_) => LOCATED_DISTANCE,
+            ContactEvent::Opening(_) | ContactEvent::Closing(_) | ContactEvent::Meeting(_) => LOCATED_DISTANCE,
         };
         small * self.projection_scale
     }
 
-    /// Slot of the open contact or limit that has closed in the state last evaluated and approaches, or was outside at
-    /// the start of the sub-step and is beyond what counts as closed, whatever its rate is by now; the deepest one.
-    fn find_closing(&mut self, v: &[f64]) -> Option<usize> {
+    /// Open contact or limit that has closed in the state last evaluated and approaches, or was outside at the start of
+    /// the sub-step and is beyond what counts as closed, whatever its rate is by now; the deepest one.
+    fn find_closing(&mut self, v: &[f64]) -> Option<ContactEvent> {
         let c = self.constraints.as_deref_mut()?;
         let set = &*self.model.params.constraints;
         c.detect_later(set, &self.scratch.poses, Margin::of(1e-6));
@@ -314,32 +316,54 @@ impl Mechanism<f64> {
             // what did not touch and has come to rest there passed the surface before
             rate < if !memory.is_closed(slot) && is_inside { zero_speed } else { -zero_speed }
         };
-        let mut deepest: (Option<usize>, f64) = (None, 0.0);
+        let mut deepest: (Option<ContactEvent>, f64) = (None, 0.0);
         for (slot, limit) in set.limits.iter().enumerate() {
             let distance = limit.sign * (self.q[limit.coordinate] - limit.bound);
             if !memory.was_closed(slot)
                 && distance < deepest.1
                 && has_passed(slot, distance, limit.sign * v[limit.dof], memory.is_closed(slot))
             {
-                deepest = (Some(slot), distance);
+                deepest = (Some(ContactEvent::Closing(slot)), distance);
             }
         }
-        for SlotCandidate { slot, pair, candidate } in c.later_candidates.iter() {
-            let (slot, pair) = (set.limits.len() + *slot as usize, &set.pairs[*pair as usize]);
-            if memory.was_closed(slot) {
-                continue;
-            }
+        for found in c.later_candidates.iter().filter(|found| !c.was_closed(set, found)) {
+            let SlotCandidate { slot, pair: k, candidate } = found;
+            let (slot, pair) = (set.limits.len() + *slot as usize, &set.pairs[*k as usize]);
             let at = candidate.kinematics(&c.motions.at(&self.scratch));
             // points of surfaces that touch come and go, with distances that jump
-            let touched = || memory.is_any_closed(set.limits.len() + pair.first, pair.slots);
+            let touched = memory.is_any_closed(set.limits.len() + pair.first, pair.slots);
             if at.distance < deepest.1
                 && (pair.material.stiffness.is_finite()
-                    || has_passed(slot, at.distance, normal_rate(&c.motions, candidate, &at), touched()))
+                    || has_passed(
+                        slot,
+                        at.distance,
+                        candidate.normal_rate(|link| c.motions.twist_of(link), &at),
+                        touched,
+                    ))
             {
-                deepest = (Some(slot), at.distance);
+                let (of_slot, of_pair) = (ContactEvent::Closing(slot), ContactEvent::Meeting(*k as usize));
+                deepest = (Some(if pair.has_fixed_points() { of_slot } else { of_pair }), at.distance);
             }
         }
         deepest.0
+    }
+
+    /// Least distance of the features of a pair that did not touch at the start of the sub-step, in the state last
+    /// evaluated, as a zero crossing; NaN if there are none.
+    fn meeting_of(&mut self, k: usize) -> Sample {
+        let Some(c) = self.constraints.as_deref_mut() else { return f64::NAN.into() };
+        let set = &*self.model.params.constraints;
+        let (of_all, at) = ((&set.colliders[..], &set.pairs[..]), (k, set.pairs[k].first));
+        c.detector.candidate_of_slot(of_all, at, &self.scratch.poses, &mut c.later_candidates);
+        let mut least: Option<Sample> = None;
+        for found in c.later_candidates.iter().filter(|found| !c.was_closed(set, found)) {
+            let at = found.candidate.kinematics(&c.motions.at(&self.scratch));
+            if least.is_none_or(|least| -at.distance > least.value) {
+                let rate = found.candidate.normal_rate(|link| c.motions.twist_of(link), &at);
+                least = Some(Sample { value: -at.distance, rate: -rate });
+            }
+        }
+        least.unwrap_or(f64::NAN.into())
     }
 
     /// Signed distance of a slot in the state last evaluated `[m]` or `[rad]`, and its rate; NaN if there is no
@@ -355,7 +379,7 @@ impl Mechanism<f64> {
         let candidate = c.detector.candidate_of_slot(of_all, at, &self.scratch.poses, found);
         let Some(candidate) = candidate else { return (f64::NAN, f64::NAN) };
         let at = candidate.kinematics(&c.motions.at(&self.scratch));
-        (at.distance, normal_rate(&c.motions, &candidate, &at))
+        (at.distance, candidate.normal_rate(|link| c.motions.twist_of(link), &at))
     }
 
     /// Applies an impact at the chart's origin: changes `v` and returns the energy lost `[J]`. Prescribed degrees of
@@ -581,8 +605,8 @@ impl Constraints<f64> {
                 let slot = first_slot + *slot as usize;
                 let at = candidate.kinematics(&self.motions.at(scratch));
                 self.kinematics.push(at);
-                let rate = normal_rate(&self.motions, candidate, &at);
-                let slides = || slides(&self.motions, candidate, &at, pair, zero_speed);
+                let rate = candidate.normal_rate(|link| self.motions.twist_of(link), &at);
+                let slides = || candidate.slides(|link| self.motions.twist_of(link), &at, &pair.material, zero_speed);
                 if pair.material.stiffness.is_finite() {
                     self.memory.classify(slot, at.distance < 0.0, slides());
                     continue;
@@ -642,6 +666,16 @@ impl Constraints<f64> {
         core::mem::swap(&mut self.candidates, &mut self.later_candidates);
     }
 
+    /// Returns true if a feature of a pair that was found later touched at the start of the sub-step.
+    fn was_closed(&self, set: &ConstraintSet, later: &SlotCandidate) -> bool {
+        let of_slot = |slot: u32| self.memory.was_closed(set.limits.len() + slot as usize);
+        if set.pairs[later.pair as usize].has_fixed_points() {
+            return of_slot(later.slot);
+        }
+        let mut at_start = self.candidates.iter().filter(|start| start.pair == later.pair);
+        at_start.any(|start| start.candidate.has_features_of(&later.candidate) && of_slot(start.slot))
+    }
+
     /// Detects the contact candidates of a later instant.
     pub(super) fn detect_later(&mut self, set: &ConstraintSet, poses: &[Pose<f64>], margin: Margin) {
         let at_rest = |_: &Collider, _| (Vec3::zero(), 0.0);
@@ -668,44 +702,4 @@ fn find_candidates(
     let former = |pair: &Pair| memory.feature_among(first_slot + pair.first..first_slot + pair.first + pair.slots);
     let leaves_out = |c: &Collider| is_left_out(c.link);
     detector.detect((&set.colliders, &set.pairs), poses, margin, velocity, former, leaves_out, found);
-}
-
-pub(super) fn normal_rate(motions: &Motions<f64>, candidate: &ContactCandidate, at: &ContactKinematics<f64>) -> f64 {
-    normal_rate_of(|link| motions.twist_of(link), candidate, at)
-}
-
-/// Rate of the distance of a contact [m/s], for the twists of links about the world's origin.
-pub(super) fn normal_rate_of(
-    twist: impl Fn(u32) -> Motion<f64>,
-    candidate: &ContactCandidate,
-    at: &ContactKinematics<f64>,
-) -> f64 {
-    relative(twist, candidate, at.point).dot(at.normal)
-}
-
-/// Velocity of a's point against b's [m/s], for the twists of links about the world's origin.
-fn relative(twist: impl Fn(u32) -> Motion<f64>, candidate: &ContactCandidate, point: Vec3<f64>) -> Vec3<f64> {
-    let (a, b) = (twist(candidate.a), twist(candidate.b));
-    (a.lin + a.ang.cross(point)) - (b.lin + b.ang.cross(point))
-}
-
-/// Friction groups that slide, faster than a speed that counts as none.
-fn slides(
-    motions: &Motions<f64>,
-    candidate: &ContactCandidate,
-    at: &ContactKinematics<f64>,
-    pair: &Pair,
-    zero_speed: f64,
-) -> [bool; 3] {
-    let (t1, t2) = tangents(at.normal);
-    let point = candidate.friction_point(at, pair.material.stiffness.is_finite());
-    let v = relative(|link| motions.twist_of(link), candidate, point);
-    let w = motions.twist_of(candidate.a).ang - motions.twist_of(candidate.b).ang;
-    let across = |x: Vec3<f64>| (x.dot(t1) * x.dot(t1) + x.dot(t2) * x.dot(t2)).sqrt() > zero_speed;
-    let m = &pair.material;
-    [
-        m.friction > 0.0 && across(v),
-        m.rolling_friction > 0.0 && across(w),
-        m.spinning_friction > 0.0 && w.dot(at.normal).abs() > zero_speed,
-    ]
 }

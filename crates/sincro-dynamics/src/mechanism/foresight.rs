@@ -10,7 +10,7 @@ use crate::constraint::{ConstraintSet, Constraints};
 use crate::contact::candidate_list::SlotCandidate;
 use crate::joint::WORLD;
 use crate::mechanism::Mechanism;
-use crate::mechanism::constraints::{ActivationRule, normal_rate, normal_rate_of};
+use crate::mechanism::constraints::ActivationRule;
 use crate::spatial::Pose;
 
 /// Distance beyond which a step passes an open limit or contact, with what gravity adds within it `[m]` or `[rad]`.
@@ -69,9 +69,13 @@ impl Mechanism<f64> {
                 continue;
             }
             let at = at.copied().unwrap_or_else(|| candidate.kinematics(&c.motions.at(&self.scratch)));
-            let end_rate = normal_rate_of(|link| c.motions.placed_twist_of(link), candidate, &at);
+            let end_rate = candidate.normal_rate(|link| c.motions.placed_twist_of(link), &at);
             if at.distance + h * end_rate < passed
-                && !rule.closes((at.distance, normal_rate(&c.motions, candidate, &at)), gravity, c.zero_speed)
+                && !rule.closes(
+                    (at.distance, candidate.normal_rate(|link| c.motions.twist_of(link), &at)),
+                    gravity,
+                    c.zero_speed,
+                )
             {
                 slots.push(slot);
             }

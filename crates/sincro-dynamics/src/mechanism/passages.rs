@@ -6,7 +6,6 @@ use crate::contact::Margin;
 use crate::contact::candidate_list::SlotCandidate;
 use crate::integrate::{dip, distance_dip};
 use crate::mechanism::Mechanism;
-use crate::mechanism::constraints::normal_rate;
 
 /// Interval at which a sub-step is looked at where a body may have passed right through another one, relative to its
 /// length.
@@ -56,7 +55,7 @@ impl Mechanism<f64> {
         let Constraints { later_candidates, memory, open_inside, motions, parting, .. } = c;
         for SlotCandidate { slot, pair, candidate } in later_candidates.iter() {
             let at = candidate.kinematics(&motions.at(&self.scratch));
-            let rate = normal_rate(motions, candidate, &at);
+            let rate = candidate.normal_rate(|link| motions.twist_of(link), &at);
             // a body that came from behind the other one was there by more than an interval
             if !(rate > 0.0 && at.distance - (1.0 - THROUGH_STEP) * h * rate < -CLOSED_DISTANCE) {
                 continue;
@@ -75,7 +74,7 @@ impl Mechanism<f64> {
         let Some(c) = self.constraints.as_deref() else { return looks };
         for Parting { candidate, end } in &c.parting {
             let at = candidate.kinematics(&c.motions.at(&self.scratch));
-            let start = (at.distance, normal_rate(&c.motions, candidate, &at));
+            let start = (at.distance, candidate.normal_rate(|link| c.motions.twist_of(link), &at));
             if !candidate.is_signed() {
                 let whole = |(distance, rate)| (distance + candidate.radius, rate);
                 let closest = candidate.radius - CLOSED_DISTANCE;

@@ -254,7 +254,8 @@ impl World {
         // of the step's own time: t itself may be too coarse
         let resolution = h * EVENT_RESOLUTION;
         let (at, crossing) = self.first_crossing(t, (bad, crossing), (h, violated), control, system)?;
-        self.mode_changes += u32::from(!matches!(crossing, Crossing::Contact(ContactEvent::Closing(_))));
+        let has_closed = matches!(crossing, Crossing::Contact(ContactEvent::Closing(_) | ContactEvent::Meeting(_)));
+        self.mode_changes += u32::from(!has_closed);
         // beyond the event the modes of the sub-step may fit no forces; those after it are found below
         let report = self.solver_report();
         self.evaluate_slope(t + at, system);
@@ -322,7 +323,7 @@ impl World {
     fn is_close(&self, crossing: Crossing, (sample, last): (Sample, f64), has_happened: bool) -> bool {
         let resolution = self.crossing_resolution(crossing);
         match crossing {
-            Crossing::Contact(ContactEvent::Closing(_)) => {
+            Crossing::Contact(ContactEvent::Closing(_) | ContactEvent::Meeting(_)) => {
                 !has_happened && sample.value >= -resolution && sample.rate > 0.0
             }
             Crossing::Contact(ContactEvent::Reversal(..)) => {
