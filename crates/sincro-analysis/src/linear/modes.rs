@@ -180,6 +180,9 @@ const NO_EFFECT: f64 = 1e-13;
 /// out.
 const NULL: f64 = 1e-15;
 
+/// Least size of the largest entry of a matrix that is taken as it is; its inverse is the greatest one.
+const LEAST_SCALE: f64 = 1e-100;
+
 /// Eigenvalues with those at zero exactly zero: multiple ones, of coordinates that no rate depends on, would come out
 /// as roots of the rounding. The null space is split off by an orthogonal transformation until none is left (key
 /// `golub2013`, 7.6.5).
@@ -188,6 +191,8 @@ fn deflated_eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
     if rest.is_empty() || rest.iter().any(|x| !x.is_finite()) {
         return eigenvalues(matrix);
     }
+    let scale = scale_of(matrix);
+    rest /= scale;
     let _ = balance_parlett_reinsch(&mut rest);
     let size = rest.norm();
     let mut zeros = 0;
@@ -207,8 +212,15 @@ fn deflated_eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
         zeros += null.len();
     }
     let mut found = vec![Complex::new(0.0, 0.0); zeros];
-    found.extend(eigenvalues(&rest));
+    found.extend(eigenvalues(&rest).into_iter().map(|value| value * scale));
     found
+}
+
+/// Factor of matrices whose entries have squares that are no numbers, with which the library's iterations do not end;
+/// else 1.
+fn scale_of(matrix: &DMatrix<f64>) -> f64 {
+    let most = matrix.amax();
+    if most == 0.0 || (LEAST_SCALE..1.0 / LEAST_SCALE).contains(&most) { 1.0 } else { most }
 }
 
 /// Returns the `n` eigenvalues of a real `n×n` matrix, in the unit of its entries (`[1/s]` for A of a continuous
@@ -226,7 +238,8 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
     if matrix.iter().any(|x| !x.is_finite()) {
         return vec![Complex::new(f64::NAN, f64::NAN); matrix.nrows()];
     }
-    let mut balanced = matrix.clone();
+    let scale = scale_of(matrix);
+    let mut balanced = matrix / scale;
     let _ = balance_parlett_reinsch(&mut balanced);
     let mut found = by_schur(&balanced).or_else(|| by_inverse(&balanced)).unwrap_or_else(|| {
         // both iterations stalled, which no matrix is known to do; say so rather than guess
@@ -236,6 +249,7 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Complex<f64>> {
         let by_size = rough(modulus(*a)).total_cmp(&rough(modulus(*b)));
         by_size.then(a.re.total_cmp(&b.re)).then(b.im.total_cmp(&a.im))
     });
+    found.iter_mut().for_each(|value| *value *= scale);
     found
 }
 

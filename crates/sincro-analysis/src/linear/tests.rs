@@ -67,6 +67,16 @@ fn poles_are_sorted_from_slow_to_fast_in_any_coordinates() {
     }
 }
 
+/// Squares of such entries are no numbers, with which the library's iterations did not end.
+#[test]
+fn huge_and_tiny_matrices_have_eigenvalues() {
+    for size in [1e-200, 1e-160, 1e160, 1e200] {
+        let matrix = DMatrix::from_row_slice(2, 2, &[0.0, size, -2.0 * size, -3.0 * size]);
+        let found: Vec<f64> = modes::eigenvalues(&matrix).iter().map(|z| z.re / size).collect();
+        assert!((found[0] + 1.0).abs() < 1e-14 && (found[1] + 2.0).abs() < 1e-14, "{size:e}: {found:?}");
+    }
+}
+
 #[test]
 fn a_cyclic_permutation_does_not_stall_the_eigenvalues() {
     for n in 3..12 {

@@ -146,7 +146,7 @@ int main(void) {{
         if parts.is_closed { "    experiment();\n" } else { "" },
         ok = format_args!("\"{name}: %08lx%08lx, as expected\\n\""),
         bad = format_args!(
-            "\"{name}: %08lx%08lx, not {hash:016x}: this compiler contracts or reorders operations; try \"\n           \"-ffp-contract=off, and not -ffast-math\\n\""
+            "\"{name}: %08lx%08lx, not {hash:016x}: this compiler contracts or reorders operations; try \"\n           \"-ffp-contract=off -fno-tree-slp-vectorize, and not -ffast-math\\n\""
         ),
     );
     text

@@ -203,7 +203,7 @@ pub(super) fn source(request: &Request<'_>, parts: &Parts) -> String {
     let prefix = format!("{name}_");
     let dialect = Dialect::Double { prefix: &prefix };
     let mut text = format!(
-        "/* {} See {name}.h.\n   Every operation is rounded by itself: contraction to fused operations must be off. */\n#include <stdint.h>\n#include \"{name}.h\"\n\n#if defined(__clang__)\n#pragma STDC FP_CONTRACT OFF\n#elif defined(__GNUC__)\n#pragma GCC optimize (\"fp-contract=off\")\n#else\n#pragma STDC FP_CONTRACT OFF\n#endif\n#if defined(__FAST_MATH__)\n#error \"-ffast-math changes results: compile without it\"\n#endif\n\n",
+        "/* {} See {name}.h.\n   Every operation is rounded by itself: contraction to fused operations must be off. */\n#include <stdint.h>\n#include \"{name}.h\"\n\n#if defined(__clang__)\n#pragma STDC FP_CONTRACT OFF\n#elif defined(__GNUC__)\n#pragma GCC optimize (\"fp-contract=off\", \"no-tree-slp-vectorize\")\n#else\n#pragma STDC FP_CONTRACT OFF\n#endif\n#if defined(__FAST_MATH__)\n#error \"-ffast-math changes results: compile without it\"\n#endif\n\n",
         comment_text(request.title),
     );
     text += &used_support(&prefix, parts);
@@ -410,7 +410,8 @@ cc -std=c99 -O2 -ffp-contract=off {name}.c {name}_test.c -o {name}_test && ./{na
 
 The self-test hashes every bit of what the functions give at {samples} random states{run}; it expects
 `{hash:016x}`, the bits that sincro gives. GCC and Clang, all optimisation levels, any IEEE processor. `-ffast-math` is
-refused; `-ffp-contract=off` is set in the file too, and where a compiler contracts all the same the self-test fails.
+refused; `-ffp-contract=off` is set in the file too, and `-fno-tree-slp-vectorize` of GCC, whose vectorizer fuses
+operations on processors with FMA all the same. Where a compiler contracts, the self-test fails.
 
 On a microcontroller without a C library define `SINCRO_NO_STDIO` for the test (its exit status is the result), or
 `SINCRO_NO_MAIN` and call `{name}_self_test()`.

@@ -155,15 +155,16 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
         }
         text
     };
-    let range = if joint.is_limited() {
-        format!(" range=\"{}\"", numbers(&joint.limits.map(|x| x.clamp(-UNLIMITED, UNLIMITED))))
-    } else {
-        String::new()
+    let range = |k: usize| {
+        joint.limits_of(k).map_or_else(String::new, |ends| {
+            format!(" range=\"{}\"", numbers(&ends.map(|x| x.clamp(-UNLIMITED, UNLIMITED))))
+        })
     };
     let mut line = |kind: &str, suffix: &str, a: [f64; 3], k: usize| {
         *out += &format!(
-            "{pad}  <joint name=\"{name}{suffix}\" type=\"{kind}\" pos=\"{pos}\" axis=\"{}\"{range}{}/>\n",
+            "{pad}  <joint name=\"{name}{suffix}\" type=\"{kind}\" pos=\"{pos}\" axis=\"{}\"{}{}/>\n",
             axis(a),
+            range(k),
             property(k)
         );
     };
@@ -181,9 +182,13 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
             line("hinge", ".angle", [0.0, 0.0, 1.0], 2);
         }
         JointKind::Ball => {
-            *out += &format!("{pad}  <joint name=\"{name}\" type=\"ball\" pos=\"{pos}\"{}/>\n", property(0))
+            *out +=
+                &format!("{pad}  <joint name=\"{name}\" type=\"ball\" pos=\"{pos}\"{}/>\n", of_all_axes(tree, joint))
         }
-        JointKind::Free => *out += &format!("{pad}  <freejoint name=\"{name}\"/>\n"),
+        JointKind::Free => match of_all_axes(tree, joint) {
+            none if none.is_empty() => *out += &format!("{pad}  <freejoint name=\"{name}\"/>\n"),
+            all => *out += &format!("{pad}  <joint name=\"{name}\" type=\"free\"{all}/>\n"),
+        },
     }
     let kind = joint.kind;
     let is_zero = match joint.start[..] {
@@ -197,6 +202,20 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
         let words = format!("MJCF has no {word} joints: its {} axes are joints each", joint.dofs.len());
         tree.note(&joint.path, &words);
     }
+}
+
+/// Properties of a ball or free joint, of which MJCF has one number for all axes; notes those that differ, and springs
+/// and limits.
+fn of_all_axes(tree: &mut Tree<'_>, joint: &Joint) -> String {
+    let all = [
+        ("damping", "damping", joint.common(|dof| dof.damping)),
+        ("armature", "armature", joint.common(|dof| dof.armature)),
+        // friction of a ball joint is bounded axis by axis there
+        ("friction", "frictionloss", joint.common(|dof| dof.friction.sliding).filter(|x| *x == 0.0)),
+    ];
+    tree.note_left_out(joint, |word| !all.iter().any(|(own, _, number)| *own == word && number.is_some()));
+    let given = all.iter().filter_map(|(_, key, number)| Some((key, number.filter(|x| *x != 0.0)?)));
+    given.map(|(key, x)| format!(" {key}=\"{}\"", plain(x))).collect()
 }
 
 /// Word for a kind of joint that is several in MJCF.
@@ -234,6 +253,7 @@ fn equality(out: &mut String, tree: &mut Tree<'_>, tendons: &Tendons) {
     let mut lines = String::new();
     let names: Vec<String> = tree.scene.model.constraints().gears.iter().map(|gear| gear.name.clone()).collect();
     for ((first, second, coefficients), name) in tree.gears().into_iter().zip(names) {
+        tree.note(&name, "MJCF's couplings are soft");
         lines += &format!(
             "    <joint name=\"{}\" joint1=\"{}\" joint2=\"{}\" polycoef=\"{}\"/>\n",
             name_of(&name),

@@ -188,8 +188,8 @@ impl Tendons {
                 let free = plain(element.free_length);
                 let lengths = if element.tension_only { format!("0 {free}") } else { free };
                 keys += &format!(" stiffness=\"{}\" springlength=\"{lengths}\"", plain(law.stiffness));
-                if element.free_length < 0.0 {
-                    tree.note(path, "MJCF takes a negative free length for that at the start");
+                if element.free_length == -1.0 && !element.tension_only {
+                    tree.note(path, "MJCF takes a free length of −1 for that at the start");
                 }
             }
             if law.damping != 0.0 {

@@ -12,7 +12,7 @@ mod urdf;
 use std::collections::BTreeMap;
 
 use sincro_dynamics::contact::{PairLaw, Surface, pairs};
-use sincro_dynamics::joint::JointKind;
+use sincro_dynamics::joint::{Dof, JointKind};
 use sincro_dynamics::model::{JointInfo, MassProperties, Shape};
 use sincro_dynamics::signal::Signal;
 use sincro_dynamics::spatial::Pose;
@@ -98,9 +98,9 @@ struct Joint {
     /// Its frame in that of the link above, at zero coordinates.
     pose: Pose<f64>,
     /// Passive properties of its degrees of freedom.
-    dofs: Vec<sincro_dynamics::joint::Dof<f64>>,
-    /// Limits of a joint with one degree of freedom.
-    limits: [f64; 2],
+    dofs: Vec<Dof<f64>>,
+    /// Limits of each degree of freedom.
+    limits: Vec<[f64; 2]>,
     /// Motor of the model.
     motor: Option<sincro_dynamics::actuation::Motor<f64>>,
     /// Activation of the motor.
@@ -118,8 +118,32 @@ impl Joint {
         }
     }
 
+    /// Limits of a degree of freedom, if it has any.
+    fn limits_of(&self, dof: usize) -> Option<[f64; 2]> {
+        self.limits.get(dof).copied().filter(|ends| ends.iter().any(|x| x.is_finite()))
+    }
+
     fn is_limited(&self) -> bool {
-        self.limits.iter().any(|x| x.is_finite())
+        self.limits_of(0).is_some()
+    }
+
+    /// The number that a property has for all degrees of freedom; none if they differ.
+    fn common(&self, property: impl Fn(&Dof<f64>) -> f64) -> Option<f64> {
+        let first = self.dofs.first().map(&property)?;
+        self.dofs.iter().all(|dof| property(dof) == first).then_some(first)
+    }
+
+    /// Words for the properties among these that are not zero, and for limits if there are any.
+    fn properties_of(&self, is_left_out: impl Fn(&str) -> bool) -> Vec<&'static str> {
+        let any = |property: fn(&Dof<f64>) -> f64| self.dofs.iter().any(|dof| property(dof) != 0.0);
+        let all = [
+            ("damping", any(|dof| dof.damping)),
+            ("armature", any(|dof| dof.armature)),
+            ("friction", any(|dof| dof.friction.sliding)),
+            ("spring", any(|dof| dof.stiffness)),
+            ("limits", (0..self.limits.len()).any(|dof| self.limits_of(dof).is_some())),
+        ];
+        all.into_iter().filter(|(word, has)| *has && is_left_out(word)).map(|(word, _)| word).collect()
     }
 }
 
@@ -189,10 +213,11 @@ impl<'a> Tree<'a> {
         let model = &self.scene.model;
         let info: Option<&JointInfo> = model.names().joint(&object.path);
         let dofs = info.map_or_else(Vec::new, |i| model.dofs()[i.v_idx..i.v_idx + i.n_v].to_vec());
-        let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
-        for limit in model.constraints().limits.iter().filter(|l| info.is_some_and(|i| i.n_v == 1 && l.dof == i.v_idx))
-        {
-            limits[usize::from(limit.sign < 0.0)] = limit.bound;
+        let mut limits = vec![[f64::NEG_INFINITY, f64::INFINITY]; dofs.len()];
+        for limit in &model.constraints().limits {
+            if let Some(own) = info.and_then(|i| limit.dof.checked_sub(i.v_idx)).and_then(|k| limits.get_mut(k)) {
+                own[usize::from(limit.sign < 0.0)] = limit.bound;
+            }
         }
         let motor = info.filter(|i| i.n_v == 1).and_then(|i| i.motor);
         let activation = model.activations().iter().find(|own| motor.is_some_and(|id| own.command == id.index()));
@@ -207,6 +232,14 @@ impl<'a> Tree<'a> {
             activation: activation.copied(),
             start: info.map_or_else(Vec::new, |i| self.scene.initial.q[i.q_idx..i.q_idx + i.n_q].to_vec()),
         })
+    }
+
+    /// Notes the properties of a joint of several degrees of freedom that are left out.
+    fn note_left_out(&mut self, joint: &Joint, is_left_out: impl Fn(&str) -> bool) {
+        for word in joint.properties_of(is_left_out) {
+            let verb = if word == "limits" { "are" } else { "is" };
+            self.note(&joint.path, &format!("its {word} {verb} not written"));
+        }
     }
 
     fn note(&mut self, path: &str, words: &str) {
@@ -258,14 +291,14 @@ impl<'a> Tree<'a> {
                 self.note(name, "the command of its actuator is not written");
             }
         }
-        self.note_forces();
+        self.note_forces(format);
         for script in &scene.scripts {
             self.note(&script.path, "a script is not written");
         }
     }
 
     /// Notes forces and laws that no format takes.
-    fn note_forces(&mut self) {
+    fn note_forces(&mut self, format: Format) {
         let (model, names) = (&self.scene.model, self.scene.model.names());
         for applied in model.applied() {
             self.note(names.dof_name(applied.dof), "a torque over time is not written");
@@ -282,6 +315,19 @@ impl<'a> Tree<'a> {
         let set = model.constraints();
         for limit in set.limits.iter().filter(|limit| limit.restitution != 0.0) {
             self.note(names.dof_name(limit.dof), "the restitution of its limits is not written");
+        }
+        if self.scene.initial.v.iter().any(|v| *v != 0.0) {
+            self.note("/", "velocities at the start are not written");
+        }
+        let touching = self.scene.objects.iter().filter_map(|object| object.contact);
+        let frictions: Vec<f64> = touching.map(|material| material.friction).collect();
+        let law = match format {
+            Format::Mjcf => Some("MuJoCo takes the larger one"),
+            Format::Sdf => Some("Gazebo takes the smaller one"),
+            Format::Urdf => None,
+        };
+        if let Some(law) = law.filter(|_| frictions.iter().any(|x| *x != frictions[0])) {
+            self.note("/", &format!("the friction of two bodies is the geometric mean of theirs: {law}"));
         }
         for gear in &names.elastic_gears {
             self.note(gear, "an elastic coupling is not written");

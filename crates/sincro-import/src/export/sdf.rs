@@ -77,7 +77,8 @@ pub(super) fn text(tree: &mut Tree<'_>) -> Result<String, Vec<String>> {
                     &here.inverse().compose(&above.compose(&joint.pose)),
                 );
             }
-            Some(_) => {}
+            // a free joint is none in SDF
+            Some(joint) => tree.note_left_out(&joint, |_| true),
             None => {
                 out += &format!(
                     "      <joint name=\"{name}.fixed\" type=\"fixed\"><parent>{carrier}</parent><child>{name}</child></joint>\n"
@@ -110,8 +111,18 @@ fn link_text(out: &mut String, tree: &mut Tree<'_>, k: usize, here: &Pose<f64>) 
             plain(mass.mass)
         );
     }
-    let friction = tree.object(k).contact.as_ref().map(|c| c.friction);
+    let material = tree.object(k).contact;
+    let friction = material.map(|c| c.friction);
     let (shown, touching) = tree.pieces(k);
+    if let Some(m) = material.filter(|_| !touching.is_empty()) {
+        let path = tree.object(k).path.clone();
+        if m.restitution != 0.0 || m.stiffness.is_finite() {
+            tree.note(&path, "the restitution and compliance of its contact are not written");
+        }
+        if m.rolling_friction != 0.0 || m.spinning_friction != 0.0 {
+            tree.note(&path, "the rolling and spinning friction of its contact are not written");
+        }
+    }
     for (word, pieces) in [("visual", shown), ("collision", touching)] {
         for (i, piece) in pieces.iter().enumerate() {
             piece_text(out, tree, k, (word, i), piece, friction);
@@ -177,8 +188,8 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, parent: &str
     for (k, axis) in axes.iter().enumerate() {
         let word = if k == 0 { "axis" } else { "axis2" };
         *out += &format!("        <{word}><xyz>{}</xyz>", numbers(axis));
-        if joint.is_limited() {
-            let [lower, upper] = joint.limits.map(|x| plain(x.clamp(-1e16, 1e16)));
+        if let Some(limits) = joint.limits_of(k) {
+            let [lower, upper] = limits.map(|x| plain(x.clamp(-1e16, 1e16)));
             *out += &format!("<limit><lower>{lower}</lower><upper>{upper}</upper></limit>");
         }
         if let Some(dof) = joint.dofs.get(k) {
@@ -193,9 +204,8 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, parent: &str
         *out += &format!("</{word}>\n");
     }
     *out += "      </joint>\n";
-    if joint.dofs.iter().any(|d| d.armature != 0.0) {
-        tree.note(&joint.path, "SDF has no armature");
-    }
+    let is_ball = joint.kind == JointKind::Ball;
+    tree.note_left_out(joint, |word| is_ball || word == "armature");
     if joint.motor.is_some() {
         tree.note(&joint.path, "SDF has no motors");
     }

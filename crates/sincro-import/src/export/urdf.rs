@@ -97,7 +97,7 @@ fn joint_text(
     let speed = joint.motor.map(|m| m.max_velocity).filter(|x| x.is_finite()).unwrap_or(1e9);
     if matches!(kind, "revolute" | "prismatic") {
         let bound = |x: f64| plain(x.clamp(-1e9, 1e9));
-        let [lower, upper] = joint.limits.map(bound);
+        let [lower, upper] = joint.limits[0].map(bound);
         *out += &format!(
             "    <limit lower=\"{lower}\" upper=\"{upper}\" effort=\"{}\" velocity=\"{}\"/>\n",
             plain(effort),
@@ -119,6 +119,9 @@ fn joint_text(
                 tree.note(&joint.path, &format!("URDF has no {words}"));
             }
         }
+    }
+    if joint.dofs.len() > 1 {
+        tree.note_left_out(joint, |_| true);
     }
     if joint.motor.is_some() {
         tree.note(&joint.path, "URDF has no motors: the largest torque and speed alone are written");

@@ -128,7 +128,8 @@ impl<'d> Reader<'d> {
             }
         }
         let from_geoms = match self.settings.inertia_from_geoms {
-            Some(true) => true,
+            // a body without geoms keeps what it is given
+            Some(true) => inertial.is_none() || !masses.is_empty(),
             Some(false) => false,
             None => inertial.is_none(),
         };

@@ -120,7 +120,8 @@ impl<'d> Reader<'d> {
                 // one number is both ends, whatever the defaults give
                 let holder = self.defaults.holder(e, "main", "springlength");
                 if let Some(lengths) = holder.map(|e| e.numbers("springlength")).transpose()?.flatten()
-                    && lengths.first().is_some_and(|x| *x >= 0.0)
+                    // these stand for the length at the start
+                    && lengths.iter().any(|x| *x != -1.0)
                 {
                     let [low, high] = [lengths[0], *lengths.last().unwrap_or(&lengths[0])];
                     tendon.free_length = [low - known.offset, high.max(low) - known.offset];

@@ -386,6 +386,16 @@ fn what_mjcf_says_otherwise_of_joints_and_motors_is_noted() {
         ("kind = \"planar\"".to_owned(), vec![split]),
         ("kind = \"planar\"\ninitial = { position = [0.0, 0.0, 0.5] }".to_owned(), vec![zero, split]),
         ("kind = \"ball\"".to_owned(), vec![]),
+        ("kind = \"ball\"\ndamping = [0.1, 0.1, 0.1]\narmature = [0.02, 0.02, 0.02]".to_owned(), vec![]),
+        (
+            "kind = \"ball\"\ndamping = [0.1, 0.5, 2.0]\narmature = [0.01, 0.05, 0.2]".to_owned(),
+            vec!["its damping is not written", "its armature is not written"],
+        ),
+        ("kind = \"free\"\ndamping = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]".to_owned(), vec!["its damping is not written"]),
+        (
+            format!("{universal}limits = [{{ lower = -0.5, upper = 0.5 }}, {{ lower = -1.0, upper = 1.0 }}]"),
+            vec![split],
+        ),
         ("kind = \"ball\"\ninitial = { position = [0.6, 0.8, 0.0, 0.0] }".to_owned(), vec![zero]),
         ("kind = \"revolute\"\ninitial = { position = 0.1 }".to_owned(), vec![zero]),
         (

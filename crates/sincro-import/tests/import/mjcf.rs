@@ -79,6 +79,24 @@ fn mass_comes_from_the_geoms_where_the_format_says_so() {
     assert!((scene.model.total_mass() - torso - 2.0).abs() < 1e-12);
 }
 
+/// A body without geoms keeps what it is given; only −1 stands for the length of a tendon at the start.
+#[test]
+fn given_masses_and_negative_free_lengths_are_kept() {
+    let folder = Folder::new();
+    let text = r#"<mujoco><compiler inertiafromgeom="true"/><worldbody>
+        <body name="a"><joint name="x" type="slide" axis="1 0 0"/>
+          <inertial pos="0 0 0" mass="2" diaginertia="0.1 0.1 0.1"/>
+          <body name="b"><inertial pos="0 0 0" mass="7" diaginertia="1 1 1"/><geom type="sphere" size="0.1" mass="1"/></body>
+        </body></worldbody>
+      <tendon><fixed name="t" stiffness="10" springlength="-0.5"><joint joint="x" coef="1"/></fixed>
+        <fixed name="u" stiffness="10" springlength="-1"><joint joint="x" coef="1"/></fixed></tendon></mujoco>"#;
+    let imported = folder.import("own.xml", text).unwrap_or_else(|found| panic!("{found}"));
+    let model = &folder.open(&imported).scene.model;
+    assert_eq!(model.total_mass(), 3.0);
+    let free: Vec<f64> = model.spring_dampers().iter().map(|tendon| tendon.free_length).collect();
+    assert_eq!(free, [-0.5, 0.0]);
+}
+
 #[test]
 fn references_shift_coordinates() {
     let folder = Folder::new();

@@ -12,12 +12,15 @@ use crate::folder::Folder;
 const EXPERIMENT: &str = "title = \"own\"\nduration = 0.1\nstep = 1e-3\nrecord = [\"energy.total\"]\n";
 
 /// Notes that do not concern the model: its start, commands, what only shows, and the softness of MuJoCo's constraints.
-const BESIDE_THE_MODEL: [&str; 5] = [
+const BESIDE_THE_MODEL: [&str; 8] = [
     "MJCF starts it at zero",
     "the command of its motor is not written",
     "the command of its actuator is not written",
     "a camera is not written",
     "MJCF's loops are soft",
+    "MJCF's couplings are soft",
+    "velocities at the start are not written",
+    "the friction of two bodies is the geometric mean",
 ];
 
 /// Folders of a folder of the repository that have a scene, in the order of their names.

@@ -215,7 +215,7 @@ pub(crate) enum MeasureFile {
     Rms,
     /// Standard deviation over time.
     Std,
-    /// Integral over time.
+    /// Integral over time: trapezoidal rule; of `motor_torque` the sum of the means over the steps.
     Integral,
     /// Time of the least value [s].
     TimeOfMin,

@@ -1,8 +1,8 @@
 //! One number of a series: its peak, its mean, its integral.
 //!
-//! A NaN among the values is the result. Means over time follow the trapezoidal rule, that is, they take the series as
-//! straight between the rows. The integral does not: a row's value stands for the interval that ends at the row, Σ
-//! x_k·(t_k − t_{k−1}), which is exact for mean values of a step such as `motor_torque`.
+//! A NaN among the values is the result. Means and integrals over time follow the trapezoidal rule, that is, they take
+//! the series as straight between the rows. The integral of mean values of a step, of which `motor_torque` is, takes
+//! each for the interval that ends at its row, Σ x_k·(t_k − t_{k−1}), which is exact where every step is recorded.
 //!
 //! A step response leads from x_0, the first value, to the target x_1; h = x_1 − x_0 is the height of the step.
 //! Crossing times are found between two rows on the straight line through them.
@@ -26,13 +26,15 @@ pub(super) struct Measured {
     pub(super) row: Option<usize>,
 }
 
-/// Parameters of the measures of a step response.
+/// Parameters of the measures of a step response, and of the integral.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepShape {
     /// Final value of the step; the last value if not given.
     pub(super) target: Option<f64>,
     /// Band of the settling time, relative to the step's height.
     pub(super) band: f64,
+    /// True if the values are means over the steps that end at the rows.
+    pub(super) has_step_means: bool,
 }
 
 /// The measure of a series of at least one value over its keys. `Measure::Error` is no number of one series and counts
@@ -65,6 +67,7 @@ pub(super) fn measure(measure: Measure, shape: &StepShape, keys: &[f64], values:
         Measure::Mean => over_time(mean(keys, values)),
         Measure::Rms => over_time(mean_square(keys, values, 0.0).sqrt()),
         Measure::Std => over_time(mean_square(keys, values, mean(keys, values)).sqrt()),
+        Measure::Integral if shape.has_step_means => over_time(sum_of_steps(keys, values)),
         Measure::Integral => over_time(integral(keys, values)),
         Measure::Overshoot => {
             let shares = shares(shape, values)?;
@@ -150,11 +153,16 @@ fn first_best(values: &[f64], better: impl Fn(f64, f64) -> bool) -> usize {
 
 /// Mean over the keys by the trapezoidal rule.
 fn mean(keys: &[f64], values: &[f64]) -> f64 {
+    integral(keys, values) / (keys[keys.len() - 1] - keys[0])
+}
+
+/// Integral over the keys by the trapezoidal rule.
+fn integral(keys: &[f64], values: &[f64]) -> f64 {
     let mut area = 0.0;
     for k in 1..keys.len() {
         area += 0.5 * (values[k - 1] + values[k]) * (keys[k] - keys[k - 1]);
     }
-    area / (keys[keys.len() - 1] - keys[0])
+    area
 }
 
 /// Mean of (x − centre)² over the keys by the trapezoidal rule.
@@ -165,7 +173,7 @@ fn mean_square(keys: &[f64], values: &[f64], centre: f64) -> f64 {
 
 /// Σ x_k·(t_k − t_{k−1}) over the intervals between the rows; the first row has none and only begins one. Its value
 /// enters nothing but for being a number.
-fn integral(keys: &[f64], values: &[f64]) -> f64 {
+fn sum_of_steps(keys: &[f64], values: &[f64]) -> f64 {
     if values[0].is_nan() {
         return f64::NAN;
     }
@@ -182,7 +190,7 @@ mod tests {
     const T: [f64; 4] = [0.0, 1.0, 2.0, 4.0];
     const X: [f64; 4] = [1.0, 3.0, -5.0, 2.0];
 
-    const SHAPE: StepShape = StepShape { target: None, band: 0.02 };
+    const SHAPE: StepShape = StepShape { target: None, band: 0.02, has_step_means: false };
 
     fn measure(of: Measure, keys: &[f64], values: &[f64]) -> Result<Measured, String> {
         super::measure(of, &SHAPE, keys, values)
@@ -203,9 +211,11 @@ mod tests {
     }
 
     #[test]
-    fn the_integral_takes_each_value_over_the_interval_before_it() {
-        // 3·1 − 5·1 + 2·2
-        assert_eq!(value(Measure::Integral), 2.0);
+    fn the_integral_of_step_means_takes_each_value_over_the_interval_before_it() {
+        // trapezoids: 2 − 1 − 3; steps: 3·1 − 5·1 + 2·2
+        assert_eq!(value(Measure::Integral), -2.0);
+        let of_means = StepShape { has_step_means: true, ..SHAPE };
+        assert_eq!(super::measure(Measure::Integral, &of_means, &T, &X).unwrap().value, 2.0);
     }
 
     #[test]
@@ -254,7 +264,7 @@ mod tests {
     fn overshoot_of_a_second_order_step_is_its_closed_form() {
         for (zeta, from, to) in [(0.2, 0.0, 1.0), (0.5, 1.0, -3.0), (0.7, -2.0, -1.0)] {
             let (keys, values) = second_order(2.0, zeta, from, to);
-            let shape = StepShape { target: Some(to), band: 0.02 };
+            let shape = StepShape { target: Some(to), band: 0.02, ..SHAPE };
             let found = super::measure(Measure::Overshoot, &shape, &keys, &values).unwrap();
             let expected = elementary::exp(-zeta * std::f64::consts::PI / (1.0 - zeta * zeta).sqrt()).0;
             // the greatest row is at most half a millisecond from the peak: (ω·0.5 ms)²/2

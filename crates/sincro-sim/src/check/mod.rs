@@ -195,7 +195,7 @@ fn divergence(check: &Check, along: &Along, source: &Source) -> Result<Compariso
     if values.is_empty() {
         return Err("nothing was recorded".into());
     }
-    let shape = StepShape { target: Some(bound), band: check.band };
+    let shape = StepShape { target: Some(bound), band: check.band, has_step_means: false };
     let Measured { value, row } = measure::measure(Measure::Divergence, &shape, along.keys(), &values)?;
     let at = row.map(|row| along.keys()[row]);
     if value > bound
@@ -229,7 +229,7 @@ fn compare_numbers(
     measured: &[f64],
 ) -> Result<Comparison, String> {
     let keys: Vec<f64> = rows.idxs.iter().map(|row_idx| along.keys()[*row_idx]).collect();
-    let shape = StepShape { target: check.target, band: check.band };
+    let shape = StepShape { target: check.target, band: check.band, has_step_means: source.has_step_means() };
     let Measured { value: measured, row } = measure::measure(check.measure, &shape, &keys, measured)?;
     let expected = match source.expected_number(rows)? {
         Some(number) => number,

@@ -27,6 +27,15 @@ impl<'a> Source<'a> {
         Ok(Self { check, along, aliases: aliases?, swept })
     }
 
+    /// Returns true if the measured values are means over the steps that end at the rows, or come from such.
+    pub(super) fn has_step_means(&self) -> bool {
+        let is_mean = |name: &str| name.contains(".motor_torque");
+        match &self.check.what {
+            Subject::Signal(name) => is_mean(&name.value),
+            Subject::Formula(_) => self.check.aliases.iter().any(|(_, signal)| is_mean(&signal.value)),
+        }
+    }
+
     /// Measured values in the given rows.
     pub(super) fn measured(&self, row_idxs: &[usize]) -> Result<Vec<f64>, String> {
         match &self.check.what {
