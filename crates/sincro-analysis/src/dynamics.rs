@@ -41,6 +41,27 @@ pub struct EvaluationPoint {
     pub torque: Vec<f64>,
 }
 
+/// Scales the quaternions of ball and free joints among coordinates (n_q) to length 1.
+///
+/// # Errors
+///
+/// One that is zero is no rotation: a sentence.
+pub fn normalize_quaternions(model: &Model<f64>, q: &mut [f64]) -> Result<(), String> {
+    for joint in model.names().joints.iter().filter(|joint| joint.n_q > joint.n_v) {
+        let own = &mut q[joint.q_idx + joint.n_q - 4..joint.q_idx + joint.n_q];
+        let square: f64 = own.iter().map(|x| x * x).sum();
+        if !(square > 0.0 && square.is_finite()) {
+            return Err(format!("the quaternion of `{}` is zero, or too large: it is no rotation", joint.name));
+        }
+        // one that has been normalized keeps its bits
+        if (square - 1.0).abs() > 1e-12 {
+            let size = square.sqrt();
+            own.iter_mut().for_each(|x| *x /= size);
+        }
+    }
+    Ok(())
+}
+
 /// Evaluates mass matrix, inverse dynamics, forward dynamics and passive forces of a model at one point, with gravity
 /// and in SI units. Loop joints, gears, limits and contacts are left out.
 ///
@@ -78,7 +99,8 @@ pub fn equation_terms(model: &Model<f64>, at: &EvaluationPoint) -> Result<Equati
         n => Err(format!("`{name}` has {n} numbers, the model has {}", zero.len())),
     };
     let zeros = || vec![0.0; n_v];
-    let q = filled("q", &at.q, sincro_dynamics::state::State::new(model).q)?;
+    let mut q = filled("q", &at.q, sincro_dynamics::state::State::new(model).q)?;
+    normalize_quaternions(model, &mut q)?;
     debug_assert_eq!(q.len(), n_q);
     let (v, v_dot) = (filled("v", &at.v, zeros())?, filled("a", &at.v_dot, zeros())?);
     let torque = filled("tau", &at.torque, zeros())?;

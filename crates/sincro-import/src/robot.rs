@@ -180,6 +180,8 @@ pub(crate) struct Robot {
     pub keyframes: Vec<Keyframe>,
     /// True if the source says how its joints are driven; else the importer chooses.
     pub has_own_motors: bool,
+    /// Pairs of links that do not touch each other.
+    pub excluded: Vec<[usize; 2]>,
     /// True if the bodies of the robot touch each other too.
     pub self_contact: bool,
     /// True if bodies may overlap at the start, as the source's simulator lets them.

@@ -19,6 +19,7 @@ use crate::dynamics::{self, LinearRequest, WantedTrim};
 use crate::function::{Function, located};
 use crate::live::{Live, LiveError, Slot, Snapshot};
 use crate::{errors, foreground, numbers};
+use sincro_analysis::dynamics::normalize_quaternions;
 
 /// Steps between two looks at the clock.
 const STEPS_PER_LOOK: u64 = 256;
@@ -135,10 +136,18 @@ impl Model {
         self.with_live(py, |live| Ok((live.lockstep.state().q.clone(), live.lockstep.state().v.clone())))
     }
 
+    /// Coordinates (n_q,), with quaternions scaled to length 1.
+    fn coordinates(&self, py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+        let model = &self.loaded.scene.model;
+        let mut q = numbers::vector(py, "q", given, model.n_q())?;
+        normalize_quaternions(model, &mut q).map_err(|why| errors::argument(py, &why))?;
+        Ok(q)
+    }
+
     fn q_or_now(&self, py: Python<'_>, q: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
         self.refuse_closed(py)?;
         match q {
-            Some(q) => numbers::vector(py, "q", q, self.loaded.scene.model.n_q()),
+            Some(q) => self.coordinates(py, q),
             None => Ok(self.now(py)?.0),
         }
     }
@@ -321,7 +330,7 @@ impl Model {
     /// Puts the run under way into another state: coordinates (n_q,), velocities (n_v,); what is left out stays.
     #[pyo3(signature = (q=None, v=None))]
     fn set_state(&self, py: Python<'_>, q: Option<&Bound<'_, PyAny>>, v: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let q = q.map(|q| numbers::vector(py, "q", q, self.n_q())).transpose()?;
+        let q = q.map(|q| self.coordinates(py, q)).transpose()?;
         let v = v.map(|v| numbers::vector(py, "v", v, self.n_v())).transpose()?;
         self.with_live(py, |live| {
             live.place(q, v);

@@ -164,14 +164,20 @@ impl<'d> Reader<'d> {
         if robot.motors.iter().any(|m| m.joint == joint) {
             return Ok(Err("a joint has one motor, and this one has it already".into()));
         }
-        Ok(self.motor(e, joint, &law, transmission.gear))
+        Ok(self.motor(e, (joint, robot.joints[joint].effort), &law, transmission.gear))
     }
 
-    /// Motor of a joint with a law.
-    fn motor(&self, e: Element<'d>, joint: usize, law: &Law, gear: f64) -> Result<Made, String> {
+    /// Motor of a joint with a law, with the largest torque that the joint takes from it.
+    fn motor(
+        &self,
+        e: Element<'d>,
+        (joint, effort): (usize, Option<f64>),
+        law: &Law,
+        gear: f64,
+    ) -> Result<Made, String> {
         let is_servo = law.bias != [0.0; 3];
         let (force, control) = force_limits(e, law, gear, !is_servo);
-        let max_torque = force.into_iter().chain(control).reduce(f64::min);
+        let max_torque = force.into_iter().chain(control).chain(effort).reduce(f64::min);
         let (stiffness, damping) = (-law.bias[1] * gear * gear, -law.bias[2] * gear * gear);
         let (own, unit) = if !is_servo {
             (MotorLaw::Torque, Unit::new(law, law.gain * gear, 0.0))

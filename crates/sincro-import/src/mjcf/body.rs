@@ -66,33 +66,31 @@ impl<'d> Reader<'d> {
         findings: &mut Findings,
     ) -> Vec<(Element<'d>, Placement, String)> {
         let mut out = Vec::new();
-        let mut stack = vec![(element, at, class.to_owned(), 0)];
-        while let Some((element, at, class, depth)) = stack.pop() {
-            let mut here = Vec::new();
-            for child in self.files.elements(element) {
-                match child.name() {
-                    "frame" if depth < MAX_DEPTH => {
-                        child.keep();
-                        child.attribute("name");
-                        let inner = child.attribute("childclass").unwrap_or(&class).to_owned();
-                        let Some(own) = findings.take(placement(child, &inner, &self.defaults, &self.angles)) else {
-                            continue;
-                        };
-                        stack.push((child, at.then(&own), inner, depth + 1));
-                    }
-                    "plugin" | "flexcomp" | "composite" | "attach" | "replicate" => {
-                        let message = format!("`{}` has no counterpart", child.name());
-                        findings
-                            .error(child.error(message).with_help("save the compiled model from MuJoCo, or remove it"));
-                    }
-                    "body" | "geom" | "joint" | "freejoint" | "inertial" | "site" | "camera" => {
-                        child.keep();
-                        here.push((child, at, class.clone()));
-                    }
-                    _ => {}
+        // what is still to be looked at, the next one last: elements in their order, with what is in frames
+        let mut rest: Vec<_> =
+            self.files.elements(element).into_iter().rev().map(|e| (e, at, class.to_owned(), 0)).collect();
+        while let Some((child, at, class, depth)) = rest.pop() {
+            match child.name() {
+                "frame" if depth < MAX_DEPTH => {
+                    child.keep();
+                    child.attribute("name");
+                    let inner = child.attribute("childclass").unwrap_or(&class).to_owned();
+                    let Some(own) = findings.take(placement(child, &inner, &self.defaults, &self.angles)) else {
+                        continue;
+                    };
+                    let inside = self.files.elements(child).into_iter().rev();
+                    rest.extend(inside.map(|e| (e, at.then(&own), inner.clone(), depth + 1)));
                 }
+                "plugin" | "flexcomp" | "composite" | "attach" | "replicate" => {
+                    let message = format!("`{}` has no counterpart", child.name());
+                    findings.error(child.error(message).with_help("save the compiled model from MuJoCo, or remove it"));
+                }
+                "body" | "geom" | "joint" | "freejoint" | "inertial" | "site" | "camera" => {
+                    child.keep();
+                    out.push((child, at, class));
+                }
+                _ => {}
             }
-            out.extend(here);
         }
         out
     }

@@ -31,12 +31,12 @@ pub(super) struct MeshAsset {
     inertia: MeshInertia,
 }
 
-/// Mass properties of meshes by file and bits of their factors.
-pub(super) type MeshMasses = RefCell<BTreeMap<(String, [u64; 3]), MassProperties>>;
+/// Mass properties of meshes by file, bits of their factors and rule.
+pub(super) type MeshMasses = RefCell<BTreeMap<(String, [u64; 3], MeshInertia), MassProperties>>;
 
 /// Rules by which a mesh gives mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum MeshInertia {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum MeshInertia {
     /// That of the volume that it encloses.
     Exact,
     /// That of its convex hull.
@@ -240,7 +240,7 @@ impl<'d> Reader<'d> {
         if group < low || group > high || given == Some(0.0) || (given.is_none() && density == 0.0) {
             return Ok(None);
         }
-        let Some(unit) = self.unit_mass(e, shape)? else { return Ok(None) };
+        let Some(unit) = self.unit_mass(e, class, shape)? else { return Ok(None) };
         if shell {
             return Err(e
                 .error("the inertia of shells (`shellinertia`) is not computed")
@@ -251,7 +251,7 @@ impl<'d> Reader<'d> {
     }
 
     /// Mass properties at density 1.
-    fn unit_mass(&self, e: Element<'d>, shape: &Shape) -> Result<Option<MassProperties>, Diagnostic> {
+    fn unit_mass(&self, e: Element<'d>, class: &str, shape: &Shape) -> Result<Option<MassProperties>, Diagnostic> {
         let solid = match shape {
             Shape::Cuboid(size) => Solid::Cuboid { size: *size },
             Shape::Sphere(radius) => Solid::Sphere { radius: *radius },
@@ -264,31 +264,43 @@ impl<'d> Reader<'d> {
                 let inertia = [moment(b, c), 0.0, 0.0, moment(a, c), 0.0, moment(a, b)];
                 return Ok(Some(MassProperties { mass, center_of_mass: [0.0; 3], inertia }));
             }
-            Shape::Mesh { uri, scale } => return self.mesh_mass(e, uri, *scale).map(Some),
+            Shape::Mesh { uri, scale } => return self.mesh_mass((e, class), uri, *scale).map(Some),
         };
         let mass = solid.mass_properties(1.0);
         if mass.mass > 0.0 && mass.mass.is_finite() { Ok(Some(mass)) } else { Err(e.error("a geom has no volume")) }
     }
 
-    fn mesh_mass(&self, e: Element<'d>, uri: &str, scale: [f64; 3]) -> Result<MassProperties, Diagnostic> {
-        let key = (uri.to_owned(), scale.map(f64::to_bits));
+    fn mesh_mass(
+        &self,
+        (e, class): (Element<'d>, &str),
+        uri: &str,
+        scale: [f64; 3],
+    ) -> Result<MassProperties, Diagnostic> {
+        // several assets may read one file, each by a rule of its own
+        let asset = self.defaults.text(e, class, "mesh").and_then(|name| self.meshes.get(name));
+        let rule = asset.map_or(MeshInertia::Legacy, |asset| asset.inertia);
+        let key = (uri.to_owned(), scale.map(f64::to_bits), rule);
         if let Some(known) = self.mesh_masses.borrow().get(&key) {
             return Ok(*known);
         }
-        let mass = self.read_mesh_mass(e, uri, scale)?;
+        let mass = self.read_mesh_mass(e, uri, scale, rule)?;
         self.mesh_masses.borrow_mut().insert(key, mass);
         Ok(mass)
     }
 
-    fn read_mesh_mass(&self, e: Element<'d>, uri: &str, scale: [f64; 3]) -> Result<MassProperties, Diagnostic> {
+    fn read_mesh_mass(
+        &self,
+        e: Element<'d>,
+        uri: &str,
+        scale: [f64; 3],
+        rule: MeshInertia,
+    ) -> Result<MassProperties, Diagnostic> {
         let path = crate::resolve::Resolver::new(&self.folder, &[]).find(uri);
         let parts = path.and_then(|path| crate::mesh::read(&path));
         let parts = parts.map_err(|why| {
             e.error(format!("the mesh `{uri}` gives its body mass, and it is missing: {why}"))
                 .with_help("give the body an `inertial`")
         })?;
-        let asset = self.meshes.values().find(|m| m.file.as_deref() == Some(uri) && m.scale == scale);
-        let rule = asset.map_or(MeshInertia::Legacy, |m| m.inertia);
         let mut all = Vec::new();
         for part in &parts {
             let corners: Vec<[f64; 3]> =

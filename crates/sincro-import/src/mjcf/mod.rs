@@ -46,13 +46,28 @@ pub(crate) fn reason(path: &[&str]) -> Option<&'static str> {
         [.., "camera", "@ipd"] => Some("pictures are of one eye"),
         _ if path.contains(&"option") => Some("setting of MuJoCo's solver"),
         _ if path.contains(&"sensor") => Some("its quantity can be recorded, or measured by a [[sensor]]"),
-        [.., "exclude"] => Some("the bodies of one tree do not touch each other"),
         _ if path.contains(&"contact") => Some("pairs follow from the bodies"),
         [.., "@user"] | [.., "@group"] => Some("data of other programs"),
         [.., "site", "@rgba" | "@size" | "@type" | "@material"] => Some("a frame does not show"),
         [.., "compiler", _] => Some("setting of MuJoCo's compiler that changes nothing here"),
         _ if path.contains(&"tendon") => Some("it neither exerts a force nor changes a length"),
         _ => None,
+    }
+}
+
+impl<'d> Reader<'d> {
+    /// Reads the pairs of bodies that do not touch each other.
+    fn exclusions(&self, contact: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
+        for exclude in self.files.elements(contact).into_iter().filter(|e| e.name() == "exclude") {
+            exclude.keep();
+            let of = |name: &str| exclude.attribute(name).and_then(|body| self.bodies.get(body).copied());
+            match (of("body1"), of("body2")) {
+                (Some(one), Some(two)) => robot.excluded.push([one, two]),
+                // the world has no group either, and all that it is given touches
+                _ => findings.warn(exclude.error("it names no two bodies: nothing is excluded by it")),
+            }
+            exclude.attribute("name");
+        }
     }
 }
 
@@ -212,6 +227,12 @@ pub(crate) fn read<'d>(
         reader.keyframes(keyframe, &mut robot, findings);
     }
     reader.frames(&all("custom"), &mut robot, findings);
+    for contact in all("contact") {
+        reader.exclusions(contact, &mut robot, findings);
+    }
+    for flag in all("option").into_iter().flat_map(|option| option.child("flag")) {
+        disable(flag, &mut robot);
+    }
     robot.has_own_motors = true;
     robot.may_overlap = robot.links.iter().any(|link| !link.collisions.is_empty());
     robot
@@ -297,6 +318,49 @@ fn options(element: Element<'_>, robot: &mut Robot, findings: &mut Findings) {
         && flag.attribute("gravity") == Some("disable")
     {
         robot.gravity = Some([0.0; 3]);
+    }
+}
+
+/// Takes out what the flags of the options disable.
+fn disable(flags: Element<'_>, robot: &mut Robot) {
+    let is_off = |name: &str| flags.attribute(name) == Some("disable");
+    let [constraint, passive] = ["constraint", "passive"].map(is_off);
+    let mut off = Vec::new();
+    let mut takes = |name: &'static str, all: bool| {
+        let disabled = is_off(name) || all;
+        off.extend(disabled.then_some(name));
+        disabled
+    };
+    if takes("contact", constraint) {
+        robot.links.iter_mut().for_each(|link| link.collisions.clear());
+    }
+    if takes("limit", constraint) {
+        robot.joints.iter_mut().for_each(|joint| joint.limits = None);
+        robot.tendons.iter_mut().for_each(|tendon| tendon.limits = None);
+    }
+    if takes("frictionloss", constraint) {
+        robot.joints.iter_mut().for_each(|joint| joint.friction.fill(0.0));
+    }
+    if takes("equality", constraint) {
+        robot.loops.clear();
+        robot.gears.clear();
+    }
+    // an actuator has stiffness and damping of its own
+    if takes("spring", passive) {
+        robot.joints.iter_mut().for_each(|joint| joint.spring = None);
+        robot.tendons.iter_mut().filter(|tendon| tendon.actuator.is_none()).for_each(|tendon| tendon.stiffness = 0.0);
+    }
+    if takes("damper", passive) {
+        robot.joints.iter_mut().for_each(|joint| joint.damping.fill(0.0));
+        robot.tendons.iter_mut().filter(|tendon| tendon.actuator.is_none()).for_each(|tendon| tendon.damping = 0.0);
+    }
+    if takes("actuation", false) {
+        robot.motors.clear();
+        robot.forces.clear();
+        robot.tendons.retain(|tendon| tendon.actuator.is_none());
+    }
+    if !off.is_empty() {
+        flags.change(&format!("disabled, and left out: {}", off.join(", ")));
     }
 }
 

@@ -55,6 +55,9 @@ pub(crate) fn read(root: Element<'_>, findings: &mut Findings) -> Robot {
             .error(root.error("there is no model in it").with_help("an SDF file has a `model`, in a `world` or not"));
         return robot;
     }
+    for element in [Some(root), world].into_iter().flatten().chain(models.iter().copied()) {
+        warn_of_includes(element, findings);
+    }
     let several = models.len() > 1;
     let mut raw = Raw::default();
     for element in models {
@@ -140,6 +143,18 @@ fn model<'d>(
         findings.take(raw.frames.add(&frame, nested, &own_frame, prefix));
         raw.frames.alias(&format!("{prefix}{name}"), &frame);
         model(nested, &inner, robot, raw, findings, depth + 1);
+    }
+}
+
+/// Warns of what is included, which is not read, in an element and in the models nested in it.
+fn warn_of_includes(element: Element<'_>, findings: &mut Findings) {
+    for include in element.children("include") {
+        let uri = include.child("uri").map_or("", |uri| uri.text());
+        let words = format!("the model `{uri}` that is included here is left out, with all that it carries");
+        findings.warn(include.error(words).with_help("put the model into this file"));
+    }
+    for nested in element.children("model").into_iter().filter(|_| element.name() == "model") {
+        warn_of_includes(nested, findings);
     }
 }
 

@@ -97,6 +97,64 @@ fn given_masses_and_negative_free_lengths_are_kept() {
     assert_eq!(free, [-0.5, 0.0]);
 }
 
+/// Pairs that are excluded, forces that are disabled or bounded, and bodies in frames.
+#[test]
+fn exclusions_flags_frames_and_limits_of_force_are_read() {
+    let folder = Folder::new();
+    let text = r#"<mujoco><worldbody>
+        <body name="base"><geom type="box" size="0.1 0.1 0.1"/>
+          <frame pos="0 0 0.1"><body name="first"><joint name="a" axis="0 1 0" actuatorfrcrange="-1.2 1.2" damping="2"/>
+            <geom type="sphere" size="0.05" mass="1"/></body></frame>
+          <frame pos="0 0 0.3"><body name="second"><joint name="b" axis="0 1 0" stiffness="3"/>
+            <geom type="sphere" size="0.05" mass="1"/></body></frame>
+        </body></worldbody>
+      <contact><exclude body1="base" body2="first"/></contact>
+      <actuator><motor name="m" joint="a"/><position name="p" joint="b" kp="5" forcerange="-3 3"/></actuator></mujoco>"#;
+    let imported = folder.import("own.xml", text).unwrap_or_else(|found| panic!("{found}"));
+    let scene = folder.open(&imported).scene;
+    let names: Vec<&str> =
+        scene.model.names().joints.iter().map(|joint| joint.name.rsplit('/').next().unwrap()).collect();
+    assert_eq!(names, ["a", "b"]);
+    let limits: Vec<f64> = scene.model.motors().iter().map(|motor| motor.max_torque).collect();
+    assert_eq!(limits, [1.2, 3.0]);
+    let pairs = &scene.model.constraints().pairs;
+    // the base stands in the world: `second` touches it and `first`, which does not touch the base
+    assert_eq!(pairs.iter().filter(|pair| !pair.is_ignored).count(), 2, "{}", imported.scene());
+    assert!(imported.scene().contains("between = [\"/base\", \"/base/a/first\"]\ntouches = false"));
+
+    let without = text.replace(
+        "<worldbody>",
+        r#"<option><flag contact="disable" passive="disable" actuation="disable" energy="enable"/></option><worldbody>"#,
+    );
+    let scene = folder.open(&folder.import("own.xml", &without).unwrap_or_else(|found| panic!("{found}"))).scene;
+    let dofs = scene.model.dofs();
+    assert!(dofs.iter().all(|dof| dof.damping == 0.0 && dof.stiffness == 0.0) && scene.model.motors().is_empty());
+    assert!(scene.model.constraints().pairs.is_empty());
+}
+
+/// Two assets of one file, each with a rule of its own for the mass.
+#[test]
+fn a_mesh_has_the_mass_of_its_own_asset() {
+    let folder = Folder::new();
+    let mass = |order: &str| {
+        // two tetrahedra of volume 1/6 that share a face: their legacy, shell and convex masses differ
+        folder.file(
+            "two.obj",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 2 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n",
+        );
+        let text = format!(
+            r#"<mujoco><asset><mesh name="solid" file="two.obj" inertia="exact"/><mesh name="skin" file="two.obj" inertia="shell"/></asset>
+            <worldbody><body name="a"><freejoint/><geom type="mesh" mesh="{order}" density="1"/></body></worldbody></mujoco>"#
+        );
+        let imported = folder.import("own.xml", &text).unwrap_or_else(|found| panic!("{found}"));
+        folder.open(&imported).scene.model.total_mass()
+    };
+    // the area of the surface, not its volume
+    let (solid, skin) = (mass("solid"), mass("skin"));
+    assert!((solid - 1.0).abs() < 1e-9, "{solid}");
+    assert!((skin - solid).abs() > 0.1, "{skin} and {solid}");
+}
+
 #[test]
 fn references_shift_coordinates() {
     let folder = Folder::new();

@@ -127,8 +127,8 @@ pub enum Measure {
     Rms,
     /// Standard deviation over time.
     Std,
-    /// Integral over time, unit of the series times `[s]`: by the trapezoidal rule; of `motor_torque`, the mean over each
-    /// step, Σ x_k·(t_k − t_{k−1}), which is exact where every step is recorded.
+    /// Integral over time, unit of the series times `[s]`: by the trapezoidal rule; of `motor_torque`, the mean over
+    /// each step, Σ x_k·(t_k − t_{k−1}), which is exact where every step is recorded.
     Integral,
     /// Time `[s]` of the least value.
     TimeOfMin,

@@ -276,7 +276,7 @@ mod tests {
     fn rise_and_settling_time_of_a_first_order_step_are_its_closed_form() {
         let keys: Vec<f64> = (0..=2_000).map(|k| f64::from(k) * 0.01).collect();
         let values: Vec<f64> = keys.iter().map(|t| 5.0 - 3.0 * elementary::exp(-t / 0.8).0).collect();
-        let shape = StepShape { target: Some(5.0), band: 0.05 };
+        let shape = StepShape { target: Some(5.0), band: 0.05, ..SHAPE };
         let found = |of| super::measure(of, &shape, &keys, &values).unwrap().value;
         // straight lines of 10 ms on a curve of time constant 0.8 s: (0.01/0.8)²/8·0.8 s
         assert!((found(Measure::RiseTime) - 0.8 * elementary::ln(9.0).0).abs() < 2e-5);
@@ -297,7 +297,7 @@ mod tests {
     #[test]
     fn what_is_never_reached_takes_for_ever() {
         let keys = [0.0, 1.0, 2.0];
-        let shape = StepShape { target: Some(2.0), band: 0.02 };
+        let shape = StepShape { target: Some(2.0), band: 0.02, ..SHAPE };
         let of = |m| super::measure(m, &shape, &keys, &[0.0, 0.5, 1.0]).unwrap().value;
         assert_eq!((of(Measure::RiseTime), of(Measure::SettlingTime)), (f64::INFINITY, f64::INFINITY));
         assert_eq!(of(Measure::Overshoot), 0.0);
