@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
+use sincro_dynamics::initial::{LimitViolation, limit_violations};
 use sincro_dynamics::spatial::Pose;
 use sincro_scene::diagram::ControlDiagram;
 use sincro_scene::draft::SceneDraft;
@@ -206,6 +207,20 @@ impl Live {
         out.clear();
         out.extend_from_slice(&recorder.row(&seen, signals, t, false)[1..]);
         Ok(())
+    }
+
+    /// Refuses coordinates beyond limits of joints.
+    pub fn refuse_beyond_limits(&self, q: Option<&[f64]>) -> Result<(), LiveError> {
+        let Some(q) = q else { return Ok(()) };
+        let mut state = self.lockstep.state().clone();
+        state.q.copy_from_slice(q);
+        match limit_violations(&self.lockstep.scene().model, &state).first() {
+            Some(LimitViolation { joint, position, limit }) => {
+                let words = format!("`{joint}` at {position} is beyond its limit {limit}: no state of the mechanism");
+                Err(LiveError::Argument(words))
+            }
+            None => Ok(()),
+        }
     }
 
     /// Puts the world into another state.

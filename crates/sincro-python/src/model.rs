@@ -328,11 +328,13 @@ impl Model {
     }
 
     /// Puts the run under way into another state: coordinates (n_q,), velocities (n_v,); what is left out stays.
+    /// Coordinates beyond rigid limits of joints are refused.
     #[pyo3(signature = (q=None, v=None))]
     fn set_state(&self, py: Python<'_>, q: Option<&Bound<'_, PyAny>>, v: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let q = q.map(|q| self.coordinates(py, q)).transpose()?;
         let v = v.map(|v| numbers::vector(py, "v", v, self.n_v())).transpose()?;
         self.with_live(py, |live| {
+            live.refuse_beyond_limits(q.as_deref())?;
             live.place(q, v);
             Ok(())
         })

@@ -91,6 +91,48 @@ def test_jacobian_maps_velocities():
     np.testing.assert_allclose((model.jacobian(body) @ model.v)[3:], velocity, atol=1e-12)
 
 
+def test_states_that_are_none_are_refused_and_quaternions_scaled(tmp_path):
+    model = sincro.load(scene(tmp_path))
+    with pytest.raises(ValueError, match="beyond its limit 2"):
+        model.set_state(q=[0, 0, 1, 1, 0, 0, 0, 5])
+    with pytest.raises(ValueError, match="no rotation"):
+        model.set_state(q=[0, 0, 1, 0, 0, 0, 0, 0])
+    model.set_state(q=[0, 0, 1, 2, 0, 0, 0, 2])
+    np.testing.assert_array_equal(model.q, [0, 0, 1, 1, 0, 0, 0, 2])
+    zero = np.zeros(model.n_v)
+    one, two = (model.forward_dynamics([0, 0, 1, *q, 0.3], zero, zero) for q in ([0.8, 0.6, 0, 0], [1.6, 1.2, 0, 0]))
+    np.testing.assert_array_equal(one, two)
+
+
+def scene(folder):
+    (folder / "scene.toml").write_text(
+        """format = 2
+[[joint]]
+name = "f"
+kind = "free"
+[[body]]
+name = "b"
+parent = "/f"
+mass = 1.0
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+[[joint]]
+name = "h"
+parent = "/f/b"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+limits = { lower = -1.0, upper = 2.0 }
+[[body]]
+name = "arm"
+parent = "/f/b/h"
+mass = 1.0
+center_of_mass = [0.2, 0.0, 0.0]
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+"""
+    )
+    (folder / "experiment.toml").write_text('format = 2\ntitle = "t"\nduration = 1.0\nstep = 0.01\nrecord = ["energy.total"]\n')
+    return folder
+
+
 def test_linearize_trim_and_lqr():
     model = sincro.load(CART, {"/rail/cart/hinge.initial.position": 0.0})
     system = model.linearize(at=0.0)

@@ -37,6 +37,9 @@ fn parts_of_an_experiment_run_alone_and_several_scenes_at_once() {
     assert!(status == 2 && stderr.contains("main, heavy"), "{stderr}");
     let (stdout, stderr, status) = SINCRO.call_in(&folder, &["run", "arm", "empty", "--out", "both", "--quiet"]);
     assert_eq!((stdout.as_str(), stderr.as_str(), status), ("", "", 0));
+    let (stdout, stderr, status) =
+        SINCRO.call_in(&folder, &["run", "arm", "-q", "--only", "main", "--set", "/shoulder.initial.velocity=1e300"]);
+    assert!(status == 3 && stdout.is_empty() && stderr.contains("stopped: "), "{status} {stdout}{stderr}");
     assert!(folder.join("both/arm/run.json").is_file() && folder.join("both/empty/run.json").is_file());
 }
 

@@ -33,7 +33,7 @@ impl<'d> Reader<'d> {
         let children = self.parts(world, Placement::default(), &class, findings);
         for (child, frame, class) in &children {
             match child.name() {
-                "geom" => self.geom(*child, *frame, class, &mut link, findings).map_or((), |_| ()),
+                "geom" => drop(self.geom(*child, *frame, class, (&mut link, false), findings)),
                 "site" | "body" => {}
                 _ => {}
             }
@@ -116,12 +116,14 @@ impl<'d> Reader<'d> {
         }
         let mut link = empty_link(&name, element);
         let children = self.parts(element, Placement::default(), &class, findings);
+        let is_given = children.iter().any(|(child, ..)| child.name() == "inertial");
+        let gives_mass = self.settings.inertia_from_geoms.unwrap_or(!is_given);
         let mut inertial = None;
         let mut masses = Vec::new();
         for (child, at, class) in &children {
             match child.name() {
                 "inertial" => inertial = findings.take(self.inertial(*child)),
-                "geom" => masses.extend(self.geom(*child, *at, class, &mut link, findings)),
+                "geom" => masses.extend(self.geom(*child, *at, class, (&mut link, gives_mass), findings)),
                 _ => {}
             }
         }

@@ -111,21 +111,26 @@ impl<'d> Reader<'d> {
         Ok((name, MeshAsset { file, scale, reference: Placement { position, rotation }, inertia }))
     }
 
-    /// Adds a geom to a link; returns the mass it gives the body.
+    /// Adds a geom to a link; returns the mass it gives the body, if bodies have theirs from geoms here.
     pub(super) fn geom(
         &self,
         e: Element<'d>,
         frame: Placement,
         class: &str,
-        link: &mut Link,
+        (link, gives_mass): (&mut Link, bool),
         findings: &mut Findings,
     ) -> Option<MassProperties> {
         e.attribute("name");
         let (shape, own) = match findings.take(self.shape(e, class))? {
             Ok(found) => found,
             Err(why) => {
-                findings.warn(e.error(format!("a geom is left out: {why}")));
-                e.drop(&why);
+                if gives_mass && findings.take(self.has_mass(e, class))? {
+                    let words = format!("a geom gives its body mass, and cannot be read: {why}");
+                    findings.error(e.error(words).with_help("give the body an `inertial`"));
+                } else {
+                    findings.warn(e.error(format!("a geom is left out: {why}")));
+                    e.drop(&why);
+                }
                 return None;
             }
         };
@@ -229,15 +234,22 @@ impl<'d> Reader<'d> {
         Ok(Ok((shape, pose)))
     }
 
+    /// Returns true if a geom has mass that counts.
+    fn has_mass(&self, e: Element<'d>, class: &str) -> Result<bool, Diagnostic> {
+        let number = |name: &str| self.defaults.number(e, class, name);
+        let group = number("group")?.unwrap_or(0.0) as i64;
+        let [low, high] = self.settings.inertia_groups;
+        let factor = number("mass")?.or(number("density")?).unwrap_or(DENSITY);
+        Ok((low..=high).contains(&group) && factor != 0.0)
+    }
+
     /// Mass in the frame of the geom.
     fn mass(&self, e: Element<'d>, class: &str, shape: &Shape) -> Result<Option<MassProperties>, Diagnostic> {
         let d = &self.defaults;
-        let group = d.number(e, class, "group")?.unwrap_or(0.0) as i64;
-        let [low, high] = self.settings.inertia_groups;
         let given = d.number(e, class, "mass")?;
         let density = d.number(e, class, "density")?.unwrap_or(DENSITY);
         let shell = d.text(e, class, "shellinertia") == Some("true");
-        if group < low || group > high || given == Some(0.0) || (given.is_none() && density == 0.0) {
+        if !self.has_mass(e, class)? {
             return Ok(None);
         }
         let Some(unit) = self.unit_mass(e, class, shape)? else { return Ok(None) };

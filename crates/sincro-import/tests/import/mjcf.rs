@@ -97,6 +97,21 @@ fn given_masses_and_negative_free_lengths_are_kept() {
     assert_eq!(free, [-0.5, 0.0]);
 }
 
+#[test]
+fn a_geom_that_gives_mass_is_not_left_out() {
+    let folder = Folder::new();
+    let text = |inertial: &str| {
+        format!(
+            r#"<mujoco><asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset><worldbody><body name="a"><freejoint/>
+            {inertial}<geom type="mesh" mesh="m"/><geom type="sphere" size="0.1"/></body></worldbody></mujoco>"#
+        )
+    };
+    let told = folder.import("own.xml", &text("")).unwrap_err().to_string();
+    assert!(told.contains("a geom gives its body mass, and cannot be read"), "{told}");
+    let given = r#"<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>"#;
+    assert!(folder.import("own.xml", &text(given)).is_ok());
+}
+
 /// Pairs that are excluded, forces that are disabled or bounded, and bodies in frames.
 #[test]
 fn exclusions_flags_frames_and_limits_of_force_are_read() {

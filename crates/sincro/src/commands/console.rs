@@ -62,6 +62,17 @@ impl Bar {
     }
 }
 
+/// Prints to standard error why runs stopped, where nothing else is printed.
+pub(crate) fn print_stops(campaign: &Campaign) {
+    let report = &campaign.report;
+    let variants = report.variants.iter().map(|variant| (format!("variant {}: ", variant.name), &variant.status));
+    for (name, status) in [(String::new(), &report.status)].into_iter().chain(variants) {
+        if let Status::Stopped { reason, .. } = status {
+            eprintln!("error: {name}stopped: {reason}");
+        }
+    }
+}
+
 /// The whole summary of a run.
 pub(crate) fn print_summary(loaded: &Loaded, campaign: &Campaign, out: &Path) {
     let report = &campaign.report;

@@ -167,6 +167,8 @@ fn run_one(arguments: &Arguments, ready: Ready) -> Exit {
             diagnostics::note_older_format(source.folder(), &loaded);
         }
         console::print_summary(&loaded, &campaign, &out);
+    } else {
+        console::print_stops(&campaign);
     }
     Verdict::of(&campaign).into()
 }
