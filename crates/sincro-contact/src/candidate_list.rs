@@ -45,6 +45,13 @@ impl CandidateList {
         self.0.iter()
     }
 
+    /// Candidates of a pair.
+    pub fn of_pair(&self, pair: u32) -> impl Iterator<Item = &SlotCandidate> {
+        // pairs have their slots one after the other
+        let first = self.0.partition_point(|c| c.pair < pair);
+        self.0[first..].iter().take_while(move |c| c.pair == pair)
+    }
+
     /// All candidates, pair by pair.
     #[inline]
     pub fn by_pair(&self) -> impl Iterator<Item = &[SlotCandidate]> {

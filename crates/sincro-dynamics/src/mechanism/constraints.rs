@@ -672,8 +672,9 @@ impl Constraints<f64> {
         if set.pairs[later.pair as usize].has_fixed_points() {
             return of_slot(later.slot);
         }
-        let mut at_start = self.candidates.iter().filter(|start| start.pair == later.pair);
-        at_start.any(|start| start.candidate.has_features_of(&later.candidate) && of_slot(start.slot))
+        self.candidates
+            .of_pair(later.pair)
+            .any(|start| start.candidate.has_features_of(&later.candidate) && of_slot(start.slot))
     }
 
     /// Detects the contact candidates of a later instant.
