@@ -77,6 +77,18 @@ fn exported_scenes_have_the_bits_of_the_run() {
     }
 }
 
+/// GCC 12 fuses operations of straight-line code in its vectorizer, whatever it is told of contraction.
+#[test]
+#[cfg(target_arch = "x86_64")]
+fn fused_operations_of_the_processor_are_not_used() {
+    if !is_x86_feature_detected!("fma") || !is_x86_feature_detected!("avx2") {
+        return;
+    }
+    let exported = exported("free-body", "rk4");
+    let (said, is_good) = self_test(&exported, "fused", &["-O2", "-mavx2", "-mfma"]);
+    assert!(is_good, "{said}");
+}
+
 /// An activation that reaches the end of its range, among the states of elements.
 #[test]
 fn activations_are_exported_with_the_bits_of_the_run() {
