@@ -216,6 +216,38 @@ fn boxes_that_fall_on_each_other_do_not_sink_in() {
     }
 }
 
+/// A body that falls with one end or corner first, on a body whose contacts are found by the general narrow phase: the
+/// others strike after it.
+#[test]
+fn further_points_of_bodies_that_touch_strike_too() {
+    let table = "cuboid = { size = [2, 2, 0.2] }";
+    let stump = "cylinder = { radius = 0.4, length = 0.2 }";
+    let capsule = "capsule = { radius = 0.05, length = 0.4 }";
+    let brick = "cuboid = { size = [0.3, 0.2, 0.1] }";
+    for (support, shape, tilt) in [
+        (table, capsule, 60.0),
+        (table, capsule, -35.0),
+        (stump, capsule, 60.0),
+        (stump, brick, 25.0),
+        (stump, brick, -70.0),
+    ] {
+        for step in [0.01, 0.005, 0.002] {
+            let scene = format!(
+                "[[body]]\nname = \"support\"\nposition = [0, 0, -0.1]\nshape = [{{ {support} }}]\n\
+                 contact = {{ friction = 0.5, restitution = 0.0 }}\n\n\
+                 [[joint]]\nname = \"free\"\nkind = \"free\"\nposition = [0.02, 0.01, 0.35]\nrotation_deg = [0, {tilt:?}, 0]\n\n\
+                 [[body]]\nname = \"own\"\nparent = \"/free\"\ndensity = 1000.0\nshape = [{{ {shape} }}]\n\
+                 contact = {{ friction = 0.5, restitution = 0.0 }}\n"
+            );
+            let experiment = format!(
+                "title = \"Fall\"\nduration = 0.6\nstep = {step:?}\nerror_bar = \"none\"\nrecord = [\"energy.total\"]\n"
+            );
+            let depth = depth_of(&scene, &experiment);
+            assert!(depth < 1e-8, "step {step}: {depth:e} m deep\n{scene}");
+        }
+    }
+}
+
 /// A cylinder that falls on a cuboid and rolls off: of the first one the rim leaves a face, of the second one the flank
 /// an edge.
 #[test]

@@ -332,14 +332,9 @@ impl Mechanism<f64> {
             let at = candidate.kinematics(&c.motions.at(&self.scratch));
             // points of surfaces that touch come and go, with distances that jump
             let touched = memory.is_any_closed(set.limits.len() + pair.first, pair.slots);
+            let rate = || candidate.normal_rate(|link| c.motions.twist_of(link), &at);
             if at.distance < deepest.1
-                && (pair.material.stiffness.is_finite()
-                    || has_passed(
-                        slot,
-                        at.distance,
-                        candidate.normal_rate(|link| c.motions.twist_of(link), &at),
-                        touched,
-                    ))
+                && (pair.material.stiffness.is_finite() || has_passed(slot, at.distance, rate(), touched))
             {
                 let (of_slot, of_pair) = (ContactEvent::Closing(slot), ContactEvent::Meeting(*k as usize));
                 deepest = (Some(if pair.has_fixed_points() { of_slot } else { of_pair }), at.distance);
@@ -358,7 +353,7 @@ impl Mechanism<f64> {
         let mut least: Option<Sample> = None;
         for found in c.later_candidates.iter().filter(|found| !c.was_closed(set, found)) {
             let at = found.candidate.kinematics(&c.motions.at(&self.scratch));
-            if least.is_none_or(|least| -at.distance > least.value) {
+            if !at.distance.is_nan() && least.is_none_or(|least| -at.distance > least.value) {
                 let rate = found.candidate.normal_rate(|link| c.motions.twist_of(link), &at);
                 least = Some(Sample { value: -at.distance, rate: -rate });
             }
@@ -666,15 +661,19 @@ impl Constraints<f64> {
         core::mem::swap(&mut self.candidates, &mut self.later_candidates);
     }
 
-    /// Returns true if a feature of a pair that was found later touched at the start of the sub-step.
+    /// Returns true if a feature of a pair that was found later touched at the start of the sub-step: of the points of
+    /// the same features now, it is the nearest to one that did.
     fn was_closed(&self, set: &ConstraintSet, later: &SlotCandidate) -> bool {
         let of_slot = |slot: u32| self.memory.was_closed(set.limits.len() + slot as usize);
         if set.pairs[later.pair as usize].has_fixed_points() {
             return of_slot(later.slot);
         }
-        self.candidates
-            .of_pair(later.pair)
-            .any(|start| start.candidate.has_features_of(&later.candidate) && of_slot(start.slot))
+        let closed = self.candidates.of_pair(later.pair).filter(|start| of_slot(start.slot));
+        closed.map(|start| &start.candidate).any(|start| {
+            let now = self.later_candidates.of_pair(later.pair).filter(|now| now.candidate.has_features_of(start));
+            let distance = |now: &&SlotCandidate| (now.candidate.point - start.point).norm();
+            now.min_by(|one, two| distance(one).total_cmp(&distance(two))).is_some_and(|now| now.slot == later.slot)
+        })
     }
 
     /// Detects the contact candidates of a later instant.

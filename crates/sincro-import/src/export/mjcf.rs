@@ -209,7 +209,12 @@ fn joint_text(out: &mut String, tree: &mut Tree<'_>, joint: &Joint, x: &Pose<f64
 fn of_all_axes(tree: &mut Tree<'_>, joint: &Joint) -> String {
     let all = [
         ("damping", "damping", joint.common(|dof| dof.damping)),
-        ("armature", "armature", joint.common(|dof| dof.armature)),
+        // of a free joint it is along other axes there
+        (
+            "armature",
+            "armature",
+            joint.common(|dof| dof.armature).filter(|x| *x == 0.0 || joint.kind == JointKind::Ball),
+        ),
         // friction of a ball joint is bounded axis by axis there
         ("friction", "frictionloss", joint.common(|dof| dof.friction.sliding).filter(|x| *x == 0.0)),
     ];

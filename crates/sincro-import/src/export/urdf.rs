@@ -97,7 +97,7 @@ fn joint_text(
     let speed = joint.motor.map(|m| m.max_velocity).filter(|x| x.is_finite()).unwrap_or(1e9);
     if matches!(kind, "revolute" | "prismatic") {
         let bound = |x: f64| plain(x.clamp(-1e9, 1e9));
-        let [lower, upper] = joint.limits[0].map(bound);
+        let [lower, upper] = joint.limits_of(0).unwrap_or([f64::NEG_INFINITY, f64::INFINITY]).map(bound);
         *out += &format!(
             "    <limit lower=\"{lower}\" upper=\"{upper}\" effort=\"{}\" velocity=\"{}\"/>\n",
             plain(effort),

@@ -128,7 +128,7 @@ impl<'d> Reader<'d> {
             }
         }
         let from_geoms = match self.settings.inertia_from_geoms {
-            // a body without geoms keeps what it is given
+            // a body without geoms that give mass keeps what it is given
             Some(true) => inertial.is_none() || !masses.is_empty(),
             Some(false) => false,
             None => inertial.is_none(),
@@ -352,9 +352,14 @@ impl<'d> Reader<'d> {
             JointKind::Free => None,
             _ => self.limiting_range(e, range, "range", "limited")?,
         };
-        let force = d.numbers(e, class, "actuatorfrcrange")?;
-        if let Some([low, high]) = force.as_deref() {
+        let force = Range::of(d, e, class, ["actuatorfrcrange", "actuatorfrclimited"])?;
+        if let Some([low, high]) = self.limiting_range(e, force, "actuatorfrcrange", "actuatorfrclimited")? {
             joint.effort = Some(low.abs().max(high.abs())).filter(|x| *x > 0.0);
+            if low != -high {
+                e.change(
+                    "`actuatorfrcrange` has two ends that differ: the larger one bounds the torque in both directions",
+                );
+            }
         }
         match (limiting, range) {
             (Some(ends), _) if joint.kind.dofs() == 1 => joint.limits = Some(ends.map(|x| angle(x) - reference)),

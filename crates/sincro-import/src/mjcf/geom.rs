@@ -147,6 +147,9 @@ impl<'d> Reader<'d> {
         if !touches && !shows {
             e.change("it neither touches nor shows: its mass alone counts");
         }
+        if !gives_mass {
+            return None;
+        }
         let mass = findings.take(self.mass(e, class, &shape))?;
         mass.map(|mass| {
             let x = pose.pose();

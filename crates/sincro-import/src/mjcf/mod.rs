@@ -60,13 +60,21 @@ impl<'d> Reader<'d> {
     fn exclusions(&self, contact: Element<'d>, robot: &mut Robot, findings: &mut Findings) {
         for exclude in self.files.elements(contact).into_iter().filter(|e| e.name() == "exclude") {
             exclude.keep();
-            let of = |name: &str| exclude.attribute(name).and_then(|body| self.bodies.get(body).copied());
-            match (of("body1"), of("body2")) {
-                (Some(one), Some(two)) => robot.excluded.push([one, two]),
-                // the world has no group either, and all that it is given touches
-                _ => findings.warn(exclude.error("it names no two bodies: nothing is excluded by it")),
-            }
             exclude.attribute("name");
+            let names = ["body1", "body2"].map(|key| exclude.attribute(key).unwrap_or_default());
+            let found = names.map(|name| match name {
+                "world" => robot.links.iter().position(|link| link.name == name),
+                name => self.bodies.get(name).copied(),
+            });
+            match found {
+                [Some(one), Some(two)] => robot.excluded.push([one, two]),
+                // a world without geoms touches nothing
+                _ => {
+                    for name in names.iter().filter(|name| **name != "world" && !self.bodies.contains_key(**name)) {
+                        findings.warn(exclude.error(format!("there is no body `{name}`: nothing is excluded")));
+                    }
+                }
+            }
         }
     }
 }
@@ -210,13 +218,21 @@ pub(crate) fn read<'d>(
         tendon.keep();
         reader.tendons(tendon, &mut robot, findings);
     }
-    for equality in all("equality") {
-        equality.keep();
-        reader.equalities(equality, &mut robot, findings);
+    let off = disabled(&all("option"));
+    if !off.is_empty() {
+        disable(&off, &mut robot);
     }
-    for actuator in all("actuator") {
-        actuator.keep();
-        reader.actuators(actuator, &mut robot, findings);
+    for (name, flag) in [("equality", "equality"), ("actuator", "actuation")] {
+        for section in all(name) {
+            section.keep();
+            if off.contains(&flag) {
+                reader.files.elements(section).iter().for_each(|e| e.drop("disabled by a flag of the options"));
+            } else if name == "equality" {
+                reader.equalities(section, &mut robot, findings);
+            } else {
+                reader.actuators(section, &mut robot, findings);
+            }
+        }
     }
     for sensor in all("sensor") {
         sensor.keep();
@@ -229,9 +245,6 @@ pub(crate) fn read<'d>(
     reader.frames(&all("custom"), &mut robot, findings);
     for contact in all("contact") {
         reader.exclusions(contact, &mut robot, findings);
-    }
-    for flag in all("option").into_iter().flat_map(|option| option.child("flag")) {
-        disable(flag, &mut robot);
     }
     robot.has_own_motors = true;
     robot.may_overlap = robot.links.iter().any(|link| !link.collisions.is_empty());
@@ -321,47 +334,61 @@ fn options(element: Element<'_>, robot: &mut Robot, findings: &mut Findings) {
     }
 }
 
-/// Takes out what the flags of the options disable.
-fn disable(flags: Element<'_>, robot: &mut Robot) {
-    let is_off = |name: &str| flags.attribute(name) == Some("disable");
-    let [constraint, passive] = ["constraint", "passive"].map(is_off);
-    let mut off = Vec::new();
-    let mut takes = |name: &'static str, all: bool| {
-        let disabled = is_off(name) || all;
-        off.extend(disabled.then_some(name));
-        disabled
+/// Forces that flags of the options disable, the last flag of a name counting.
+fn disabled(options: &[Element<'_>]) -> Vec<&'static str> {
+    let is_off = |name: &str| {
+        let given = options.iter().flat_map(|option| option.children("flag")).filter_map(|flag| flag.attribute(name));
+        given.last() == Some("disable")
     };
-    if takes("contact", constraint) {
+    let [constraint, passive] = ["constraint", "passive"].map(is_off);
+    let all = [
+        ("contact", constraint),
+        ("limit", constraint),
+        ("frictionloss", constraint),
+        ("equality", constraint),
+        ("spring", passive),
+        ("damper", passive),
+        ("actuation", false),
+    ];
+    let off: Vec<&str> =
+        all.into_iter().filter(|(name, of_all)| is_off(name) || *of_all).map(|(name, _)| name).collect();
+    if let (Some(flag), false) = (options.iter().find_map(|option| option.child("flag")), off.is_empty()) {
+        flag.change(&format!("disabled, and left out: {}", off.join(", ")));
+    }
+    off
+}
+
+/// Takes what is disabled out of links, joints and tendons that have neither actuators nor equalities yet.
+fn disable(off: &[&str], robot: &mut Robot) {
+    if off.contains(&"contact") {
         robot.links.iter_mut().for_each(|link| link.collisions.clear());
     }
-    if takes("limit", constraint) {
-        robot.joints.iter_mut().for_each(|joint| joint.limits = None);
-        robot.tendons.iter_mut().for_each(|tendon| tendon.limits = None);
+    for joint in &mut robot.joints {
+        if off.contains(&"limit") {
+            joint.limits = None;
+        }
+        if off.contains(&"frictionloss") {
+            joint.friction.fill(0.0);
+        }
+        if off.contains(&"spring") {
+            joint.spring = None;
+        }
+        if off.contains(&"damper") {
+            joint.damping.fill(0.0);
+        }
     }
-    if takes("frictionloss", constraint) {
-        robot.joints.iter_mut().for_each(|joint| joint.friction.fill(0.0));
+    for tendon in &mut robot.tendons {
+        if off.contains(&"limit") {
+            tendon.limits = None;
+        }
+        if off.contains(&"spring") {
+            tendon.stiffness = 0.0;
+        }
+        if off.contains(&"damper") {
+            tendon.damping = 0.0;
+        }
     }
-    if takes("equality", constraint) {
-        robot.loops.clear();
-        robot.gears.clear();
-    }
-    // an actuator has stiffness and damping of its own
-    if takes("spring", passive) {
-        robot.joints.iter_mut().for_each(|joint| joint.spring = None);
-        robot.tendons.iter_mut().filter(|tendon| tendon.actuator.is_none()).for_each(|tendon| tendon.stiffness = 0.0);
-    }
-    if takes("damper", passive) {
-        robot.joints.iter_mut().for_each(|joint| joint.damping.fill(0.0));
-        robot.tendons.iter_mut().filter(|tendon| tendon.actuator.is_none()).for_each(|tendon| tendon.damping = 0.0);
-    }
-    if takes("actuation", false) {
-        robot.motors.clear();
-        robot.forces.clear();
-        robot.tendons.retain(|tendon| tendon.actuator.is_none());
-    }
-    if !off.is_empty() {
-        flags.change(&format!("disabled, and left out: {}", off.join(", ")));
-    }
+    robot.tendons.retain(|tendon| tendon.limits.is_some() || tendon.stiffness != 0.0 || tendon.damping != 0.0);
 }
 
 fn scale_mass(robot: &mut Robot, total: f64) {

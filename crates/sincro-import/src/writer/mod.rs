@@ -154,10 +154,10 @@ impl Writer<'_> {
     fn exclusions(&mut self) {
         for pair in &self.robot.excluded {
             let [a, b] = pair.map(|link| self.robot.links[link].group.unwrap_or(self.groups[link]));
-            let is_told = a == b && a != 0 && !self.robot.self_contact;
+            let are_one_group = a == b && a != 0 && !self.robot.self_contact;
             let touch = pair.iter().all(|link| !self.robot.links[*link].collisions.is_empty());
             let [Some(one), Some(two)] = pair.map(|link| self.link_paths[link].clone()) else { continue };
-            if !is_told && touch {
+            if !are_one_group && touch && pair[0] != pair[1] {
                 self.line("[[contact_pair]]");
                 self.line(&format!("between = [{}, {}]", quoted(&one), quoted(&two)));
                 self.line("touches = false");

@@ -147,12 +147,41 @@ fn exclusions_flags_frames_and_limits_of_force_are_read() {
     assert!(scene.model.constraints().pairs.is_empty());
 }
 
+/// Flags beside keyframes, tendons of one force alone, and equalities of tendons.
+#[test]
+fn disabled_forces_leave_nothing_behind() {
+    let with = |flags: &str| {
+        let folder = Folder::new();
+        let text = format!(
+            r#"<mujoco><option><flag {flags}/></option><worldbody><geom type="plane" size="1 1 1"/><body name="b" pos="0 0 1">
+              <joint name="a" axis="0 1 0" actuatorfrcrange="-1 1" actuatorfrclimited="false"/><geom type="sphere" size="0.05"/></body></worldbody>
+            <contact><exclude body1="world" body2="b"/></contact>
+            <tendon><fixed name="t" range="-1 1"><joint joint="a" coef="1"/></fixed>
+              <fixed name="s" stiffness="3"><joint joint="a" coef="1"/></fixed><fixed name="h"><joint joint="a" coef="2"/></fixed></tendon>
+            <equality><tendon tendon1="h" solref="-100 -2"/></equality>
+            <actuator><motor name="m" joint="a"/><position name="p" tendon="s" kp="2"/></actuator>
+            <keyframe><key name="k" qpos="0.1" ctrl="0.5 0.2"/></keyframe></mujoco>"#
+        );
+        let imported = folder.import("own.xml", &text).unwrap_or_else(|found| panic!("{flags}: {found}"));
+        let model = folder.open(&imported).scene.model;
+        let limits: Vec<f64> = model.motors().iter().map(|motor| motor.max_torque).collect();
+        (model.names().spring_dampers.len(), limits, model.constraints().pairs.iter().filter(|p| !p.is_ignored).count())
+    };
+    let infinite = vec![f64::INFINITY];
+    assert_eq!(with("energy=\"enable\""), (4, infinite.clone(), 0));
+    assert_eq!(with("limit=\"disable\""), (3, infinite.clone(), 0));
+    assert_eq!(with("spring=\"disable\""), (3, infinite.clone(), 0));
+    assert_eq!(with("equality=\"disable\""), (3, infinite.clone(), 0));
+    assert_eq!(with("constraint=\"disable\""), (2, infinite, 0));
+    assert_eq!(with("actuation=\"disable\""), (3, vec![], 0));
+}
+
 /// Two assets of one file, each with a rule of its own for the mass.
 #[test]
 fn a_mesh_has_the_mass_of_its_own_asset() {
     let folder = Folder::new();
     let mass = |order: &str| {
-        // two tetrahedra of volume 1/6 that share a face: their legacy, shell and convex masses differ
+        // two tetrahedra that share a face, of volumes 1/6 and 5/6
         folder.file(
             "two.obj",
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 2 2 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n",

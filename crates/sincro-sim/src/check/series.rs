@@ -27,12 +27,18 @@ impl<'a> Source<'a> {
         Ok(Self { check, along, aliases: aliases?, swept })
     }
 
-    /// Returns true if the measured values are means over the steps that end at the rows, or come from such.
+    /// Returns true if the measured values are means over the steps that end at the rows, or come from such alone.
     pub(super) fn has_step_means(&self) -> bool {
-        let is_mean = |name: &str| name.contains(".motor_torque");
+        let is_mean = |name: &str| {
+            let whole = [".x", ".y", ".z"].iter().find_map(|axis| name.strip_suffix(axis)).unwrap_or(name);
+            whole.ends_with(".motor_torque") || whole.ends_with(".motor_force")
+        };
         match &self.check.what {
             Subject::Signal(name) => is_mean(&name.value),
-            Subject::Formula(_) => self.check.aliases.iter().any(|(_, signal)| is_mean(&signal.value)),
+            Subject::Formula(_) => {
+                let aliases = &self.check.aliases;
+                !aliases.is_empty() && aliases.iter().all(|(_, signal)| is_mean(&signal.value))
+            }
         }
     }
 
