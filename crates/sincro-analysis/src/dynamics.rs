@@ -8,7 +8,7 @@ use sincro_dynamics::crba::mass_matrix;
 use sincro_dynamics::kinematics;
 use sincro_dynamics::model::Model;
 use sincro_dynamics::scratch::Scratch;
-use sincro_dynamics::spatial::Force;
+use sincro_dynamics::spatial::{Force, Quat};
 
 /// Terms of the equations of motion `M(q) v̇ + h(q, v) = τ` at one state, for comparison with other programs; result of
 /// [`equation_terms`]. Lists have one entry per degree of freedom, `n_v`, in the order of the model's velocities.
@@ -55,8 +55,7 @@ pub fn normalize_quaternions(model: &Model<f64>, q: &mut [f64]) -> Result<(), St
         }
         // one that has been normalized keeps its bits
         if (square - 1.0).abs() > 1e-12 {
-            let size = square.sqrt();
-            own.iter_mut().for_each(|x| *x /= size);
+            Quat::from_slice(own).normalized().write(own);
         }
     }
     Ok(())
